@@ -1,0 +1,186 @@
+//! Predicates over one state, and the robustness of guards and trajectories.
+//!
+//! The robustness ρ of a predicate says by how much it holds (positive) or fails (negative);
+//! conjunction is `min`, disjunction `max`. Where ρ is 0 the *Boolean* comparison decides, and the
+//! automaton always moves on Booleans. NaN is an error of the caller and is reported, never taken
+//! as false.
+
+use crate::automaton::Guard;
+
+/// A predicate met a value that is not a number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NotANumber;
+
+/// A predicate over states of type `S`.
+///
+/// Every `Fn(&S) -> f64` is one: the function is the robustness, and the predicate holds iff it is
+/// positive. A Boolean function comes in through [`Boolean`].
+pub trait Predicate<S: ?Sized> {
+    /// By how much the predicate holds at `s`; NaN if `s` holds one.
+    fn robustness(&self, s: &S) -> f64;
+
+    /// Whether the predicate holds at `s`.
+    ///
+    /// # Errors
+    /// [`NotANumber`] if the answer hangs on a value that is not a number.
+    #[inline]
+    fn holds(&self, s: &S) -> Result<bool, NotANumber> {
+        let rho = self.robustness(s);
+        if rho.is_nan() { Err(NotANumber) } else { Ok(rho > 0.0) }
+    }
+}
+
+impl<S: ?Sized, F: Fn(&S) -> f64> Predicate<S> for F {
+    #[inline]
+    fn robustness(&self, s: &S) -> f64 {
+        self(s)
+    }
+}
+
+/// A Boolean function as a predicate: robustness `scale` where it is true, `-scale` where it is
+/// false.
+#[derive(Clone, Copy, Debug)]
+pub struct Boolean<F> {
+    function: F,
+    scale: f64,
+}
+
+impl<F> Boolean<F> {
+    /// The predicate of `function`, with robustness ±1.
+    pub const fn new(function: F) -> Self {
+        Self { function, scale: 1.0 }
+    }
+
+    /// The same predicate with robustness `±scale`, in the unit that the author's other
+    /// predicates use.
+    ///
+    /// # Panics
+    /// If `scale` is not a positive number.
+    #[must_use]
+    pub const fn scaled(self, scale: f64) -> Self
+    where
+        F: Copy,
+    {
+        assert!(scale > 0.0, "the scale of a Boolean predicate is a positive number");
+        Self { function: self.function, scale }
+    }
+}
+
+impl<S: ?Sized, F: Fn(&S) -> bool> Predicate<S> for Boolean<F> {
+    #[inline]
+    fn robustness(&self, s: &S) -> f64 {
+        if (self.function)(s) { self.scale } else { -self.scale }
+    }
+
+    #[inline]
+    fn holds(&self, s: &S) -> Result<bool, NotANumber> {
+        Ok((self.function)(s))
+    }
+}
+
+/// The predicates of a task, numbered like its propositions. Implemented by generated code.
+pub trait Predicates<S: ?Sized> {
+    /// Robustness of predicate `i` at `s`.
+    ///
+    /// # Panics
+    /// If there is no predicate `i`.
+    fn robustness(&self, i: usize, s: &S) -> f64;
+
+    /// Whether predicate `i` holds at `s`.
+    ///
+    /// # Errors
+    /// [`NotANumber`] if the answer hangs on a value that is not a number.
+    ///
+    /// # Panics
+    /// If there is no predicate `i`.
+    fn holds(&self, i: usize, s: &S) -> Result<bool, NotANumber>;
+
+    /// Calls `f` with two scratch buffers, one cell for each operator of the formula.
+    #[doc(hidden)]
+    fn with_scratch<R>(&self, f: impl FnOnce(&mut [f64], &mut [f64]) -> R) -> R;
+}
+
+/// Robustness of a guard: max over its cubes, min over their literals, given the robustness of
+/// each proposition. The empty guard is -∞, the empty cube +∞.
+#[inline]
+pub fn guard(guard: Guard, mut rho: impl FnMut(usize) -> f64) -> f64 {
+    let mut best = f64::NEG_INFINITY;
+    for cube in guard {
+        let mut least = f64::INFINITY;
+        for &literal in *cube {
+            let value = rho(literal.unsigned_abs() as usize - 1);
+            least = min(least, if literal > 0 { value } else { -value });
+        }
+        best = max(best, least);
+    }
+    best
+}
+
+/// One operator of a formula; operands are indices of earlier operators.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Op {
+    /// ⊤, robustness +∞.
+    True,
+    /// ⊥, robustness -∞.
+    False,
+    /// A proposition.
+    Is(u16),
+    /// A negated proposition.
+    Not(u16),
+    /// φ ∧ ψ.
+    And(u16, u16),
+    /// φ ∨ ψ.
+    Or(u16, u16),
+    /// ○φ, strong: there must be a next state.
+    Next(u16),
+    /// ◇φ.
+    Eventually(u16),
+    /// φ U ψ, strong.
+    Until(u16, u16),
+    /// φ T ψ: φ at some instant, ψ at a strictly later one. The operands are φ and ◇ψ.
+    Then(u16, u16),
+}
+
+/// Robustness of `formula` (its last operator) on a whole trajectory of `length` states, by one
+/// backward pass: O(length × operators) time, no allocation. `now` and `next` are scratch space,
+/// one cell an operator; `rho(i, t)` is the robustness of proposition `i` at instant `t`.
+///
+/// An empty trajectory or formula gives -∞.
+pub fn trajectory<E>(
+    formula: &[Op],
+    length: usize,
+    now: &mut [f64],
+    next: &mut [f64],
+    mut rho: impl FnMut(usize, usize) -> Result<f64, E>,
+) -> Result<f64, E> {
+    next.fill(f64::NEG_INFINITY);
+    now.fill(f64::NEG_INFINITY);
+    for t in (0..length).rev() {
+        for (k, op) in formula.iter().enumerate() {
+            now[k] = match *op {
+                Op::True => f64::INFINITY,
+                Op::False => f64::NEG_INFINITY,
+                Op::Is(i) => rho(usize::from(i), t)?,
+                Op::Not(i) => -rho(usize::from(i), t)?,
+                Op::And(a, b) => min(now[usize::from(a)], now[usize::from(b)]),
+                Op::Or(a, b) => max(now[usize::from(a)], now[usize::from(b)]),
+                Op::Next(a) => next[usize::from(a)],
+                Op::Eventually(a) => max(now[usize::from(a)], next[k]),
+                Op::Until(a, b) => max(now[usize::from(b)], min(now[usize::from(a)], next[k])),
+                Op::Then(a, b) => max(min(now[usize::from(a)], next[usize::from(b)]), next[k]),
+            };
+        }
+        next.copy_from_slice(now);
+    }
+    Ok(formula.len().checked_sub(1).map_or(f64::NEG_INFINITY, |last| now[last]))
+}
+
+#[inline]
+fn max(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+#[inline]
+fn min(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
