@@ -1,0 +1,218 @@
+//! What a source *means*: typed predicates over one state, and formulas over them in negation
+//! normal form.
+//!
+//! A value of type [`Spec`] is co-safe by construction: there is no way to write a negated
+//! temporal operator. Formulas, conditions and terms live in arenas, children before parents, so
+//! every pass over them is a loop, never a recursion, and no input is too deep. The constructors
+//! hash-cons and apply the simplifications that hold at every instant of every finite trajectory,
+//! next instants included; nothing is ever simplified to `true` *under* `X`, because `X true` asks
+//! for a second state.
+
+use std::collections::HashMap;
+
+use crate::source::Span;
+
+/// A formula of a [`Spec`]: an index into its arena.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct FormulaId(pub u32);
+
+/// One operator of a formula in negation normal form.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Formula {
+    /// ⊤
+    True,
+    /// ⊥
+    False,
+    /// A proposition of the spec, by its position in [`Spec::propositions`], or its negation.
+    Literal {
+        /// Position in [`Spec::propositions`].
+        proposition: u32,
+        /// Whether it is negated.
+        negated: bool,
+    },
+    /// φ ∧ ψ
+    And(FormulaId, FormulaId),
+    /// φ ∨ ψ
+    Or(FormulaId, FormulaId),
+    /// ○φ, strong
+    Next(FormulaId),
+    /// ◇φ
+    Eventually(FormulaId),
+    /// φ U ψ, strong
+    Until(FormulaId, FormulaId),
+    /// φ T ψ = ◇(φ ∧ ○◇ψ)
+    Then(FormulaId, FormulaId),
+}
+
+impl Formula {
+    /// The operands, left to right.
+    pub fn operands(self) -> impl DoubleEndedIterator<Item = FormulaId> {
+        use Formula::{And, Eventually, False, Literal, Next, Or, Then, True, Until};
+        let pair = match self {
+            True | False | Literal { .. } => [None, None],
+            Next(a) | Eventually(a) => [Some(a), None],
+            And(a, b) | Or(a, b) | Until(a, b) | Then(a, b) => [Some(a), Some(b)],
+        };
+        pair.into_iter().flatten()
+    }
+}
+
+/// A formula over propositions: hash-consed, in negation normal form, co-safe.
+///
+/// Invariant: operands stand before the operators that use them.
+#[derive(Clone, Debug)]
+pub struct Spec {
+    propositions: Vec<String>,
+    formulas: Vec<Formula>,
+    spans: Vec<Span>,
+    known: HashMap<Formula, FormulaId>,
+    root: FormulaId,
+}
+
+impl Spec {
+    /// A spec over `propositions` (their names, all different) that is `true` until
+    /// [`set_root`](Self::set_root) says otherwise.
+    #[must_use]
+    pub fn new(propositions: Vec<String>) -> Self {
+        let mut spec = Self {
+            propositions,
+            formulas: Vec::new(),
+            spans: Vec::new(),
+            known: HashMap::new(),
+            root: FormulaId(0),
+        };
+        spec.root = spec.intern(Formula::True, Span::default());
+        spec
+    }
+
+    /// The names of the propositions, in order of first appearance in the source; some may not
+    /// occur in the formula any more.
+    #[must_use]
+    pub fn propositions(&self) -> &[String] {
+        &self.propositions
+    }
+
+    /// The formula as a whole.
+    #[must_use]
+    pub fn root(&self) -> FormulaId {
+        self.root
+    }
+
+    /// Makes `root` the formula as a whole.
+    pub fn set_root(&mut self, root: FormulaId) {
+        self.root = root;
+    }
+
+    /// The operator of `id`.
+    #[must_use]
+    pub fn formula(&self, id: FormulaId) -> Formula {
+        self.formulas[id.0 as usize]
+    }
+
+    /// All operators, operands first. Some may not be reachable from the root.
+    pub fn formulas(&self) -> impl ExactSizeIterator<Item = (FormulaId, Formula)> {
+        (0..).map(FormulaId).take(self.formulas.len()).zip(self.formulas.iter().copied())
+    }
+
+    /// Where the source says `id` first.
+    #[must_use]
+    pub fn span(&self, id: FormulaId) -> Span {
+        self.spans[id.0 as usize]
+    }
+
+    /// For each operator whether the root depends on it.
+    #[must_use]
+    pub fn reachable(&self) -> Vec<bool> {
+        let mut reachable = vec![false; self.formulas.len()];
+        reachable[self.root.0 as usize] = true;
+        for (id, formula) in self.formulas().collect::<Vec<_>>().into_iter().rev() {
+            if reachable[id.0 as usize] {
+                formula.operands().for_each(|operand| reachable[operand.0 as usize] = true);
+            }
+        }
+        reachable
+    }
+
+    /// ⊤
+    pub fn truth(&mut self, value: bool, span: Span) -> FormulaId {
+        self.intern(if value { Formula::True } else { Formula::False }, span)
+    }
+
+    /// A proposition or its negation.
+    pub fn literal(&mut self, proposition: u32, negated: bool, span: Span) -> FormulaId {
+        self.intern(Formula::Literal { proposition, negated }, span)
+    }
+
+    /// φ ∧ ψ
+    pub fn and(&mut self, a: FormulaId, b: FormulaId, span: Span) -> FormulaId {
+        match (self.formula(a), self.formula(b)) {
+            (Formula::True, _) => b,
+            (_, Formula::True) => a,
+            (Formula::False, _) => a,
+            (_, Formula::False) => b,
+            _ if a == b => a,
+            _ => self.intern(Formula::And(a, b), span),
+        }
+    }
+
+    /// φ ∨ ψ
+    pub fn or(&mut self, a: FormulaId, b: FormulaId, span: Span) -> FormulaId {
+        match (self.formula(a), self.formula(b)) {
+            (Formula::False, _) => b,
+            (_, Formula::False) => a,
+            (Formula::True, _) => a,
+            (_, Formula::True) => b,
+            _ if a == b => a,
+            _ => self.intern(Formula::Or(a, b), span),
+        }
+    }
+
+    /// ○φ
+    pub fn next(&mut self, a: FormulaId, span: Span) -> FormulaId {
+        match self.formula(a) {
+            Formula::False => a,
+            _ => self.intern(Formula::Next(a), span),
+        }
+    }
+
+    /// ◇φ
+    pub fn eventually(&mut self, a: FormulaId, span: Span) -> FormulaId {
+        match self.formula(a) {
+            Formula::True | Formula::False | Formula::Eventually(_) | Formula::Then(..) => a,
+            _ => self.intern(Formula::Eventually(a), span),
+        }
+    }
+
+    /// φ U ψ
+    pub fn until(&mut self, a: FormulaId, b: FormulaId, span: Span) -> FormulaId {
+        match (self.formula(a), self.formula(b)) {
+            (_, Formula::True | Formula::False) | (Formula::False, _) => b,
+            (Formula::True, _) => self.eventually(b, span),
+            (_, Formula::Until(c, _)) if a == c => b,
+            (_, Formula::Eventually(_) | Formula::Then(..)) => b,
+            _ if a == b => a,
+            _ => self.intern(Formula::Until(a, b), span),
+        }
+    }
+
+    /// φ T ψ
+    pub fn then(&mut self, a: FormulaId, b: FormulaId, span: Span) -> FormulaId {
+        match (self.formula(a), self.formula(b)) {
+            (Formula::False, _) => a,
+            (_, Formula::False) => b,
+            // Only on the right: (F φ) T ψ does not order φ before ψ.
+            (_, Formula::Eventually(c)) => self.then(a, c, span),
+            _ => self.intern(Formula::Then(a, b), span),
+        }
+    }
+
+    fn intern(&mut self, formula: Formula, span: Span) -> FormulaId {
+        let fresh =
+            FormulaId(u32::try_from(self.formulas.len()).expect("fewer than 2^32 operators"));
+        *self.known.entry(formula).or_insert_with(|| {
+            self.formulas.push(formula);
+            self.spans.push(span);
+            fresh
+        })
+    }
+}
