@@ -110,8 +110,10 @@ impl Spec {
     }
 
     /// All operators, operands first. Some may not be reachable from the root.
-    pub fn formulas(&self) -> impl ExactSizeIterator<Item = (FormulaId, Formula)> {
-        (0..).map(FormulaId).take(self.formulas.len()).zip(self.formulas.iter().copied())
+    pub fn formulas(
+        &self,
+    ) -> impl ExactSizeIterator<Item = (FormulaId, Formula)> + DoubleEndedIterator {
+        self.formulas.iter().enumerate().map(|(i, &formula)| (FormulaId(i as u32), formula))
     }
 
     /// Where the source says `id` first.
@@ -125,7 +127,7 @@ impl Spec {
     pub fn reachable(&self) -> Vec<bool> {
         let mut reachable = vec![false; self.formulas.len()];
         reachable[self.root.0 as usize] = true;
-        for (id, formula) in self.formulas().collect::<Vec<_>>().into_iter().rev() {
+        for (id, formula) in self.formulas().rev() {
             if reachable[id.0 as usize] {
                 formula.operands().for_each(|operand| reachable[operand.0 as usize] = true);
             }
