@@ -40,7 +40,7 @@ pub enum Formula {
     Eventually(FormulaId),
     /// φ U ψ, strong
     Until(FormulaId, FormulaId),
-    /// φ T ψ = ◇(φ ∧ ○◇ψ)
+    /// φ T ψ = ◇(φ ∧ ○◇ψ); the operands are φ and ◇ψ
     Then(FormulaId, FormulaId),
 }
 
@@ -202,9 +202,10 @@ impl Spec {
         match (self.formula(a), self.formula(b)) {
             (Formula::False, _) => a,
             (_, Formula::False) => b,
-            // Only on the right: (F φ) T ψ does not order φ before ψ.
-            (_, Formula::Eventually(c)) => self.then(a, c, span),
-            _ => self.intern(Formula::Then(a, b), span),
+            _ => {
+                let b = self.eventually(b, span);
+                self.intern(Formula::Then(a, b), span)
+            }
         }
     }
 

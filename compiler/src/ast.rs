@@ -1,0 +1,315 @@
+//! A source as it was written: items and expressions with their places.
+//!
+//! Expressions are stored in one arena, operands before the operators that use them, so that every
+//! pass is a loop and dropping is flat, however deep the author nested. The nodes of one
+//! expression are neighbours, its root the last of them. Nothing is resolved here: whether a
+//! name is a field or a predicate, and whether an operand is a number or a formula, is for
+//! [`check`](crate::check).
+
+use std::ops::Range;
+
+use crate::source::{Source, Span};
+
+/// An expression of an [`Ast`]: an index into its arena.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct NodeId(pub u32);
+
+/// An operator before its operand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Prefix {
+    /// ¬φ
+    Not,
+    /// ◇φ
+    Eventually,
+    /// ○φ
+    Next,
+    /// −x
+    Minus,
+}
+
+/// A comparison.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Comparison {
+    /// `<`
+    Less,
+    /// `<=`
+    AtMost,
+    /// `>`
+    Greater,
+    /// `>=`
+    AtLeast,
+    /// `==`
+    Equal,
+    /// `!=`
+    Unequal,
+}
+
+/// A calculation with two numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Arithmetic {
+    /// `+`
+    Add,
+    /// `-`
+    Subtract,
+    /// `*`
+    Multiply,
+    /// `/`
+    Divide,
+}
+
+/// An operator between two operands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Infix {
+    /// φ ⇒ ψ
+    Implies,
+    /// φ ∨ ψ
+    Or,
+    /// φ ∧ ψ
+    And,
+    /// φ U ψ
+    Until,
+    /// φ T ψ
+    Then,
+    /// `x < y` and its like
+    Compare(Comparison),
+    /// `x + y` and its like
+    Calculate(Arithmetic),
+}
+
+/// One expression.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Node {
+    /// ⊤ or ⊥
+    Truth(bool),
+    /// A literal number.
+    Number(f64),
+    /// A name or a path.
+    Name,
+    /// A string literal; only inside the calls of Rust expressions.
+    Text,
+    /// `{ … }`: a Rust expression, verbatim.
+    Verbatim,
+    /// `base.field`
+    Field {
+        /// What has the field.
+        base: NodeId,
+        /// The name of the field.
+        field: Span,
+    },
+    /// `base[index]`
+    Index {
+        /// The array.
+        base: NodeId,
+        /// Which of its elements.
+        index: NodeId,
+    },
+    /// `callee(arguments)`
+    Call {
+        /// The function or method.
+        callee: NodeId,
+        /// Its arguments: a range of [`Ast::arguments`].
+        arguments: Range<u32>,
+    },
+    /// `op operand`
+    Prefix(Prefix, NodeId),
+    /// `left op right`. A chain `a < b < c` is `(a < b) < c` whose left operand has no brackets.
+    Infix(Infix, NodeId, NodeId),
+    /// `for all name in set: body`, or `for some`
+    Quantified {
+        /// Whether for all.
+        all: bool,
+        /// The bound name.
+        name: Span,
+        /// What it ranges over.
+        set: Span,
+        /// The formula.
+        body: NodeId,
+    },
+}
+
+/// A node with its places.
+#[derive(Clone, Debug)]
+pub struct Entry {
+    /// The expression.
+    pub node: Node,
+    /// All of it, without brackets around it.
+    pub span: Span,
+    /// Its operator; the whole of it if it has none.
+    pub operator: Span,
+    /// Whether the author put brackets around it.
+    pub bracketed: bool,
+}
+
+/// The type of a field, as written: a name within array brackets, outermost length last.
+#[derive(Clone, Debug)]
+pub struct FieldType {
+    /// The name of the element type.
+    pub name: Span,
+    /// The lengths, innermost first: numbers, or names of constants or enumerations.
+    pub lengths: Vec<Span>,
+    /// All of it.
+    pub span: Span,
+}
+
+/// `name: type`
+#[derive(Clone, Debug)]
+pub struct Declaration {
+    /// What the author says about it.
+    pub docs: Vec<String>,
+    /// Its name.
+    pub name: Span,
+    /// Its type.
+    pub ty: FieldType,
+}
+
+/// What an item declares.
+#[derive(Clone, Debug)]
+pub enum ItemKind {
+    /// `state Name { fields }`
+    State(Vec<Declaration>),
+    /// `state name: RustType;`, or the header `|name: &RustType|`
+    Host(Span),
+    /// `struct Name { fields }`
+    Struct(Vec<Declaration>),
+    /// `enum Name { variants }`
+    Enum(Vec<Span>),
+    /// `const name = value`
+    Constant(NodeId),
+    /// `predicate name = condition`
+    Predicate(Vec<Declaration>, NodeId),
+    /// `task name = formula`; a bare formula is one whose name is empty
+    Task(Vec<Declaration>, NodeId),
+}
+
+/// One declaration of a source.
+#[derive(Clone, Debug)]
+pub struct Item {
+    /// What the author says about it, a string a line.
+    pub docs: Vec<String>,
+    /// Its name; an empty span for a bare formula.
+    pub name: Span,
+    /// What it is.
+    pub kind: ItemKind,
+    /// All of it, without its docs.
+    pub span: Span,
+}
+
+/// A parsed source.
+#[derive(Clone, Debug)]
+pub struct Ast {
+    source: Source,
+    docs: Vec<String>,
+    items: Vec<Item>,
+    entries: Vec<Entry>,
+    arguments: Vec<NodeId>,
+}
+
+impl Ast {
+    pub(crate) fn new(source: Source) -> Self {
+        Self {
+            source,
+            docs: Vec::new(),
+            items: Vec::new(),
+            entries: Vec::new(),
+            arguments: Vec::new(),
+        }
+    }
+
+    /// The text that was parsed.
+    #[must_use]
+    pub fn source(&self) -> &Source {
+        &self.source
+    }
+
+    /// What the author says about the whole file, a string a line.
+    #[must_use]
+    pub fn docs(&self) -> &[String] {
+        &self.docs
+    }
+
+    /// The declarations, in source order.
+    #[must_use]
+    pub fn items(&self) -> &[Item] {
+        &self.items
+    }
+
+    /// One expression.
+    #[must_use]
+    pub fn entry(&self, id: NodeId) -> &Entry {
+        &self.entries[id.0 as usize]
+    }
+
+    /// The operator of one expression.
+    #[must_use]
+    pub fn node(&self, id: NodeId) -> &Node {
+        &self.entry(id).node
+    }
+
+    /// Where an expression stands.
+    #[must_use]
+    pub fn span(&self, id: NodeId) -> Span {
+        self.entry(id).span
+    }
+
+    /// The text of an expression as written.
+    #[must_use]
+    pub fn text(&self, id: NodeId) -> &str {
+        self.source.slice(self.span(id))
+    }
+
+    /// The arguments of a call.
+    #[must_use]
+    pub fn arguments(&self, range: &Range<u32>) -> &[NodeId] {
+        &self.arguments[range.start as usize..range.end as usize]
+    }
+
+    /// The operands of an expression, left to right.
+    #[must_use]
+    pub fn operands(&self, id: NodeId) -> Vec<NodeId> {
+        match self.node(id) {
+            Node::Truth(_) | Node::Number(_) | Node::Name | Node::Text | Node::Verbatim => vec![],
+            Node::Field { base, .. } => vec![*base],
+            Node::Index { base, index } => vec![*base, *index],
+            Node::Call { callee, arguments } => {
+                [&[*callee], self.arguments(arguments)].concat()
+            }
+            Node::Prefix(_, a) | Node::Quantified { body: a, .. } => vec![*a],
+            Node::Infix(_, a, b) => vec![*a, *b],
+        }
+    }
+
+    /// The first node of the expression `root`; its nodes are `first..=root`.
+    #[must_use]
+    pub fn first(&self, root: NodeId) -> NodeId {
+        let mut id = root;
+        while let Some(&operand) = self.operands(id).first() {
+            id = operand;
+        }
+        id
+    }
+
+    pub(crate) fn push(&mut self, node: Node, span: Span, operator: Span) -> NodeId {
+        let id = u32::try_from(self.entries.len()).expect("fewer than 2^32 expressions");
+        self.entries.push(Entry { node, span, operator, bracketed: false });
+        NodeId(id)
+    }
+
+    pub(crate) fn bracket(&mut self, id: NodeId) {
+        self.entries[id.0 as usize].bracketed = true;
+    }
+
+    pub(crate) fn push_arguments(&mut self, arguments: &[NodeId]) -> Range<u32> {
+        let end = |list: &Vec<NodeId>| u32::try_from(list.len()).expect("fewer than 2^32 arguments");
+        let start = end(&self.arguments);
+        self.arguments.extend_from_slice(arguments);
+        start..end(&self.arguments)
+    }
+
+    pub(crate) fn push_item(&mut self, item: Item) {
+        self.items.push(item);
+    }
+
+    pub(crate) fn set_docs(&mut self, docs: Vec<String>) {
+        self.docs = docs;
+    }
+}

@@ -1,0 +1,154 @@
+//! Any complete automaton to the canonical minimal one of its language.
+//!
+//! Moore's partition refinement on the shared diagram: in each round every node is rewritten with
+//! the classes of the states that it leads to, and states fall apart where their rewritten
+//! transitions differ. A round costs one hash per node, however many letters there are; there are
+//! at most as many rounds as it takes letters to tell two states apart. Then states are numbered
+//! breadth-first, letters in rising order, and the diagram is laid out anew in that order: equal
+//! languages over equal propositions give equal automata, byte for byte.
+
+use std::collections::{HashMap, VecDeque};
+
+use crate::dfa::{Dfa, Diagram, State, Target};
+
+/// The minimal complete automaton with the same language, in canonical numbering.
+///
+/// Letters that cannot occur ([`Dfa::possible`]) must have been given away beforehand, see
+/// [`restrict`].
+#[must_use]
+pub fn minimize(dfa: &Dfa) -> Dfa {
+    let classes = classes(dfa);
+    renumber(dfa, &classes)
+}
+
+/// The same states in canonical numbering, unreachable ones dropped, and the old number of each.
+#[must_use]
+pub fn canonical_order(dfa: &Dfa) -> (Dfa, Vec<State>) {
+    let apart: Vec<_> = dfa.states().collect();
+    (renumber(dfa, &apart), breadth_first(dfa, &apart, &apart))
+}
+
+/// The coarsest partition that separates the accepting state from the others and is respected by
+/// all transitions, as the class of each state.
+fn classes(dfa: &Dfa) -> Vec<State> {
+    let mut classes: Vec<State> =
+        dfa.states().map(|q| State::from(dfa.accepting == Some(q))).collect();
+    let mut count = 0;
+    loop {
+        let (refined, refined_count) = refine(dfa, &classes);
+        if refined_count == count {
+            return refined;
+        }
+        (classes, count) = (refined, refined_count);
+    }
+}
+
+fn refine(dfa: &Dfa, classes: &[State]) -> (Vec<State>, usize) {
+    let rewritten = rewrite(&dfa.diagram, |state| classes[state as usize]).1;
+    let mut known = HashMap::new();
+    let refined = dfa
+        .states()
+        .map(|q| {
+            let target =
+                relocate(dfa.transitions[q as usize], &rewritten, |state| classes[state as usize]);
+            let fresh = known.len() as State;
+            *known.entry((classes[q as usize], target)).or_insert(fresh)
+        })
+        .collect();
+    (refined, known.len())
+}
+
+/// A diagram with its states renamed, reduced again, and where each of its nodes went.
+fn rewrite(diagram: &Diagram, rename: impl Fn(State) -> State + Copy) -> (Diagram, Vec<Target>) {
+    let mut rewritten = Diagram::default();
+    let mut moved = Vec::with_capacity(diagram.nodes().len());
+    for node in diagram.nodes() {
+        let (low, high) = (relocate(node.low, &moved, rename), relocate(node.high, &moved, rename));
+        moved.push(rewritten.node(node.proposition, low, high));
+    }
+    (rewritten, moved)
+}
+
+fn relocate(target: Target, moved: &[Target], rename: impl Fn(State) -> State) -> Target {
+    match target.node() {
+        Some(index) => moved[index as usize],
+        None => Target::to_state(rename(target.state().expect("a node or a state"))),
+    }
+}
+
+fn renumber(dfa: &Dfa, classes: &[State]) -> Dfa {
+    let count = classes.iter().max().map_or(0, |&last| last as usize + 1);
+    let mut representative = vec![0; count];
+    dfa.states().rev().for_each(|q| representative[classes[q as usize] as usize] = q);
+    let order = breadth_first(dfa, classes, &representative);
+    let mut number = vec![0; count];
+    (0..).zip(&order).for_each(|(fresh, &class)| number[class as usize] = fresh);
+    let rename = |state: State| number[classes[state as usize] as usize];
+    let roots = order.iter().map(|&class| dfa.transitions[representative[class as usize] as usize]);
+    let (diagram, transitions) = lay_out(&dfa.diagram, roots, rename);
+    let kept = |state: &State| order.contains(&classes[*state as usize]);
+    let accepting = dfa.accepting.filter(kept).map(rename);
+    let is_trap =
+        |&q: &State| accepting != Some(q) && transitions[q as usize] == Target::to_state(q);
+    Dfa {
+        propositions: dfa.propositions.clone(),
+        accepting,
+        trap: (0..transitions.len() as State).find(is_trap),
+        diagram,
+        transitions,
+        possible: None,
+    }
+}
+
+/// The classes that the initial state reaches, breadth-first, letters in rising order.
+fn breadth_first(dfa: &Dfa, classes: &[State], representative: &[State]) -> Vec<State> {
+    let mut seen = vec![false; representative.len()];
+    let mut order = Vec::new();
+    let mut queue = VecDeque::from([classes[0]]);
+    seen[classes[0] as usize] = true;
+    while let Some(class) = queue.pop_front() {
+        order.push(class);
+        for leaf in dfa.leaves(dfa.transitions[representative[class as usize] as usize]) {
+            let to = classes[leaf as usize];
+            if !std::mem::replace(&mut seen[to as usize], true) {
+                queue.push_back(to);
+            }
+        }
+    }
+    order
+}
+
+/// The part of a diagram that the roots need, with states renamed, in the order in which a walk
+/// from the first root to the last finishes its nodes.
+fn lay_out(
+    diagram: &Diagram,
+    roots: impl Iterator<Item = Target>,
+    rename: impl Fn(State) -> State + Copy,
+) -> (Diagram, Vec<Target>) {
+    let mut fresh = Diagram::default();
+    let mut moved = HashMap::new();
+    let roots = roots.map(|root| copy(diagram, root, &mut fresh, &mut moved, rename)).collect();
+    (fresh, roots)
+}
+
+fn copy(
+    diagram: &Diagram,
+    target: Target,
+    fresh: &mut Diagram,
+    moved: &mut HashMap<Target, Target>,
+    rename: impl Fn(State) -> State + Copy,
+) -> Target {
+    if let Some(state) = target.state() {
+        return Target::to_state(rename(state));
+    }
+    if let Some(&known) = moved.get(&target) {
+        return known;
+    }
+    let proposition = diagram.proposition(target).expect("a node asks");
+    let (low, high) = diagram.split(target, proposition);
+    let low = copy(diagram, low, fresh, moved, rename);
+    let high = copy(diagram, high, fresh, moved, rename);
+    let copied = fresh.node(proposition, low, high);
+    moved.insert(target, copied);
+    copied
+}

@@ -1,0 +1,262 @@
+//! Formula to automaton, through decision diagrams: no valuation is ever enumerated.
+//!
+//! What a formula asks of a trajectory from here on is split into what it asks of this state and
+//! what of the rest: its *expansion*, a Boolean function of the propositions (read now) and of
+//! *obligations* (subformulas that must hold at the next state, which must exist). One diagram
+//! store holds both, propositions above obligations, so an expansion cut at the boundary is a
+//! transition function whose targets are Boolean functions of obligations. Those are the automaton's states:
+//! ⊤ is acceptance, ⊥ the trap. A state expands by putting the expansion of each of its
+//! obligations in its place. Obligations are strong: `X true` is one, and not ⊤.
+//!
+//! This is the derivative construction of LTLf with a canonical form for positive combinations (as
+//! in Spot's finite-trace translation and in "Zhu et al., Symbolic LTLf synthesis, 2017"). Two
+//! states with the same expansion read every continuation alike and are one state. The cost
+//! is the number of states times the size of their diagrams; a [`Budget`] bounds it. The known
+//! weakness is the order of the levels, which is that of first appearance and never searched for.
+
+use std::collections::HashMap;
+
+use crate::dfa::{Dfa, Diagram, State, Target};
+use crate::guard::{Guard, Store};
+use crate::spec::{Formula, FormulaId, Spec};
+
+/// Bounds on the work of a translation. They count, they never look at a clock: the same source
+/// always gives the same answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Budget {
+    /// States of the automaton before minimisation.
+    pub states: usize,
+    /// Nodes of decision diagrams, a measure of both memory and time.
+    pub nodes: usize,
+}
+
+impl Default for Budget {
+    /// 100,000 states and 10,000,000 nodes: at most a few seconds and a few hundred megabytes.
+    fn default() -> Self {
+        Self { states: 100_000, nodes: 10_000_000 }
+    }
+}
+
+/// A formula needs more than the [`Budget`] allows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Exceeded {
+    /// What ran out, as words: "states", "nodes" or "operators".
+    pub what: &'static str,
+    /// How many were allowed.
+    pub limit: usize,
+}
+
+/// Translates a formula; the automaton is complete and reachable, but not yet minimal.
+///
+/// # Errors
+/// If the budget does not suffice.
+pub fn translate(spec: &Spec, budget: Budget) -> Result<Dfa, Exceeded> {
+    let mut translation = Translation::new(spec, budget)?;
+    translation.expand_formulas()?;
+    translation.explore()
+}
+
+struct Translation<'a> {
+    spec: &'a Spec,
+    budget: Budget,
+    store: Store,
+    /// The number of propositions: lower levels are propositions, higher ones obligations.
+    propositions: u32,
+    /// The level of the obligation that a formula is, if it can be one.
+    level: Vec<u32>,
+    /// The formula of each obligation, by level above the propositions.
+    obligations: Vec<FormulaId>,
+    /// What each formula asks of this state and of the rest.
+    expansion: Vec<Guard>,
+    /// The expansion of each function of obligations met so far.
+    expanded: HashMap<Guard, Guard>,
+    /// The state that an expansion is.
+    states: HashMap<Guard, State>,
+    /// The expansion of each state, in order of discovery.
+    roots: Vec<Guard>,
+    accepting: Option<State>,
+    diagram: Diagram,
+    targets: HashMap<Guard, Target>,
+}
+
+impl<'a> Translation<'a> {
+    fn new(spec: &'a Spec, budget: Budget) -> Result<Self, Exceeded> {
+        let mut translation = Self {
+            spec,
+            budget,
+            store: Store::default(),
+            propositions: spec.propositions().len() as u32,
+            level: vec![u32::MAX; spec.formulas().len()],
+            obligations: Vec::new(),
+            expansion: vec![Guard::FALSE; spec.formulas().len()],
+            expanded: HashMap::new(),
+            states: HashMap::new(),
+            roots: Vec::new(),
+            accepting: None,
+            diagram: Diagram::default(),
+            targets: HashMap::new(),
+        };
+        translation.number_obligations()?;
+        Ok(translation)
+    }
+
+    /// Gives a level to every subformula that may be asked of the next state, inner ones first:
+    /// a chain of goals then shares the diagrams of what it has already asked.
+    fn number_obligations(&mut self) -> Result<(), Exceeded> {
+        let reachable = self.spec.reachable();
+        let mut asked = vec![false; reachable.len()];
+        for (id, formula) in self.spec.formulas().filter(|(id, _)| reachable[id.0 as usize]) {
+            match formula {
+                Formula::Next(a) => asked[a.0 as usize] = true,
+                Formula::Eventually(_) | Formula::Until(..) => asked[id.0 as usize] = true,
+                Formula::Then(_, b) => {
+                    asked[id.0 as usize] = true;
+                    asked[b.0 as usize] = true;
+                }
+                _ => {}
+            }
+        }
+        for (id, _) in self.spec.formulas().filter(|(id, _)| asked[id.0 as usize]) {
+            self.level[id.0 as usize] = self.propositions + self.obligations.len() as u32;
+            self.obligations.push(id);
+        }
+        let levels = self.propositions as usize + self.obligations.len();
+        self.check("operators", levels, Store::MAX_LEVELS as usize)
+    }
+
+    fn expand_formulas(&mut self) -> Result<(), Exceeded> {
+        let reachable = self.spec.reachable();
+        for (id, formula) in self.spec.formulas().filter(|(id, _)| reachable[id.0 as usize]) {
+            self.expansion[id.0 as usize] = self.expansion_of(id, formula);
+            self.check_nodes()?;
+        }
+        Ok(())
+    }
+
+    fn expansion_of(&mut self, id: FormulaId, formula: Formula) -> Guard {
+        let of = |this: &Self, a: FormulaId| this.expansion[a.0 as usize];
+        match formula {
+            Formula::True => Guard::TRUE,
+            Formula::False => Guard::FALSE,
+            Formula::Literal { proposition, negated } => {
+                self.store.literal((self.propositions - 1 - proposition, !negated))
+            }
+            Formula::And(a, b) => {
+                let (a, b) = (of(self, a), of(self, b));
+                self.store.and(a, b)
+            }
+            Formula::Or(a, b) => {
+                let (a, b) = (of(self, a), of(self, b));
+                self.store.or(a, b)
+            }
+            Formula::Next(a) => self.store.variable(self.level[a.0 as usize]),
+            Formula::Eventually(a) => {
+                let again = self.store.variable(self.level[id.0 as usize]);
+                let now = of(self, a);
+                self.store.or(now, again)
+            }
+            Formula::Until(a, b) => {
+                let again = self.store.variable(self.level[id.0 as usize]);
+                let (hold, done) = (of(self, a), of(self, b));
+                let later = self.store.and(hold, again);
+                self.store.or(done, later)
+            }
+            Formula::Then(a, b) => {
+                let again = self.store.variable(self.level[id.0 as usize]);
+                let second = self.store.variable(self.level[b.0 as usize]);
+                let first = of(self, a);
+                let first = self.store.and(first, second);
+                self.store.or(first, again)
+            }
+        }
+    }
+
+    /// Puts the expansion of every obligation of `f` in its place. Functions of obligations are
+    /// monotone, so a node is `low ∨ (obligation ∧ high)`.
+    fn expand(&mut self, f: Guard) -> Guard {
+        if f == Guard::TRUE || f == Guard::FALSE {
+            return f;
+        }
+        if let Some(&known) = self.expanded.get(&f) {
+            return known;
+        }
+        let (low, high) = self.store.branches(f);
+        let (low, high) = (self.expand(low), self.expand(high));
+        let due = self.obligations[(self.store.level(f) - self.propositions) as usize];
+        let due = self.expansion[due.0 as usize];
+        let high = self.store.and(due, high);
+        let expansion = self.store.or(low, high);
+        self.expanded.insert(f, expansion);
+        expansion
+    }
+
+    fn explore(mut self) -> Result<Dfa, Exceeded> {
+        let root = self.expansion[self.spec.root().0 as usize];
+        if root == Guard::TRUE {
+            self.accepting_state();
+        } else {
+            self.state(root);
+        }
+        let mut transitions = Vec::new();
+        while let Some(&root) = self.roots.get(transitions.len()) {
+            let target = self.target(root);
+            transitions.push(target);
+            self.check_nodes()?;
+            self.check("states", self.roots.len(), self.budget.states)?;
+        }
+        Ok(Dfa {
+            propositions: self.spec.propositions().to_vec(),
+            diagram: self.diagram,
+            transitions,
+            accepting: self.accepting,
+            trap: self.states.get(&Guard::FALSE).copied(),
+            possible: None,
+        })
+    }
+
+    /// The transitions of an expansion: its part above the obligations.
+    fn target(&mut self, f: Guard) -> Target {
+        if let Some(&known) = self.targets.get(&f) {
+            return known;
+        }
+        let level = self.store.level(f);
+        let target = if level < self.propositions {
+            let (low, high) = self.store.branches(f);
+            let (low, high) = (self.target(low), self.target(high));
+            self.diagram.node(self.propositions - 1 - level, low, high)
+        } else if f == Guard::TRUE {
+            Target::to_state(self.accepting_state())
+        } else {
+            let expansion = self.expand(f);
+            Target::to_state(self.state(expansion))
+        };
+        self.targets.insert(f, target);
+        target
+    }
+
+    fn accepting_state(&mut self) -> State {
+        let fresh = self.roots.len() as State;
+        let state = *self.accepting.get_or_insert(fresh);
+        if state == fresh {
+            self.roots.push(Guard::TRUE);
+        }
+        state
+    }
+
+    fn state(&mut self, expansion: Guard) -> State {
+        let fresh = self.roots.len() as State;
+        let state = *self.states.entry(expansion).or_insert(fresh);
+        if state == fresh {
+            self.roots.push(expansion);
+        }
+        state
+    }
+
+    fn check_nodes(&self) -> Result<(), Exceeded> {
+        self.check("nodes", self.store.len(), self.budget.nodes)
+    }
+
+    fn check(&self, what: &'static str, count: usize, limit: usize) -> Result<(), Exceeded> {
+        if count > limit { Err(Exceeded { what, limit }) } else { Ok(()) }
+    }
+}
