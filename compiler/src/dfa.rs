@@ -2,10 +2,10 @@
 //! their transition function.
 //!
 //! A [`Dfa`] may be raw (as translated) or canonical (as [`minimize`](crate::minimize::minimize)
-//! and [`product`](crate::product) leave it): complete, reachable, states numbered breadth-first
-//! with letters in rising order, bit i of a letter being proposition i.
+//! and [`product`](crate::product) leave it): complete, reachable, states numbered breadth-first,
+//! letters in lexicographic order (proposition 0 first, false before true).
 
-use std::collections::HashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::guard::{Cube, Guard, Store};
 
@@ -44,8 +44,9 @@ impl Target {
     }
 }
 
-/// A node: asks one proposition. Higher-numbered propositions are asked first, so that low
-/// branches before high ones is the rising order of letters.
+/// A node: asks one proposition. Lower-numbered propositions are asked first: formulas are mostly
+/// written in the order in which things shall happen, and then later goals share the diagrams of
+/// earlier ones (the opposite order makes nested goals cubic).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Node {
     /// The proposition.
@@ -60,7 +61,7 @@ pub struct Node {
 #[derive(Clone, Debug, Default)]
 pub struct Diagram {
     nodes: Vec<Node>,
-    unique: HashMap<Node, Target>,
+    unique: FxHashMap<Node, Target>,
 }
 
 impl Diagram {
@@ -70,7 +71,7 @@ impl Diagram {
         &self.nodes
     }
 
-    /// The target that asks `proposition`, which must be higher than all that `low` and `high` ask.
+    /// The target that asks `proposition`, which must be lower than all that `low` and `high` ask.
     pub fn node(&mut self, proposition: u32, low: Target, high: Target) -> Target {
         if low == high {
             return low;
@@ -90,7 +91,7 @@ impl Diagram {
     }
 
     /// What a target becomes when `proposition` is false, and true; it must be the first that the
-    /// target asks, or higher.
+    /// target asks, or lower.
     #[must_use]
     pub fn split(&self, target: Target, proposition: u32) -> (Target, Target) {
         match target.node().map(|index| self.nodes[index as usize]) {
@@ -173,10 +174,11 @@ impl Dfa {
         found
     }
 
-    /// The distinct states that a target leads to, in rising order of the least letter that does.
+    /// The distinct states that a target leads to, in lexicographic order of the first letter that
+    /// does.
     #[must_use]
     pub fn leaves(&self, from: Target) -> Vec<State> {
-        let mut seen = std::collections::HashSet::new();
+        let mut seen = FxHashSet::default();
         let mut found = Vec::new();
         let mut stack = vec![from];
         while let Some(target) = stack.pop() {
@@ -271,19 +273,14 @@ impl<'a> Guards<'a> {
         let lower = self.store.and(when, self.possible);
         let impossible = self.store.not(self.possible);
         let upper = self.store.or(when, impossible);
-        let count = self.dfa.propositions.len() as u32;
         let mut cubes = self.store.sum_of_products(lower, upper);
-        for cube in &mut cubes {
-            cube.reverse();
-            cube.iter_mut().for_each(|literal| literal.0 = count - 1 - literal.0);
-        }
+        cubes.sort_by_key(|cube| cube.iter().map(|&(p, value)| (p, !value)).collect::<Vec<_>>());
         cubes
     }
 
-    /// The letters under which a target leads to a selected state, as a function whose level is
-    /// the proposition counted from the last.
+    /// The letters under which a target leads to a selected state; levels are propositions.
     fn when(&mut self, target: Target, select: &dyn Fn(State) -> bool) -> Guard {
-        let mut memo = HashMap::new();
+        let mut memo = FxHashMap::default();
         self.build(target, select, &mut memo)
     }
 
@@ -291,7 +288,7 @@ impl<'a> Guards<'a> {
         &mut self,
         target: Target,
         select: &dyn Fn(State) -> bool,
-        memo: &mut HashMap<Target, Guard>,
+        memo: &mut FxHashMap<Target, Guard>,
     ) -> Guard {
         if let Some(state) = target.state() {
             return if select(state) { Guard::TRUE } else { Guard::FALSE };
@@ -302,8 +299,7 @@ impl<'a> Guards<'a> {
         let proposition = self.dfa.diagram.proposition(target).expect("a node asks");
         let (low, high) = self.dfa.diagram.split(target, proposition);
         let (low, high) = (self.build(low, select, memo), self.build(high, select, memo));
-        let level = self.dfa.propositions.len() as u32 - 1 - proposition;
-        let guard = self.store.node(level, low, high);
+        let guard = self.store.node(proposition, low, high);
         memo.insert(target, guard);
         guard
     }

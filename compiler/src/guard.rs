@@ -6,7 +6,7 @@
 //! product of the diagrams' sizes; all levels are below [`Store::MAX_LEVELS`], which bounds the
 //! recursion. Nothing depends on hash order.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// A Boolean function in a [`Store`]. Equal functions of one store are equal values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -225,7 +225,7 @@ impl Store {
     /// their first level false come first, then true, then those that do not ask it; so the form
     /// is a function of the two bounds and the order of the levels alone.
     pub fn sum_of_products(&mut self, lower: Guard, upper: Guard) -> Vec<Cube> {
-        let mut covers = HashMap::new();
+        let mut covers = FxHashMap::default();
         let mut cubes = self.cover(lower, upper, &mut covers).1;
         cubes.iter_mut().for_each(|cube| cube.reverse());
         cubes
@@ -236,7 +236,7 @@ impl Store {
         &mut self,
         lower: Guard,
         upper: Guard,
-        covers: &mut HashMap<(Guard, Guard), (Guard, Vec<Cube>)>,
+        covers: &mut FxHashMap<(Guard, Guard), (Guard, Vec<Cube>)>,
     ) -> (Guard, Vec<Cube>) {
         if lower == Guard::FALSE {
             return (Guard::FALSE, Vec::new());

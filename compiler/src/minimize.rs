@@ -4,10 +4,12 @@
 //! the classes of the states that it leads to, and states fall apart where their rewritten
 //! transitions differ. A round costs one hash per node, however many letters there are; there are
 //! at most as many rounds as it takes letters to tell two states apart. Then states are numbered
-//! breadth-first, letters in rising order, and the diagram is laid out anew in that order: equal
+//! breadth-first, letters in lexicographic order, and the diagram is laid out anew in that order: equal
 //! languages over equal propositions give equal automata, byte for byte.
 
-use std::collections::{HashMap, VecDeque};
+use std::collections::VecDeque;
+
+use rustc_hash::FxHashMap;
 
 use crate::dfa::{Dfa, Diagram, State, Target};
 
@@ -45,7 +47,7 @@ fn classes(dfa: &Dfa) -> Vec<State> {
 
 fn refine(dfa: &Dfa, classes: &[State]) -> (Vec<State>, usize) {
     let rewritten = rewrite(&dfa.diagram, |state| classes[state as usize]).1;
-    let mut known = HashMap::new();
+    let mut known = FxHashMap::default();
     let refined = dfa
         .states()
         .map(|q| {
@@ -100,7 +102,7 @@ fn renumber(dfa: &Dfa, classes: &[State]) -> Dfa {
     }
 }
 
-/// The classes that the initial state reaches, breadth-first, letters in rising order.
+/// The classes that the initial state reaches, breadth-first, letters in lexicographic order.
 fn breadth_first(dfa: &Dfa, classes: &[State], representative: &[State]) -> Vec<State> {
     let mut seen = vec![false; representative.len()];
     let mut order = Vec::new();
@@ -126,7 +128,7 @@ fn lay_out(
     rename: impl Fn(State) -> State + Copy,
 ) -> (Diagram, Vec<Target>) {
     let mut fresh = Diagram::default();
-    let mut moved = HashMap::new();
+    let mut moved = FxHashMap::default();
     let roots = roots.map(|root| copy(diagram, root, &mut fresh, &mut moved, rename)).collect();
     (fresh, roots)
 }
@@ -135,7 +137,7 @@ fn copy(
     diagram: &Diagram,
     target: Target,
     fresh: &mut Diagram,
-    moved: &mut HashMap<Target, Target>,
+    moved: &mut FxHashMap<Target, Target>,
     rename: impl Fn(State) -> State + Copy,
 ) -> Target {
     if let Some(state) = target.state() {

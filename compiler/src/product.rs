@@ -6,7 +6,7 @@
 //! state; [`minimize`](crate::minimize::minimize) gives the automaton of the formula. Operands
 //! share a proposition if they give it the same name.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use crate::dfa::{Dfa, Diagram, State, Target};
 use crate::minimize::canonical_order;
@@ -61,8 +61,8 @@ struct Pairing {
     operator: Operator,
     sides: [Aligned; 2],
     diagram: Diagram,
-    known: HashMap<(Target, Target), Target>,
-    states: HashMap<[State; 2], State>,
+    known: FxHashMap<(Target, Target), Target>,
+    states: FxHashMap<[State; 2], State>,
     /// The pair of each state, in order of discovery.
     pairs: Vec<[State; 2]>,
     accepting: Option<State>,
@@ -111,8 +111,8 @@ impl Pairing {
             return known;
         }
         let [left, right] = &self.sides;
-        let proposition = left.diagram.proposition(a).max(right.diagram.proposition(b));
-        let proposition = proposition.expect("one of the two asks");
+        let asked = [left.diagram.proposition(a), right.diagram.proposition(b)];
+        let proposition = asked.into_iter().flatten().min().expect("one of the two asks");
         let (a0, a1) = left.diagram.split(a, proposition);
         let (b0, b1) = right.diagram.split(b, proposition);
         let (low, high) = (self.target(a0, b0), self.target(a1, b1));
@@ -170,7 +170,7 @@ fn align(dfa: &Dfa, propositions: &[String]) -> Aligned {
     let places: Vec<u32> = dfa.propositions.iter().filter_map(place).map(|i| i as u32).collect();
     let mut diagram = Diagram::default();
     let mut moved: Vec<Target> = Vec::with_capacity(dfa.diagram.nodes().len());
-    let mut known = HashMap::new();
+    let mut known = FxHashMap::default();
     let at = |target: Target, moved: &[Target]| match target.node() {
         Some(index) => moved[index as usize],
         None => target,
@@ -187,13 +187,13 @@ fn align(dfa: &Dfa, propositions: &[String]) -> Aligned {
 /// `high` where `proposition` is true and `low` where it is false, wherever it stands in the order.
 fn select(
     diagram: &mut Diagram,
-    known: &mut HashMap<(u32, Target, Target), Target>,
+    known: &mut FxHashMap<(u32, Target, Target), Target>,
     proposition: u32,
     low: Target,
     high: Target,
 ) -> Target {
-    let first = diagram.proposition(low).max(diagram.proposition(high));
-    let Some(first) = first.filter(|&first| first > proposition) else {
+    let asked = [diagram.proposition(low), diagram.proposition(high)];
+    let Some(first) = asked.into_iter().flatten().min().filter(|&first| first < proposition) else {
         return diagram.node(proposition, low, high);
     };
     if let Some(&target) = known.get(&(proposition, low, high)) {

@@ -8,7 +8,7 @@
 //! next instants included; nothing is ever simplified to `true` *under* `X`, because `X true` asks
 //! for a second state.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use crate::source::Span;
 
@@ -65,7 +65,7 @@ pub struct Spec {
     propositions: Vec<String>,
     formulas: Vec<Formula>,
     spans: Vec<Span>,
-    known: HashMap<Formula, FormulaId>,
+    known: FxHashMap<Formula, FormulaId>,
     root: FormulaId,
 }
 
@@ -78,7 +78,7 @@ impl Spec {
             propositions,
             formulas: Vec::new(),
             spans: Vec::new(),
-            known: HashMap::new(),
+            known: FxHashMap::default(),
             root: FormulaId(0),
         };
         spec.root = spec.intern(Formula::True, Span::default());

@@ -14,7 +14,7 @@
 //! is the number of states times the size of their diagrams; a [`Budget`] bounds it. The known
 //! weakness is the order of the levels, which is that of first appearance and never searched for.
 
-use std::collections::HashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::dfa::{Dfa, Diagram, State, Target};
 use crate::guard::{Guard, Store};
@@ -69,14 +69,14 @@ struct Translation<'a> {
     /// What each formula asks of this state and of the rest.
     expansion: Vec<Guard>,
     /// The expansion of each function of obligations met so far.
-    expanded: HashMap<Guard, Guard>,
+    expanded: FxHashMap<Guard, Guard>,
     /// The state that an expansion is.
-    states: HashMap<Guard, State>,
+    states: FxHashMap<Guard, State>,
     /// The expansion of each state, in order of discovery.
     roots: Vec<Guard>,
     accepting: Option<State>,
     diagram: Diagram,
-    targets: HashMap<Guard, Target>,
+    targets: FxHashMap<Guard, Target>,
 }
 
 impl<'a> Translation<'a> {
@@ -89,12 +89,12 @@ impl<'a> Translation<'a> {
             level: vec![u32::MAX; spec.formulas().len()],
             obligations: Vec::new(),
             expansion: vec![Guard::FALSE; spec.formulas().len()],
-            expanded: HashMap::new(),
-            states: HashMap::new(),
+            expanded: FxHashMap::default(),
+            states: FxHashMap::default(),
             roots: Vec::new(),
             accepting: None,
             diagram: Diagram::default(),
-            targets: HashMap::new(),
+            targets: FxHashMap::default(),
         };
         translation.number_obligations()?;
         Ok(translation)
@@ -125,12 +125,49 @@ impl<'a> Translation<'a> {
     }
 
     fn expand_formulas(&mut self) -> Result<(), Exceeded> {
-        let reachable = self.spec.reachable();
-        for (id, formula) in self.spec.formulas().filter(|(id, _)| reachable[id.0 as usize]) {
+        let needed = self.needed();
+        for (id, formula) in self.spec.formulas().filter(|(id, _)| needed[id.0 as usize]) {
             self.expansion[id.0 as usize] = self.expansion_of(id, formula);
             self.check_nodes()?;
         }
         Ok(())
+    }
+
+    /// The formulas whose expansion is asked for by itself: not the inner `&&` of a chain of them.
+    fn needed(&self) -> Vec<bool> {
+        let mut needed = vec![false; self.spec.formulas().len()];
+        needed[self.spec.root().0 as usize] = true;
+        for (id, formula) in self.spec.formulas().rev() {
+            if needed[id.0 as usize] {
+                let operands = match formula {
+                    Formula::And(..) | Formula::Or(..) => self.chain(id),
+                    _ => formula.operands().collect(),
+                };
+                operands.iter().for_each(|operand| needed[operand.0 as usize] = true);
+            }
+        }
+        needed
+    }
+
+    /// The operands of a chain of one and the same operator, left to right, each once.
+    fn chain(&self, root: FormulaId) -> Vec<FormulaId> {
+        let conjunction = |id| matches!(self.spec.formula(id), Formula::And(..));
+        let disjunction = |id| matches!(self.spec.formula(id), Formula::Or(..));
+        let mut seen = FxHashSet::default();
+        let mut operands = Vec::new();
+        let mut stack = vec![root];
+        while let Some(id) = stack.pop() {
+            if !seen.insert(id) {
+                continue;
+            }
+            let same = if conjunction(root) { conjunction(id) } else { disjunction(id) };
+            if same {
+                stack.extend(self.spec.formula(id).operands().rev());
+            } else {
+                operands.push(id);
+            }
+        }
+        operands
     }
 
     fn expansion_of(&mut self, id: FormulaId, formula: Formula) -> Guard {
@@ -139,16 +176,16 @@ impl<'a> Translation<'a> {
             Formula::True => Guard::TRUE,
             Formula::False => Guard::FALSE,
             Formula::Literal { proposition, negated } => {
-                self.store.literal((self.propositions - 1 - proposition, !negated))
+                self.store.literal((proposition, !negated))
             }
-            Formula::And(a, b) => {
-                let (a, b) = (of(self, a), of(self, b));
-                self.store.and(a, b)
-            }
-            Formula::Or(a, b) => {
-                let (a, b) = (of(self, a), of(self, b));
-                self.store.or(a, b)
-            }
+            // From the right: what is written later mostly stands lower in the diagram, and each
+            // step then touches only the top of what is there.
+            Formula::And(..) => self.chain(id).iter().rev().fold(Guard::TRUE, |rest, &operand| {
+                self.store.and(self.expansion[operand.0 as usize], rest)
+            }),
+            Formula::Or(..) => self.chain(id).iter().rev().fold(Guard::FALSE, |rest, &operand| {
+                self.store.or(self.expansion[operand.0 as usize], rest)
+            }),
             Formula::Next(a) => self.store.variable(self.level[a.0 as usize]),
             Formula::Eventually(a) => {
                 let again = self.store.variable(self.level[id.0 as usize]);
@@ -223,7 +260,7 @@ impl<'a> Translation<'a> {
         let target = if level < self.propositions {
             let (low, high) = self.store.branches(f);
             let (low, high) = (self.target(low), self.target(high));
-            self.diagram.node(self.propositions - 1 - level, low, high)
+            self.diagram.node(level, low, high)
         } else if f == Guard::TRUE {
             Target::to_state(self.accepting_state())
         } else {

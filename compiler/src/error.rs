@@ -1,0 +1,272 @@
+//! What is wrong with a source, told to its author.
+//!
+//! An [`Error`] says in one sentence what is wrong, in the author's own words, points at the
+//! place, points at the other places that matter, and ends with what to do. The command line, the
+//! macro and the tests show the same text. All mistakes of a source are reported together, in
+//! the order in which they stand there.
+
+mod render;
+
+use std::fmt;
+
+pub use render::Style;
+
+use crate::source::{Source, Span};
+
+/// What sort of mistake it is; its [`name`](Kind::name) is part of the output for machines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum Kind {
+    /// The text is not of the language.
+    Syntax,
+    /// Brackets nest too deep.
+    Nesting,
+    /// A number is too large to be exact.
+    Number,
+    /// An operator of other temporal logics.
+    UnsupportedOperator,
+    /// A negation stands before a temporal operator.
+    NegatedTemporal,
+    /// A name is not declared.
+    UnknownName,
+    /// A name is declared twice.
+    DuplicateName,
+    /// A keyword stands where a name is declared.
+    Keyword,
+    /// Items are defined by each other in a circle.
+    Cycle,
+    /// A number where a formula is needed, or the like.
+    Type,
+    /// A comparison chain that points both ways.
+    Chain,
+    /// Nothing uses it.
+    Unused,
+    /// It can never hold.
+    Unsatisfiable,
+    /// It always holds.
+    Valid,
+    /// It probably means something else.
+    Intent,
+    /// A part of a formula does not matter.
+    Vacuous,
+    /// The automaton grows beyond its budget.
+    Budget,
+}
+
+impl Kind {
+    /// Its name, as in `error[unknown-name]`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Syntax => "syntax",
+            Self::Nesting => "nesting",
+            Self::Number => "number",
+            Self::UnsupportedOperator => "unsupported-operator",
+            Self::NegatedTemporal => "negated-temporal",
+            Self::UnknownName => "unknown-name",
+            Self::DuplicateName => "duplicate-name",
+            Self::Keyword => "keyword",
+            Self::Cycle => "cycle",
+            Self::Type => "type",
+            Self::Chain => "chain",
+            Self::Unused => "unused",
+            Self::Unsatisfiable => "unsatisfiable",
+            Self::Valid => "valid",
+            Self::Intent => "intent",
+            Self::Vacuous => "vacuous",
+            Self::Budget => "budget",
+        }
+    }
+}
+
+/// Whether compilation can go on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Severity {
+    /// It cannot.
+    Error,
+    /// It can, but the author should look.
+    Warning,
+}
+
+/// One mistake.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Error {
+    kind: Kind,
+    severity: Severity,
+    message: String,
+    span: Span,
+    label: String,
+    related: Vec<(Span, String)>,
+    help: Vec<String>,
+}
+
+impl Error {
+    /// The mistake that `message` tells, one sentence without a full stop, at `span`.
+    #[must_use]
+    pub fn new(kind: Kind, message: impl Into<String>, span: Span) -> Self {
+        Self {
+            kind,
+            severity: Severity::Error,
+            message: message.into(),
+            span,
+            label: String::new(),
+            related: Vec::new(),
+            help: Vec::new(),
+        }
+    }
+
+    /// The same as a warning.
+    #[must_use]
+    pub fn warning(mut self) -> Self {
+        self.severity = Severity::Warning;
+        self
+    }
+
+    /// Writes `label` beside the place of the mistake.
+    #[must_use]
+    pub fn label(mut self, label: impl Into<String>) -> Self {
+        self.label = label.into();
+        self
+    }
+
+    /// Points at another place that matters.
+    #[must_use]
+    pub fn related(mut self, span: Span, label: impl Into<String>) -> Self {
+        self.related.push((span, label.into()));
+        self
+    }
+
+    /// Adds a line that says what to do.
+    #[must_use]
+    pub fn help(mut self, help: impl Into<String>) -> Self {
+        self.help.push(help.into());
+        self
+    }
+
+    /// What sort of mistake it is.
+    #[must_use]
+    pub fn kind(&self) -> Kind {
+        self.kind
+    }
+
+    /// Whether it is an error or a warning.
+    #[must_use]
+    pub fn severity(&self) -> Severity {
+        self.severity
+    }
+
+    /// Whether it is a warning.
+    #[must_use]
+    pub fn is_warning(&self) -> bool {
+        self.severity == Severity::Warning
+    }
+
+    /// What is wrong, in one sentence.
+    #[must_use]
+    pub fn message(&self) -> &str {
+        &self.message
+    }
+
+    /// Where.
+    #[must_use]
+    pub fn span(&self) -> Span {
+        self.span
+    }
+
+    /// The other places that matter, each with what it is.
+    #[must_use]
+    pub fn places(&self) -> &[(Span, String)] {
+        &self.related
+    }
+
+    /// What to do about it, a string a line.
+    #[must_use]
+    pub fn helps(&self) -> &[String] {
+        &self.help
+    }
+
+    /// The whole report, with the lines of `source` that it speaks of.
+    #[must_use]
+    pub fn render(&self, source: &Source, style: Style) -> String {
+        render::report(self, source, style)
+    }
+}
+
+impl fmt::Display for Error {
+    /// The message and the help lines, for where the place is shown by other means.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)?;
+        self.help.iter().try_for_each(|help| write!(f, "\nhelp: {help}"))
+    }
+}
+
+impl std::error::Error for Error {}
+
+/// All mistakes of a source: at least one error, in source order; warnings may stand among them.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Errors(Vec<Error>);
+
+impl Errors {
+    /// `Err` of the mistakes if one of them is an error, else the warnings.
+    ///
+    /// # Errors
+    /// If there is an error among them.
+    pub fn split(mut mistakes: Vec<Error>) -> Result<Vec<Error>, Self> {
+        mistakes.sort_by_key(|mistake| mistake.span);
+        mistakes.dedup();
+        if mistakes.iter().all(Error::is_warning) { Ok(mistakes) } else { Err(Self(mistakes)) }
+    }
+
+    /// The mistakes in source order.
+    pub fn iter(&self) -> std::slice::Iter<'_, Error> {
+        self.0.iter()
+    }
+
+    /// The first error, warnings left aside.
+    #[must_use]
+    pub fn first(&self) -> &Error {
+        self.0.iter().find(|error| !error.is_warning()).unwrap_or(&self.0[0])
+    }
+
+    /// All reports, an empty line between them.
+    #[must_use]
+    pub fn render(&self, source: &Source, style: Style) -> String {
+        let reports: Vec<_> = self.0.iter().map(|error| error.render(source, style)).collect();
+        reports.join("\n")
+    }
+}
+
+impl From<Error> for Errors {
+    fn from(error: Error) -> Self {
+        Self(vec![error])
+    }
+}
+
+impl IntoIterator for Errors {
+    type Item = Error;
+    type IntoIter = std::vec::IntoIter<Error>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.0.into_iter()
+    }
+}
+
+impl<'a> IntoIterator for &'a Errors {
+    type Item = &'a Error;
+    type IntoIter = std::slice::Iter<'a, Error>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.iter()
+    }
+}
+
+impl fmt::Display for Errors {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, error) in self.0.iter().enumerate() {
+            write!(f, "{}{error}", if i == 0 { "" } else { "\n" })?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for Errors {}

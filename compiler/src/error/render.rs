@@ -1,0 +1,147 @@
+//! An error as text: the sentence, the lines of the source with carets under them, the help.
+//!
+//! The layout is rustc's, one caret line a label. A long line is cut to a window around the place,
+//! and what a terminal would not show in one column is measured or replaced.
+
+use std::fmt::Write;
+
+use super::{Error, Severity};
+use crate::source::{Source, Span};
+
+/// How a report looks.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Style {
+    /// For files, pipes and compilers.
+    #[default]
+    Plain,
+    /// With ANSI colours, for terminals.
+    Coloured,
+}
+
+const BOLD: &str = "\x1b[1m";
+const RED: &str = "\x1b[1;31m";
+const YELLOW: &str = "\x1b[1;33m";
+const BLUE: &str = "\x1b[1;34m";
+
+/// The most columns of a source line that are shown.
+const WINDOW: usize = 100;
+
+impl Style {
+    fn paint(self, colour: &str, text: &str) -> String {
+        match self {
+            Self::Plain => text.to_owned(),
+            Self::Coloured if text.is_empty() => String::new(),
+            Self::Coloured => format!("{colour}{text}\x1b[0m"),
+        }
+    }
+}
+
+/// One place to underline.
+struct Label<'a> {
+    span: Span,
+    text: &'a str,
+    primary: bool,
+}
+
+pub(super) fn report(error: &Error, source: &Source, style: Style) -> String {
+    let (word, colour) = match error.severity {
+        Severity::Error => ("error", RED),
+        Severity::Warning => ("warning", YELLOW),
+    };
+    let head = style.paint(colour, &format!("{word}[{}]", error.kind.name()));
+    let mut out = format!("{head}{}\n", style.paint(BOLD, &format!(": {}", error.message)));
+    let gutter = gutter_width(error, source);
+    let bar = style.paint(BLUE, "|");
+    let arrow = style.paint(BLUE, "-->");
+    let place = source.place(error.span.start);
+    let _ = writeln!(out, "{:gutter$}{arrow} {}:{place}", "", source.name());
+    let _ = writeln!(out, "{:gutter$} {bar}", "");
+    snippets(&mut out, error, source, style, colour);
+    for help in &error.help {
+        let lines = help.replace('\n', &format!("\n{:gutter$}         ", ""));
+        let equals = style.paint(BLUE, "=");
+        let _ = writeln!(out, "{:gutter$} {equals} {} {lines}", "", style.paint(BOLD, "help:"));
+    }
+    out
+}
+
+fn gutter_width(error: &Error, source: &Source) -> usize {
+    let spans = error.related.iter().map(|(span, _)| *span).chain([error.span]);
+    let last = spans.map(|span| source.place(span.start).line).max().unwrap_or(1);
+    last.to_string().len()
+}
+
+/// The lines that the labels stand in, in source order, each followed by its carets.
+fn snippets(out: &mut String, error: &Error, source: &Source, style: Style, colour: &str) {
+    let gutter = gutter_width(error, source);
+    let mut labels = vec![Label { span: error.span, text: &error.label, primary: true }];
+    let related = error.related.iter();
+    labels.extend(related.map(|(span, text)| Label { span: *span, text, primary: false }));
+    labels.sort_by_key(|label| (source.line(label.span.start).start, !label.primary));
+    let bar = style.paint(BLUE, "|");
+    let mut shown: Option<(Span, usize)> = None;
+    for label in &labels {
+        let line = source.line(label.span.start);
+        let place = source.place(line.start).line;
+        if shown.is_none_or(|(before, _)| before != line) {
+            if shown.is_some_and(|(_, before)| before + 1 < place) {
+                let _ = writeln!(out, "{:gutter$}{}", "", style.paint(BLUE, "..."));
+            }
+            let number = style.paint(BLUE, &format!("{place:gutter$}"));
+            let text = window(source, line, labels[0].span).0;
+            let _ = writeln!(out, "{number} {bar} {text}");
+        }
+        shown = Some((line, place));
+        let (_, start) = window(source, line, labels[0].span);
+        let carets = underline(source, line, start, label);
+        let carets = style.paint(if label.primary { colour } else { BLUE }, &carets);
+        let _ = writeln!(out, "{:gutter$} {bar} {carets}", "");
+    }
+}
+
+/// The part of `line` that is shown, made printable, and the byte at which it starts.
+fn window(source: &Source, line: Span, focus: Span) -> (String, usize) {
+    let text = source.slice(line);
+    if text.chars().count() <= WINDOW {
+        return (printable(text), line.start);
+    }
+    let focus = if line.start <= focus.start && focus.start <= line.end {
+        source.slice(Span::new(line.start, focus.start)).chars().count()
+    } else {
+        0
+    };
+    let skipped = focus.saturating_sub(WINDOW / 2);
+    let start = line.start + text.chars().take(skipped).map(char::len_utf8).sum::<usize>();
+    let shown: String = text.chars().skip(skipped).take(WINDOW).collect();
+    let more = if start + shown.len() < line.end { "…" } else { "" };
+    (printable(&shown) + more, start)
+}
+
+fn underline(source: &Source, line: Span, start: usize, label: &Label<'_>) -> String {
+    let (from, to) = (label.span.start.max(start), label.span.end.min(line.end));
+    let indent = width(source.slice(Span::new(start, from.min(line.end)))) + from.saturating_sub(line.end).min(1);
+    let length = width(source.slice(Span::new(from, to.max(from)))).clamp(1, WINDOW);
+    let mark = if label.primary { "^" } else { "-" };
+    let text = if label.text.is_empty() { String::new() } else { format!(" {}", label.text) };
+    format!("{}{}{text}", " ".repeat(indent.min(2 * WINDOW)), mark.repeat(length))
+}
+
+fn printable(text: &str) -> String {
+    text.replace('\t', "    ").replace(|c: char| c.is_control(), "\u{fffd}")
+}
+
+/// The number of terminal columns of `text`.
+fn width(text: &str) -> usize {
+    text.chars().map(columns).sum()
+}
+
+fn columns(c: char) -> usize {
+    match c {
+        '\t' => 4,
+        '\u{300}'..='\u{36f}' | '\u{200b}'..='\u{200f}' | '\u{fe00}'..='\u{fe0f}' => 0,
+        '\u{1100}'..='\u{115f}' | '\u{2e80}'..='\u{a4cf}' | '\u{ac00}'..='\u{d7a3}' => 2,
+        '\u{f900}'..='\u{faff}' | '\u{fe30}'..='\u{fe6f}' | '\u{ff00}'..='\u{ff60}' => 2,
+        '\u{1f300}'..='\u{1faff}' | '\u{20000}'..='\u{3fffd}' => 2,
+        _ => 1,
+    }
+}
