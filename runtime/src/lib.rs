@@ -6,9 +6,33 @@ extern crate alloc;
 #[cfg(feature = "std")]
 extern crate std;
 
+#[cfg(feature = "alloc")]
+pub mod augmented;
 pub mod automaton;
+#[cfg(feature = "alloc")]
+pub mod compose;
+#[cfg(feature = "alloc")]
+pub mod env;
+#[cfg(feature = "alloc")]
+pub mod learn;
+#[cfg(feature = "alloc")]
+pub mod model;
+#[cfg(feature = "alloc")]
+pub mod policy;
+#[doc(hidden)]
+pub mod private;
+#[cfg(feature = "alloc")]
+pub mod product;
+#[cfg(feature = "alloc")]
+pub mod q;
 pub mod robustness;
+#[cfg(feature = "alloc")]
+pub mod solve;
 pub mod task;
+
+/// The crate whose `Rng` trait the environments and learners take their randomness from.
+#[cfg(feature = "alloc")]
+pub use rand;
 
 pub use automaton::Automaton;
 pub use robustness::{Boolean, Predicate};

@@ -213,8 +213,18 @@ pub trait Monitor<S: ?Sized> {
     /// If a predicate is not a number.
     fn progress_robustness(&self, q: u32, s: &S) -> Result<f64, Error>;
 
+    /// Robustness of being lost, ρ(s, ψ_{q,trap}); -∞ if no edge of `q` leads into the trap.
+    ///
+    /// # Errors
+    /// If a predicate is not a number.
+    fn trap_robustness(&self, q: u32, s: &S) -> Result<f64, Error>;
+
     /// The least number of automaton moves from `q` to acceptance; `u32::MAX` if there is no way.
     fn distance(&self, q: u32) -> u32;
+
+    /// Calls `visit` with the target of every edge that leaves `q`, self-loop included, in
+    /// ascending order.
+    fn successors(&self, q: u32, visit: &mut dyn FnMut(u32));
 
     /// Whether an episode ends at `q`.
     fn is_terminal(&self, q: u32) -> bool {
@@ -252,8 +262,16 @@ impl<S: ?Sized, P: Predicates<S>> Monitor<S> for Task<P> {
         Task::progress_robustness(self, q, s)
     }
 
+    fn trap_robustness(&self, q: u32, s: &S) -> Result<f64, Error> {
+        self.automaton.trap.map_or(Ok(f64::NEG_INFINITY), |trap| self.guard_robustness(q, trap, s))
+    }
+
     fn distance(&self, q: u32) -> u32 {
         self.automaton.distance[q as usize]
+    }
+
+    fn successors(&self, q: u32, visit: &mut dyn FnMut(u32)) {
+        self.automaton.edges_from(q).iter().for_each(|edge| visit(edge.to));
     }
 
     fn trajectory_robustness(&self, trajectory: &[S]) -> Result<f64, Error>
@@ -286,8 +304,16 @@ impl<S: ?Sized, M: Monitor<S> + ?Sized> Monitor<S> for &M {
         (**self).progress_robustness(q, s)
     }
 
+    fn trap_robustness(&self, q: u32, s: &S) -> Result<f64, Error> {
+        (**self).trap_robustness(q, s)
+    }
+
     fn distance(&self, q: u32) -> u32 {
         (**self).distance(q)
+    }
+
+    fn successors(&self, q: u32, visit: &mut dyn FnMut(u32)) {
+        (**self).successors(q, visit);
     }
 
     fn trajectory_robustness(&self, trajectory: &[S]) -> Result<f64, Error>

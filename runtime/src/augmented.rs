@@ -1,0 +1,444 @@
+//! The FSA-augmented MDP (paper, Definition 3): states (s, q) of a world and an automaton.
+//!
+//! [`Augmented`] runs any environment beside any [`Monitor`]. [`Labelled`] is the same for finite
+//! worlds as tables: states that no automaton state tells apart share a class, so that learners
+//! and solvers evaluate no predicate in their loops.
+//!
+//! The automaton reads *every* state, `s_0` included: `q_0' = δ(q_0, s_0)` on reset, which pays
+//! nothing and may already be accepted or lost, then `q_{t+1} = δ(q_t, s_{t+1})`. (The paper's
+//! Eq. 3A2 moves on `s` and its Eq. 3A3 pays on `s'`; read literally a goal is paid twice.)
+//! Reaching the accepting state or the trap terminates, a horizon truncates.
+//!
+//! What is optimal for a reward need not be what the task wants: `Progress` is paid per edge, and
+//! so may prefer longer ways, or a risk. On `!c U a` of the paper's grid the largest possible
+//! P(satisfied) is 98.49 %; the `Progress`-optimal policy has 98.13 %, the `Literal` one 50.0 %.
+//! Judge policies by [`Problem::certify`](crate::solve::Problem::certify).
+
+use alloc::collections::BTreeMap;
+use alloc::vec::Vec;
+
+use rand::Rng;
+#[cfg(feature = "serde")]
+use serde::{Deserialize, Serialize};
+
+use crate::env::{Env, FiniteEnv, Step};
+use crate::model::FiniteModel;
+use crate::task::{Error, Monitor};
+
+/// What a move of the automaton pays.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
+pub enum Reward {
+    /// 1 if the move leaves q, neither by a self-loop nor into the trap (the intent of the paper's
+    /// Eq. 3A3).
+    #[default]
+    Progress,
+    /// 1 if the move leaves q, the trap included (Eq. 3A3 to the letter). Unsafe: it pays for
+    /// losing. Kept to reproduce the paper.
+    Literal,
+    /// 1 on entering the accepting state.
+    Acceptance,
+    /// ρ(s', D_φ^q), clamped to `[-bound, bound]`.
+    Robustness {
+        /// The largest reward or punishment of one step; see [`Reward::ROBUSTNESS`].
+        bound: f64,
+    },
+    /// `Acceptance` plus γΦ(q') − Φ(q), where Φ falls evenly from nearly 1 beside the accepting
+    /// state to nearly 0 at the state farthest from it, and is 0 at terminal states. It leaves the
+    /// optimal policies of `Acceptance` unchanged (Ng et al. 1999).
+    Shaped,
+}
+
+impl Reward {
+    /// Robustness with the default bound, 1.
+    pub const ROBUSTNESS: Self = Self::Robustness { bound: 1.0 };
+}
+
+/// The reward of the augmented MDP: a mode, and what is added to it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+pub struct Rewards {
+    /// What a move of the automaton pays.
+    pub mode: Reward,
+    /// Subtracted on entering the trap.
+    pub trap_penalty: f64,
+    /// Subtracted at every step.
+    pub step_penalty: f64,
+    /// How much of the environment's own reward (a cost of failed actions, say) is added. Solvers
+    /// leave it out: models have no rewards of their own.
+    pub environment: f64,
+}
+
+impl Rewards {
+    /// `mode` alone.
+    #[must_use]
+    pub const fn of(mode: Reward) -> Self {
+        Self { mode, trap_penalty: 0.0, step_penalty: 0.0, environment: 0.0 }
+    }
+
+    /// What the move from `q` to `to` pays, where `robustness` gives ρ(s', D_φ^q).
+    fn pays(&self, ends: &Ends, q: u32, to: u32, gamma: f64, robustness: f64) -> f64 {
+        let entered = |end| ends.of(q).is_none() && ends.of(to) == Some(end);
+        let lost = entered(End::Lost);
+        let accepted = f64::from(u8::from(entered(End::Accepted)));
+        let paid = match self.mode {
+            Reward::Progress => f64::from(u8::from(q != to && !lost)),
+            Reward::Literal => f64::from(u8::from(q != to)),
+            Reward::Acceptance => accepted,
+            Reward::Robustness { bound } => robustness.clamp(-bound, bound),
+            Reward::Shaped => accepted + gamma * ends.potential(to) - ends.potential(q),
+        };
+        paid - self.step_penalty - if lost { self.trap_penalty } else { 0.0 }
+    }
+
+    /// Whether the reward needs ρ(s', D_φ^q), which depends on more than the class of s'.
+    const fn needs_robustness(&self) -> bool {
+        matches!(self.mode, Reward::Robustness { .. })
+    }
+}
+
+/// How an episode ended for the task.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// The task is satisfied.
+    Accepted,
+    /// The task can never be satisfied any more.
+    Lost,
+}
+
+/// Where episodes end, and how far each automaton state is from acceptance.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Ends {
+    of: Vec<Option<End>>,
+    distance: Vec<u32>,
+    farthest: u32,
+}
+
+impl Ends {
+    fn new<S: ?Sized>(monitor: &(impl Monitor<S> + ?Sized)) -> Self {
+        let end = |q| match (monitor.is_accepting(q), monitor.is_trap(q)) {
+            (true, _) => Some(End::Accepted),
+            (_, true) => Some(End::Lost),
+            _ => None,
+        };
+        let distance: Vec<u32> = (0..monitor.states()).map(|q| monitor.distance(q)).collect();
+        let farthest = distance.iter().copied().filter(|&d| d < u32::MAX).max().unwrap_or(0);
+        Self { of: (0..monitor.states()).map(end).collect(), distance, farthest }
+    }
+
+    #[inline]
+    fn of(&self, q: u32) -> Option<End> {
+        self.of[q as usize]
+    }
+
+    /// The potential Φ of `Shaped`.
+    fn potential(&self, q: u32) -> f64 {
+        let distance = self.distance[q as usize];
+        if self.of(q).is_some() || distance > self.farthest {
+            return 0.0;
+        }
+        1.0 - f64::from(distance) / f64::from(self.farthest + 1)
+    }
+}
+
+/// Any environment beside any task: an environment over (s, q).
+///
+/// A NaN in a state is an error, so its methods are those of [`Env`] with a `Result`.
+#[derive(Clone, Debug)]
+pub struct Augmented<E, M> {
+    env: E,
+    monitor: M,
+    rewards: Rewards,
+    gamma: f64,
+    ends: Ends,
+    q: u32,
+}
+
+impl<E: Env, M: Monitor<E::State>> Augmented<E, M> {
+    /// `env` under the task `monitor`; `gamma` is the learner's discount factor, which only
+    /// [`Reward::Shaped`] reads.
+    pub fn new(env: E, monitor: M, rewards: Rewards, gamma: f64) -> Self {
+        let ends = Ends::new(&monitor);
+        Self { env, monitor, rewards, gamma, ends, q: 0 }
+    }
+
+    /// Starts an episode: the state s_0 and the automaton state that has read it. The episode may
+    /// be over already; see [`Self::end`].
+    ///
+    /// # Errors
+    /// If a predicate is not a number at s_0.
+    pub fn reset<R: Rng + ?Sized>(&mut self, rng: &mut R) -> Result<(E::State, u32), Error> {
+        let state = self.env.reset(rng);
+        self.q = self.monitor.next(0, &state)?;
+        Ok((state, self.q))
+    }
+
+    /// Takes an action; `terminated` where the task ended or the environment did.
+    ///
+    /// # Errors
+    /// If a predicate is not a number at s'.
+    pub fn step<R: Rng + ?Sized>(
+        &mut self,
+        action: usize,
+        rng: &mut R,
+    ) -> Result<Step<(E::State, u32)>, Error> {
+        let step = self.env.step(action, rng);
+        let from = self.q;
+        let robustness = if self.rewards.needs_robustness() {
+            self.monitor.progress_robustness(from, &step.state)?
+        } else {
+            0.0
+        };
+        self.q = self.monitor.next(from, &step.state)?;
+        let paid = self.rewards.pays(&self.ends, from, self.q, self.gamma, robustness);
+        Ok(Step {
+            state: (step.state, self.q),
+            reward: paid + self.rewards.environment * step.reward,
+            terminated: step.terminated || self.end().is_some(),
+            truncated: step.truncated,
+        })
+    }
+
+    /// How the task has ended, if it has.
+    pub fn end(&self) -> Option<End> {
+        self.ends.of(self.q)
+    }
+
+    /// The automaton state.
+    pub const fn q(&self) -> u32 {
+        self.q
+    }
+
+    /// The environment.
+    pub const fn env(&self) -> &E {
+        &self.env
+    }
+
+    /// The task.
+    pub const fn monitor(&self) -> &M {
+        &self.monitor
+    }
+}
+
+/// A task over a finite world, as tables: which class each state is in, and where each automaton
+/// state goes on each class.
+///
+/// Classes are numbered in the order of the states that show them first.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Labelled {
+    class: Vec<u32>,
+    classes: usize,
+    next: Vec<u32>,
+    ends: Ends,
+    robustness: Vec<f64>,
+}
+
+impl Labelled {
+    /// The table of `monitor` over a world's states, in the order of their numbers.
+    ///
+    /// # Errors
+    /// If a predicate is not a number at one of them; `instant` is then the state's number.
+    pub fn new<S>(
+        states: impl IntoIterator<Item = S>,
+        monitor: &(impl Monitor<S> + ?Sized),
+    ) -> Result<Self, Error> {
+        let mut columns = Columns { class: Vec::new(), seen: BTreeMap::new() };
+        let mut column = alloc::vec![0; monitor.states() as usize];
+        for (i, s) in states.into_iter().enumerate() {
+            for (q, to) in column.iter_mut().enumerate() {
+                *to = monitor.next(q as u32, &s).map_err(|e| Error { instant: Some(i), ..e })?;
+            }
+            columns.push(&column);
+        }
+        Ok(columns.into_labelled(Ends::new(monitor)))
+    }
+
+    /// The table of `monitor` over the states of `model`.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn of_model<M: FiniteModel>(
+        model: &M,
+        monitor: &(impl Monitor<M::State> + ?Sized),
+    ) -> Result<Self, Error> {
+        Self::new((0..model.states()).map(|s| model.state(s)), monitor)
+    }
+
+    /// The table of `monitor` over the states of `env`.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn of_env<E: FiniteEnv>(
+        env: &E,
+        monitor: &(impl Monitor<E::State> + ?Sized),
+    ) -> Result<Self, Error> {
+        Self::new((0..env.states()).map(|s| env.state(s)), monitor)
+    }
+
+    /// The same table with ρ(s, D_φ^q) for all q and s, which [`Reward::Robustness`] needs: 8
+    /// bytes for each pair.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn with_robustness<S>(
+        mut self,
+        states: impl IntoIterator<Item = S>,
+        monitor: &(impl Monitor<S> + ?Sized),
+    ) -> Result<Self, Error> {
+        let mut robustness = alloc::vec![0.0; self.pairs()];
+        for (i, s) in states.into_iter().enumerate() {
+            for q in self.live() {
+                let rho = monitor.progress_robustness(q, &s);
+                robustness[self.pair(q, i)] = rho.map_err(|e| Error { instant: Some(i), ..e })?;
+            }
+        }
+        self.robustness = robustness;
+        Ok(self)
+    }
+
+    /// The number of states of the world.
+    #[must_use]
+    pub fn states(&self) -> usize {
+        self.class.len()
+    }
+
+    /// The number of states of the automaton, the trap included.
+    #[must_use]
+    pub fn automaton_states(&self) -> u32 {
+        self.ends.of.len() as u32
+    }
+
+    /// The number of classes.
+    #[must_use]
+    pub fn classes(&self) -> usize {
+        self.classes
+    }
+
+    /// The class of each state of the world.
+    #[must_use]
+    pub fn class(&self) -> &[u32] {
+        &self.class
+    }
+
+    /// The next automaton state, indexed `q * classes + class`.
+    #[must_use]
+    pub fn table(&self) -> &[u32] {
+        &self.next
+    }
+
+    /// δ(q, s): the automaton state after `q` has read `s`.
+    #[inline]
+    #[must_use]
+    pub fn next(&self, q: u32, s: usize) -> u32 {
+        self.next[q as usize * self.classes + self.class[s] as usize]
+    }
+
+    /// The automaton state in which an episode starts that starts in `s`.
+    #[inline]
+    #[must_use]
+    pub fn start(&self, s: usize) -> u32 {
+        self.next(0, s)
+    }
+
+    /// How the task has ended at `q`, if it has.
+    #[inline]
+    #[must_use]
+    pub fn end(&self, q: u32) -> Option<End> {
+        self.ends.of(q)
+    }
+
+    /// The automaton states in which the task goes on.
+    pub fn live(&self) -> impl Iterator<Item = u32> + use<> {
+        let ends = self.ends.of.clone();
+        (0..ends.len() as u32).filter(move |&q| ends[q as usize].is_none())
+    }
+
+    /// The number of pairs (q, s).
+    #[must_use]
+    pub fn pairs(&self) -> usize {
+        self.ends.of.len() * self.class.len()
+    }
+
+    /// The number of the pair (q, s): `q * states + s`.
+    #[inline]
+    #[must_use]
+    pub fn pair(&self, q: u32, s: usize) -> usize {
+        q as usize * self.class.len() + s
+    }
+
+    /// What each move pays under `rewards`.
+    ///
+    /// # Panics
+    /// If the mode is [`Reward::Robustness`] and the table was made without
+    /// [robustness](Self::with_robustness).
+    #[must_use]
+    pub fn payment(&self, rewards: &Rewards, gamma: f64) -> Payment {
+        let pays = |q, to, rho| rewards.pays(&self.ends, q, to, gamma, rho);
+        if !rewards.needs_robustness() {
+            return self.payment_by(|q, to| pays(q, to, 0.0));
+        }
+        assert!(!self.robustness.is_empty(), "this reward needs a table `with_robustness`");
+        self.payment_by_state(|q, s| pays(q, self.next(q, s), self.robustness[self.pair(q, s)]))
+    }
+
+    /// A payment for each move, as `pays(q, q')` says.
+    pub(crate) fn payment_by(&self, mut pays: impl FnMut(u32, u32) -> f64) -> Payment {
+        let moves = self.next.iter().enumerate();
+        let table = moves.map(|(i, &to)| pays((i / self.classes) as u32, to)).collect();
+        Payment { table, width: self.classes, by_state: false }
+    }
+
+    /// A payment for each automaton state and state, as `pays(q, s')` says.
+    pub(crate) fn payment_by_state(&self, mut pays: impl FnMut(u32, usize) -> f64) -> Payment {
+        let width = self.states();
+        let pairs = 0..self.pairs();
+        let table = pairs.map(|pair| pays((pair / width) as u32, pair % width)).collect();
+        Payment { table, width, by_state: true }
+    }
+}
+
+/// What every move of a [`Labelled`] task pays.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Payment {
+    table: Vec<f64>,
+    width: usize,
+    by_state: bool,
+}
+
+impl Payment {
+    /// What reading `s` in `q` pays; `class` is the class of `s`.
+    #[inline]
+    #[must_use]
+    pub fn get(&self, q: u32, s: usize, class: u32) -> f64 {
+        self.table[q as usize * self.width + if self.by_state { s } else { class as usize }]
+    }
+}
+
+/// Columns of the transition table, hash-consed.
+struct Columns {
+    class: Vec<u32>,
+    seen: BTreeMap<Vec<u32>, u32>,
+}
+
+impl Columns {
+    fn push(&mut self, column: &[u32]) {
+        let class = self.seen.get(column).copied().unwrap_or_else(|| {
+            let class = self.seen.len() as u32;
+            self.seen.insert(column.to_vec(), class);
+            class
+        });
+        self.class.push(class);
+    }
+
+    fn into_labelled(self, ends: Ends) -> Labelled {
+        let classes = self.seen.len();
+        let mut next = alloc::vec![0; ends.of.len() * classes];
+        for (column, class) in self.seen {
+            for (q, to) in column.into_iter().enumerate() {
+                next[q * classes + class as usize] = to;
+            }
+        }
+        Labelled { class: self.class, classes, next, ends, robustness: Vec::new() }
+    }
+}

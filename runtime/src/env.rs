@@ -1,0 +1,281 @@
+//! Environments: what an agent acts in, as in Gymnasium.
+//!
+//! [`Env`] is any world; [`FiniteEnv`] one whose states are numbered; [`ModelEnv`] turns a
+//! [`FiniteModel`] into an environment that samples it from alias tables, at a few nanoseconds a
+//! step. All randomness comes through the `Rng` argument, so a seed fixes a run.
+
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+use rand::Rng;
+
+use crate::model::{Dynamics, FiniteModel, ModelError};
+
+/// What one step of an environment gives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Step<S> {
+    /// The state after the step, s'.
+    pub state: S,
+    /// What the environment itself pays: a cost of a failed action, say. Tasks pay on top of it.
+    pub reward: f64,
+    /// The episode is over, and nothing can be had from here on.
+    pub terminated: bool,
+    /// The episode was cut here; its value goes on.
+    pub truncated: bool,
+}
+
+impl<S> Step<S> {
+    /// A step that pays nothing and ends nothing.
+    pub const fn to(state: S) -> Self {
+        Self { state, reward: 0.0, terminated: false, truncated: false }
+    }
+}
+
+/// An environment.
+pub trait Env {
+    /// What an agent observes and predicates read.
+    type State;
+
+    /// The number of actions; they are numbered `0..actions()`.
+    fn actions(&self) -> usize;
+
+    /// Starts an episode and returns its first state, s_0.
+    fn reset<R: Rng + ?Sized>(&mut self, rng: &mut R) -> Self::State;
+
+    /// Takes an action.
+    fn step<R: Rng + ?Sized>(&mut self, action: usize, rng: &mut R) -> Step<Self::State>;
+
+    /// What action `a` is called where it is shown.
+    fn action_name(&self, a: usize) -> String {
+        a.to_string()
+    }
+}
+
+/// An environment with numbered states.
+pub trait FiniteEnv: Env {
+    /// The number of states; they are numbered `0..states()`.
+    fn states(&self) -> usize;
+
+    /// The state with number `s`.
+    fn state(&self, s: usize) -> Self::State;
+
+    /// The number of the state that the environment is in.
+    fn state_index(&self) -> usize;
+}
+
+/// An environment whose episodes are truncated after a number of steps.
+#[derive(Clone, Debug)]
+pub struct TimeLimit<E> {
+    env: E,
+    horizon: u64,
+    elapsed: u64,
+}
+
+impl<E> TimeLimit<E> {
+    /// `env`, truncated after `horizon` steps.
+    pub const fn new(env: E, horizon: u64) -> Self {
+        Self { env, horizon, elapsed: 0 }
+    }
+}
+
+impl<E: Env> Env for TimeLimit<E> {
+    type State = E::State;
+
+    fn actions(&self) -> usize {
+        self.env.actions()
+    }
+
+    fn reset<R: Rng + ?Sized>(&mut self, rng: &mut R) -> E::State {
+        self.elapsed = 0;
+        self.env.reset(rng)
+    }
+
+    fn step<R: Rng + ?Sized>(&mut self, action: usize, rng: &mut R) -> Step<E::State> {
+        self.elapsed += 1;
+        let step = self.env.step(action, rng);
+        Step { truncated: step.truncated || self.elapsed >= self.horizon, ..step }
+    }
+
+    fn action_name(&self, a: usize) -> String {
+        self.env.action_name(a)
+    }
+}
+
+impl<E: FiniteEnv> FiniteEnv for TimeLimit<E> {
+    fn states(&self) -> usize {
+        self.env.states()
+    }
+
+    fn state(&self, s: usize) -> E::State {
+        self.env.state(s)
+    }
+
+    fn state_index(&self) -> usize {
+        self.env.state_index()
+    }
+}
+
+/// A number in `0..n`, uniform up to a relative error of `n / 2^32`.
+#[inline]
+pub(crate) fn below(n: usize, rng: &mut (impl Rng + ?Sized)) -> usize {
+    ((u64::from(rng.next_u32()) * n as u64) >> 32) as usize
+}
+
+/// A number in [0, 1) with 53 random bits.
+#[inline]
+pub(crate) fn unit(rng: &mut (impl Rng + ?Sized)) -> f64 {
+    (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64
+}
+
+/// One column of an alias table (Walker 1977, Vose 1991): itself below the threshold, else the
+/// alias.
+#[derive(Clone, Copy, Debug)]
+struct Column {
+    threshold: u32,
+    alias: u32,
+}
+
+/// Samples a column from one random word: its high half chooses, its low half decides.
+#[inline]
+fn sample(columns: &[Column], word: u64) -> usize {
+    let at = (((word >> 32) * columns.len() as u64) >> 32) as usize;
+    let column = columns[at];
+    if (word as u32) < column.threshold { at } else { column.alias as usize }
+}
+
+/// The alias table of a distribution; probabilities are kept to 2^-32.
+fn alias_table(probabilities: &[f64]) -> Vec<Column> {
+    let n = probabilities.len();
+    let mut mass: Vec<f64> = probabilities.iter().map(|p| p * n as f64).collect();
+    let mut columns: Vec<Column> =
+        (0..n).map(|i| Column { threshold: u32::MAX, alias: i as u32 }).collect();
+    let (mut small, mut large): (Vec<usize>, Vec<usize>) = (0..n).partition(|&i| mass[i] < 1.0);
+    while let (Some(i), Some(&j)) = (small.pop(), large.last()) {
+        columns[i] = Column { threshold: (mass[i] * 4_294_967_296.0) as u32, alias: j as u32 };
+        mass[j] -= 1.0 - mass[i];
+        if mass[j] < 1.0 {
+            small.extend(large.pop());
+        }
+    }
+    columns
+}
+
+/// A [`FiniteModel`] as an environment.
+///
+/// ```
+/// # use tltl::{env::{Env, ModelEnv}, model::FiniteModel};
+/// # use tltl::rand::{SeedableRng, rngs::Xoshiro256PlusPlus};
+/// struct Coin;
+/// impl FiniteModel for Coin {
+///     type State = usize;
+///     fn states(&self) -> usize { 2 }
+///     fn actions(&self) -> usize { 1 }
+///     fn state(&self, s: usize) -> usize { s }
+///     fn transitions(&self, _: usize, _: usize, mut outcome: impl FnMut(usize, f64)) {
+///         outcome(0, 0.5);
+///         outcome(1, 0.5);
+///     }
+/// }
+/// let mut env = ModelEnv::new(Coin).unwrap();
+/// let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
+/// env.reset(&mut rng);
+/// assert!(env.step(0, &mut rng).state < 2);
+/// assert_eq!(env.steps(), 1);
+/// ```
+#[derive(Clone, Debug)]
+pub struct ModelEnv<M> {
+    model: M,
+    dynamics: Dynamics,
+    /// Alias tables, parallel to the probabilities of `dynamics`.
+    columns: Vec<Column>,
+    starts: Vec<Column>,
+    state: usize,
+    steps: u64,
+}
+
+impl<M: FiniteModel> ModelEnv<M> {
+    /// The environment that samples `model`.
+    ///
+    /// # Errors
+    /// If the model's outcomes or starts are not distributions.
+    pub fn new(model: M) -> Result<Self, ModelError> {
+        let dynamics = Dynamics::new(&model)?;
+        let columns = columns(&dynamics);
+        let starts = alias_table(dynamics.starts());
+        Ok(Self { model, dynamics, columns, starts, state: 0, steps: 0 })
+    }
+
+    /// The model.
+    pub const fn model(&self) -> &M {
+        &self.model
+    }
+
+    /// The model's tables, as solvers take them.
+    pub const fn dynamics(&self) -> &Dynamics {
+        &self.dynamics
+    }
+
+    /// How many steps have been taken in this environment, over all episodes.
+    pub const fn steps(&self) -> u64 {
+        self.steps
+    }
+}
+
+/// The alias tables of all distinct rows, in place.
+fn columns(dynamics: &Dynamics) -> Vec<Column> {
+    let empty = Column { threshold: 0, alias: 0 };
+    let mut columns = alloc::vec![empty; dynamics.probabilities().len()];
+    let mut done = alloc::vec![false; columns.len()];
+    for s in 0..dynamics.states() {
+        let offset = dynamics.matrix_offset(s);
+        if !core::mem::replace(&mut done[offset], true) {
+            let table = dynamics.matrix(s).chunks(dynamics.successors(s).len());
+            let table: Vec<Column> = table.flat_map(alias_table).collect();
+            columns[offset..offset + table.len()].copy_from_slice(&table);
+        }
+    }
+    columns
+}
+
+impl<M: FiniteModel> Env for ModelEnv<M> {
+    type State = M::State;
+
+    fn actions(&self) -> usize {
+        self.dynamics.actions()
+    }
+
+    #[inline]
+    fn reset<R: Rng + ?Sized>(&mut self, rng: &mut R) -> M::State {
+        self.state = sample(&self.starts, rng.next_u64());
+        self.model.state(self.state)
+    }
+
+    #[inline]
+    fn step<R: Rng + ?Sized>(&mut self, action: usize, rng: &mut R) -> Step<M::State> {
+        let successors = self.dynamics.successors(self.state);
+        let row = self.dynamics.matrix_offset(self.state) + action * successors.len();
+        let columns = &self.columns[row..row + successors.len()];
+        self.state = successors[sample(columns, rng.next_u64())] as usize;
+        self.steps += 1;
+        Step::to(self.model.state(self.state))
+    }
+
+    fn action_name(&self, a: usize) -> String {
+        self.model.action_name(a)
+    }
+}
+
+impl<M: FiniteModel> FiniteEnv for ModelEnv<M> {
+    fn states(&self) -> usize {
+        self.dynamics.states()
+    }
+
+    fn state(&self, s: usize) -> M::State {
+        self.model.state(s)
+    }
+
+    #[inline]
+    fn state_index(&self) -> usize {
+        self.state
+    }
+}

@@ -1,0 +1,103 @@
+//! What was seen of a world: a replay log that does not grow with its length.
+
+use alloc::vec::Vec;
+
+#[cfg(feature = "serde")]
+use serde::{Deserialize, Serialize};
+
+use crate::model::FiniteModel;
+
+/// How often each (s, a, s') and each start was seen.
+///
+/// A log of transitions, order forgotten. It names no automaton state: any task can be relabelled
+/// onto it, so the experience of one skill serves every other. As a [`FiniteModel`] it is the
+/// world with the frequencies as probabilities, and what is [solved](crate::solve::Problem) on it
+/// is what endless replay of the log converges to. An action that was never tried in a state
+/// counts as staying there.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+pub struct Experience {
+    actions: usize,
+    /// The outcomes of each `s * actions + a`.
+    outcomes: Vec<Vec<(u32, u32)>>,
+    starts: Vec<u32>,
+}
+
+impl Experience {
+    /// No experience of a world of this size.
+    #[must_use]
+    pub fn new(states: usize, actions: usize) -> Self {
+        let outcomes = alloc::vec![Vec::new(); states * actions];
+        Self { actions, outcomes, starts: alloc::vec![0; states] }
+    }
+
+    /// Adds a start in `s`.
+    #[inline]
+    pub fn start(&mut self, s: usize) {
+        self.starts[s] = self.starts[s].saturating_add(1);
+    }
+
+    /// Adds a step from `s` to `to` under action `a`.
+    #[inline]
+    pub fn push(&mut self, s: usize, a: usize, to: usize) {
+        self.add(s * self.actions + a, to as u32, 1);
+    }
+
+    #[inline]
+    fn add(&mut self, cell: usize, to: u32, times: u32) {
+        let list = &mut self.outcomes[cell];
+        match list.iter_mut().find(|(seen, _)| *seen == to) {
+            Some((_, count)) => *count = count.saturating_add(times),
+            None => list.push((to, times)),
+        }
+    }
+
+    /// Adds all of another experience of the same world.
+    ///
+    /// # Panics
+    /// If the worlds differ in size.
+    pub fn extend(&mut self, other: &Self) {
+        let size = |e: &Self| (e.actions, e.starts.len());
+        assert_eq!(size(self), size(other), "experience of the same world");
+        for (cell, list) in other.outcomes.iter().enumerate() {
+            list.iter().for_each(|&(to, times)| self.add(cell, to, times));
+        }
+        self.starts.iter_mut().zip(&other.starts).for_each(|(n, m)| *n = n.saturating_add(*m));
+    }
+
+    /// How often `a` was tried in `s`.
+    #[must_use]
+    pub fn tried(&self, s: usize, a: usize) -> u64 {
+        self.outcomes[s * self.actions + a].iter().map(|&(_, times)| u64::from(times)).sum()
+    }
+}
+
+impl FiniteModel for Experience {
+    type State = usize;
+
+    fn states(&self) -> usize {
+        self.starts.len()
+    }
+
+    fn actions(&self) -> usize {
+        self.actions
+    }
+
+    fn state(&self, s: usize) -> usize {
+        s
+    }
+
+    fn transitions(&self, s: usize, a: usize, mut outcome: impl FnMut(usize, f64)) {
+        let total = self.tried(s, a);
+        if total == 0 {
+            outcome(s, 1.0);
+        }
+        for &(to, times) in &self.outcomes[s * self.actions + a] {
+            outcome(to as usize, f64::from(times) / total as f64);
+        }
+    }
+
+    fn start(&self, s: usize) -> f64 {
+        f64::from(self.starts[s])
+    }
+}

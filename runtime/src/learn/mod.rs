@@ -1,0 +1,300 @@
+//! Tabular Q-learning on the FSA-augmented MDP.
+//!
+//! A [`Learner`] holds all that learning changes: the table, the visit counts, its random
+//! generator, the experience. [`Learner::train`] runs whole episodes until a total number of
+//! environment steps is reached, so that training in slices (to show progress, to write a
+//! checkpoint) gives bit for bit what training at once gives; with serde a learner can be saved
+//! between slices and resumed.
+//!
+//! [`Settings::paper`] is the paper's recipe. [`Settings::default`] learns better from the same
+//! steps: a world's step does not depend on q, so each one updates *every* live automaton state
+//! (counterfactual updates, Toro Icarte et al. 2018), and the step size falls with the visits, so
+//! that values converge instead of rattling at the width of α.
+
+mod experience;
+
+use alloc::vec::Vec;
+
+use rand::rngs::Xoshiro256PlusPlus;
+use rand::{Rng, SeedableRng};
+#[cfg(feature = "serde")]
+use serde::{Deserialize, Serialize};
+
+pub use experience::Experience;
+
+use crate::augmented::{Labelled, Payment, Rewards};
+use crate::env::{FiniteEnv, below, unit};
+use crate::q::QTable;
+
+/// Episodes in a row that are over at reset before training gives up.
+const IDLE: u32 = 100_000;
+
+/// A number that changes while learning goes on; n counts what its user counts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
+pub enum Schedule {
+    /// The same for ever.
+    Constant(f64),
+    /// From one number to another over `steps`, then that.
+    Linear {
+        /// At n = 0.
+        from: f64,
+        /// From n = `steps` on.
+        to: f64,
+        /// How long it takes.
+        steps: u64,
+    },
+    /// `start · half / (half + n)`: half of `start` at n = `half`. As a step size it satisfies the
+    /// conditions of Robbins and Monro.
+    Harmonic {
+        /// At n = 0.
+        start: f64,
+        /// The n at which half is left.
+        half: f64,
+    },
+}
+
+impl Schedule {
+    /// The number at `n`.
+    #[inline]
+    #[must_use]
+    pub fn at(&self, n: u64) -> f64 {
+        match *self {
+            Self::Constant(value) => value,
+            Self::Linear { from, to, steps } => {
+                let done = if n < steps { n as f64 / steps as f64 } else { 1.0 };
+                from + (to - from) * done
+            }
+            Self::Harmonic { start, half } => start * half / (half + n as f64),
+        }
+    }
+}
+
+/// How to learn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+pub struct Settings {
+    /// The discount factor, 0 ≤ γ < 1.
+    pub gamma: f64,
+    /// The step size, at the number of earlier updates of the same entry.
+    pub alpha: Schedule,
+    /// The probability of a random action, at the number of earlier environment steps.
+    pub epsilon: Schedule,
+    /// Steps after which an episode is truncated.
+    pub horizon: u32,
+    /// Whether each step updates every live automaton state, not only the current one.
+    pub counterfactual: bool,
+    /// The value that entries start from; optimistic if no true value exceeds it.
+    pub initial: f64,
+    /// What is paid.
+    pub rewards: Rewards,
+    /// Whether to keep the [`Experience`], for composition.
+    pub remember: bool,
+}
+
+impl Settings {
+    /// The paper's recipe (Section 5.1): γ 0.95, α 0.1, horizon 200, random exploration.
+    #[must_use]
+    pub fn paper() -> Self {
+        Self {
+            gamma: 0.95,
+            alpha: Schedule::Constant(0.1),
+            epsilon: Schedule::Constant(1.0),
+            horizon: 200,
+            counterfactual: false,
+            initial: 0.0,
+            rewards: Rewards::default(),
+            remember: false,
+        }
+    }
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        let alpha = Schedule::Harmonic { start: 1.0, half: 20.0 };
+        Self { alpha, counterfactual: true, remember: true, ..Self::paper() }
+    }
+}
+
+/// A tabular Q-learner (Watkins 1989) on the augmented MDP of a finite environment.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+pub struct Learner<R = Xoshiro256PlusPlus> {
+    settings: Settings,
+    q: QTable,
+    /// Updates of each entry: (s, a) if all automaton states share them, else (q, s, a).
+    visits: Vec<u32>,
+    experience: Experience,
+    rng: R,
+    steps: u64,
+    episodes: u64,
+}
+
+impl Learner {
+    /// A learner of `task` with `actions` actions, seeded.
+    #[must_use]
+    pub fn new(task: &Labelled, actions: usize, settings: Settings, seed: u64) -> Self {
+        Self::with_rng(task, actions, settings, Xoshiro256PlusPlus::seed_from_u64(seed))
+    }
+}
+
+impl<R: Rng> Learner<R> {
+    /// A learner with a random generator of the user's.
+    #[must_use]
+    pub fn with_rng(task: &Labelled, actions: usize, settings: Settings, rng: R) -> Self {
+        let entries = if settings.counterfactual { task.states() } else { task.pairs() };
+        let remembered = if settings.remember { task.states() } else { 0 };
+        Self {
+            settings,
+            q: QTable::filled(task, actions, settings.initial),
+            visits: alloc::vec![0; entries * actions],
+            experience: Experience::new(remembered, actions),
+            rng,
+            steps: 0,
+            episodes: 0,
+        }
+    }
+
+    /// Runs whole episodes until `total` environment steps have been taken since the beginning;
+    /// the last episode may exceed it by less than the horizon. Slices do not matter: `train` to
+    /// 1000 and then to 2000 is the same as to 2000.
+    ///
+    /// Gives up early if 100,000 episodes in a row are over at their very first state.
+    ///
+    /// # Panics
+    /// If the environment or the task are not of the sizes the learner was made for.
+    pub fn train<E: FiniteEnv>(&mut self, env: &mut E, task: &Labelled, total: u64) {
+        assert_eq!(env.states(), task.states(), "a task is labelled on its own world");
+        assert_eq!(
+            (env.states(), env.actions(), task.automaton_states()),
+            (self.q.states(), self.q.actions(), self.q.automaton_states()),
+            "a learner stays with its world and its task"
+        );
+        let updates = Updates::new(task, &self.settings);
+        let mut idle = 0;
+        while self.steps < total && idle < IDLE {
+            let before = self.steps;
+            self.episode(env, &updates);
+            idle = if self.steps == before { idle + 1 } else { 0 };
+        }
+    }
+
+    fn episode<E: FiniteEnv>(&mut self, env: &mut E, updates: &Updates<'_>) {
+        env.reset(&mut self.rng);
+        self.episodes += 1;
+        let task = updates.task;
+        let mut s = env.state_index();
+        let mut q = task.start(s);
+        if self.settings.remember {
+            self.experience.start(s);
+        }
+        for _ in 0..self.settings.horizon {
+            if task.end(q).is_some() {
+                break;
+            }
+            let a = self.act(q, s);
+            let step = env.step(a, &mut self.rng);
+            let to = env.state_index();
+            self.steps += 1;
+            let paid = self.settings.rewards.environment * step.reward;
+            self.learn(updates, q, &Seen { s, a, to, paid, terminated: step.terminated });
+            (q, s) = (task.next(q, to), to);
+            if step.terminated || step.truncated {
+                break;
+            }
+        }
+    }
+
+    /// ε-greedy.
+    #[inline]
+    fn act(&mut self, q: u32, s: usize) -> usize {
+        let epsilon = self.settings.epsilon.at(self.steps);
+        if epsilon >= 1.0 || unit(&mut self.rng) < epsilon {
+            below(self.q.actions(), &mut self.rng)
+        } else {
+            self.q.greedy(q, s) as usize
+        }
+    }
+
+    #[inline]
+    fn learn(&mut self, updates: &Updates<'_>, q: u32, seen: &Seen) {
+        if self.settings.remember {
+            self.experience.push(seen.s, seen.a, seen.to);
+        }
+        let layer = if self.settings.counterfactual { 0 } else { q as usize * self.q.states() };
+        let visits = &mut self.visits[(layer + seen.s) * self.q.actions() + seen.a];
+        let alpha = self.settings.alpha.at(u64::from(*visits));
+        *visits = visits.saturating_add(1);
+        if self.settings.counterfactual {
+            updates.live.iter().for_each(|&q| updates.apply(&mut self.q, q, seen, alpha));
+        } else {
+            updates.apply(&mut self.q, q, seen, alpha);
+        }
+    }
+
+    /// The action values so far.
+    #[must_use]
+    pub const fn q(&self) -> &QTable {
+        &self.q
+    }
+
+    /// What was seen, if the settings say to remember it.
+    #[must_use]
+    pub const fn experience(&self) -> &Experience {
+        &self.experience
+    }
+
+    /// The settings.
+    #[must_use]
+    pub const fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// Environment steps so far.
+    #[must_use]
+    pub const fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// Episodes so far.
+    #[must_use]
+    pub const fn episodes(&self) -> u64 {
+        self.episodes
+    }
+}
+
+/// One step of the world.
+struct Seen {
+    s: usize,
+    a: usize,
+    to: usize,
+    paid: f64,
+    terminated: bool,
+}
+
+/// What an update needs and learning does not change.
+struct Updates<'a> {
+    task: &'a Labelled,
+    payment: Payment,
+    live: Vec<u32>,
+    gamma: f64,
+}
+
+impl<'a> Updates<'a> {
+    fn new(task: &'a Labelled, settings: &Settings) -> Self {
+        let payment = task.payment(&settings.rewards, settings.gamma);
+        Self { task, payment, live: task.live().collect(), gamma: settings.gamma }
+    }
+
+    /// Q ← Q + α (r + γ max Q' − Q); the rows of terminal automaton states are 0.
+    #[inline]
+    fn apply(&self, table: &mut QTable, q: u32, seen: &Seen, alpha: f64) {
+        let to = self.task.next(q, seen.to);
+        let rest = if seen.terminated { 0.0 } else { self.gamma * table.max(to, seen.to) };
+        let class = self.task.class()[seen.to];
+        let target = self.payment.get(q, seen.to, class) + seen.paid + rest;
+        let value = &mut table.row_mut(q, seen.s)[seen.a];
+        *value += alpha * (target - *value);
+    }
+}

@@ -1,0 +1,294 @@
+//! Finite models: a world whose transition probabilities are known, compiled into tables.
+//!
+//! A user describes a world by [`FiniteModel`] (about 20 lines for a grid). [`Dynamics`] is the
+//! form in which solvers and [`ModelEnv`](crate::env::ModelEnv) read it: each state has one list
+//! of successors that its actions share, and the matrix of their probabilities is hash-consed, for
+//! in most worlds few are different (a grid with slip has 9: inside, edges, corners). So a state
+//! costs about 30 bytes, and a backup reads each successor's value once for all actions.
+
+use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+use core::fmt;
+
+/// A finite Markov decision process with known probabilities p(s' | s, a); its rewards come from
+/// the task.
+pub trait FiniteModel {
+    /// What predicates read.
+    type State;
+
+    /// The number of states; they are numbered `0..states()`.
+    fn states(&self) -> usize;
+
+    /// The number of actions; they are numbered `0..actions()`.
+    fn actions(&self) -> usize;
+
+    /// The state with number `s`.
+    fn state(&self, s: usize) -> Self::State;
+
+    /// Calls `outcome(s', p)` for the outcomes of action `a` in state `s`. The same `s'` may come
+    /// more than once; the probabilities sum to one.
+    fn transitions(&self, s: usize, a: usize, outcome: impl FnMut(usize, f64));
+
+    /// The weight with which an episode starts in `s`; equal weights unless overridden.
+    fn start(&self, s: usize) -> f64 {
+        let _ = s;
+        1.0
+    }
+
+    /// What action `a` is called where it is shown.
+    fn action_name(&self, a: usize) -> String {
+        a.to_string()
+    }
+}
+
+impl<M: FiniteModel> FiniteModel for &M {
+    type State = M::State;
+
+    fn states(&self) -> usize {
+        (**self).states()
+    }
+
+    fn actions(&self) -> usize {
+        (**self).actions()
+    }
+
+    fn state(&self, s: usize) -> M::State {
+        (**self).state(s)
+    }
+
+    fn transitions(&self, s: usize, a: usize, outcome: impl FnMut(usize, f64)) {
+        (**self).transitions(s, a, outcome);
+    }
+
+    fn start(&self, s: usize) -> f64 {
+        (**self).start(s)
+    }
+
+    fn action_name(&self, a: usize) -> String {
+        (**self).action_name(a)
+    }
+}
+
+/// A [`FiniteModel`] that is not one.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ModelError {
+    /// There are no states, no actions, or more than `u32::MAX` states.
+    Size {
+        /// The number of states.
+        states: usize,
+        /// The number of actions.
+        actions: usize,
+    },
+    /// The outcomes of an action are not a distribution over the states.
+    Outcomes {
+        /// The state.
+        state: usize,
+        /// The action.
+        action: usize,
+        /// What the probabilities sum to.
+        sum: f64,
+    },
+    /// The start weights are not a distribution: one is negative or not a number, or all are 0.
+    Starts,
+}
+
+impl fmt::Display for ModelError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Size { states, actions } => {
+                write!(f, "a model needs states and actions, this has {states} and {actions}")
+            }
+            Self::Outcomes { state, action, sum } => write!(
+                f,
+                "action {action} in state {state}: the outcomes are not a distribution over the \
+                 states (the probabilities sum to {sum})"
+            ),
+            Self::Starts => f.write_str("the start weights are not a distribution"),
+        }
+    }
+}
+
+impl core::error::Error for ModelError {}
+
+/// The transition probabilities of a finite model as tables.
+///
+/// Invariants: successors are sorted and distinct within a state; every row of probabilities sums
+/// to one.
+#[derive(Clone, Debug)]
+pub struct Dynamics {
+    actions: usize,
+    first: Vec<u32>,
+    successors: Vec<u32>,
+    matrix: Vec<u32>,
+    probabilities: Vec<f64>,
+    starts: Vec<f64>,
+}
+
+impl Dynamics {
+    /// The tables of `model`.
+    ///
+    /// # Errors
+    /// If its outcomes or starts are not distributions.
+    pub fn new<M: FiniteModel>(model: &M) -> Result<Self, ModelError> {
+        let (states, actions) = (model.states(), model.actions());
+        if states == 0 || actions == 0 || u32::try_from(states).is_err() {
+            return Err(ModelError::Size { states, actions });
+        }
+        let mut builder = Builder::new(states, actions);
+        for s in 0..states {
+            builder.push(model, s)?;
+        }
+        let starts = distribution((0..states).map(|s| model.start(s)).collect())?;
+        Ok(Self { starts, ..builder.dynamics })
+    }
+
+    /// The number of states.
+    #[must_use]
+    pub fn states(&self) -> usize {
+        self.matrix.len()
+    }
+
+    /// The number of actions.
+    #[must_use]
+    pub fn actions(&self) -> usize {
+        self.actions
+    }
+
+    /// The states that some action leads to from `s`, ascending.
+    #[inline]
+    #[must_use]
+    pub fn successors(&self, s: usize) -> &[u32] {
+        &self.successors[self.first[s] as usize..self.first[s + 1] as usize]
+    }
+
+    /// The probabilities of the [successors](Self::successors) of `s`, one row for each action.
+    #[inline]
+    #[must_use]
+    pub fn matrix(&self, s: usize) -> &[f64] {
+        let width = (self.first[s + 1] - self.first[s]) as usize;
+        let start = self.matrix_offset(s);
+        &self.probabilities[start..start + width * self.actions]
+    }
+
+    /// The probability of starting in each state.
+    #[must_use]
+    pub fn starts(&self) -> &[f64] {
+        &self.starts
+    }
+
+    /// Where the matrix of `s` starts among [all](Self::probabilities).
+    #[inline]
+    pub(crate) fn matrix_offset(&self, s: usize) -> usize {
+        self.matrix[s] as usize
+    }
+
+    /// The distinct matrices, one after the other.
+    pub(crate) fn probabilities(&self) -> &[f64] {
+        &self.probabilities
+    }
+
+    /// For each state those that some action leads to it from, as (first, list).
+    pub(crate) fn predecessors(&self) -> (Vec<u32>, Vec<u32>) {
+        let mut first = alloc::vec![0; self.states() + 2];
+        self.successors.iter().for_each(|&to| first[to as usize + 2] += 1);
+        for s in 2..first.len() {
+            first[s] += first[s - 1];
+        }
+        let mut list = alloc::vec![0; self.successors.len()];
+        for s in 0..self.states() {
+            for &to in self.successors(s) {
+                let at = &mut first[to as usize + 1];
+                list[*at as usize] = s as u32;
+                *at += 1;
+            }
+        }
+        (first, list)
+    }
+}
+
+/// `weights`, scaled to sum to one.
+fn distribution(mut weights: Vec<f64>) -> Result<Vec<f64>, ModelError> {
+    let sum: f64 = weights.iter().sum();
+    if !(sum > 0.0 && sum.is_finite() && weights.iter().all(|&w| w >= 0.0)) {
+        return Err(ModelError::Starts);
+    }
+    weights.iter_mut().for_each(|w| *w /= sum);
+    Ok(weights)
+}
+
+/// Collects the tables state by state.
+struct Builder {
+    dynamics: Dynamics,
+    /// Where each distinct matrix starts, by its bits.
+    seen: BTreeMap<Vec<u64>, u32>,
+    outcomes: Vec<(usize, u32, f64)>,
+}
+
+impl Builder {
+    fn new(states: usize, actions: usize) -> Self {
+        let mut first = Vec::with_capacity(states + 1);
+        first.push(0);
+        let dynamics = Dynamics {
+            actions,
+            first,
+            successors: Vec::new(),
+            matrix: Vec::with_capacity(states),
+            probabilities: Vec::new(),
+            starts: Vec::new(),
+        };
+        Self { dynamics, seen: BTreeMap::new(), outcomes: Vec::new() }
+    }
+
+    fn push<M: FiniteModel>(&mut self, model: &M, s: usize) -> Result<(), ModelError> {
+        self.outcomes.clear();
+        for a in 0..self.dynamics.actions {
+            self.read(model, s, a)?;
+        }
+        let start = self.dynamics.successors.len();
+        let list: BTreeSet<u32> = self.outcomes.iter().map(|&(_, to, _)| to).collect();
+        self.dynamics.successors.extend(list);
+        let matrix = self.dense(start);
+        let offset = self.intern(&matrix);
+        self.dynamics.matrix.push(offset);
+        self.dynamics.first.push(self.dynamics.successors.len() as u32);
+        Ok(())
+    }
+
+    fn read<M: FiniteModel>(&mut self, model: &M, s: usize, a: usize) -> Result<(), ModelError> {
+        let (mut sum, mut valid) = (0.0, true);
+        model.transitions(s, a, |to, p| {
+            valid &= to < model.states() && p >= 0.0;
+            sum += p;
+            if p > 0.0 {
+                self.outcomes.push((a, to as u32, p));
+            }
+        });
+        if valid && f64::abs(sum - 1.0) < 1e-9 {
+            Ok(())
+        } else {
+            Err(ModelError::Outcomes { state: s, action: a, sum })
+        }
+    }
+
+    /// The outcomes as a matrix over the successors from `start` on.
+    fn dense(&self, start: usize) -> Vec<f64> {
+        let list = &self.dynamics.successors[start..];
+        let mut matrix = alloc::vec![0.0; self.dynamics.actions * list.len()];
+        for &(a, to, p) in &self.outcomes {
+            let column = list.partition_point(|&other| other < to);
+            matrix[a * list.len() + column] += p;
+        }
+        matrix
+    }
+
+    fn intern(&mut self, matrix: &[f64]) -> u32 {
+        let bits: Vec<u64> = matrix.iter().map(|p| p.to_bits()).collect();
+        let next = self.dynamics.probabilities.len() as u32;
+        let offset = *self.seen.entry(bits).or_insert(next);
+        if offset == next {
+            self.dynamics.probabilities.extend_from_slice(matrix);
+        }
+        offset
+    }
+}

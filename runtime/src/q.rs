@@ -1,0 +1,145 @@
+//! Dense tables of action values Q(s, q, a), and the policies that are greedy in them.
+
+use alloc::vec::Vec;
+
+#[cfg(feature = "serde")]
+use serde::{Deserialize, Serialize};
+
+use crate::augmented::Labelled;
+
+/// Action values indexed (q, s, a): `((q * states) + s) * actions + a`.
+///
+/// Rows of terminal automaton states are 0. Where an action is chosen, ties go to the lowest
+/// index.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+pub struct QTable {
+    values: Vec<f64>,
+    states: usize,
+    actions: usize,
+}
+
+impl QTable {
+    /// A table of zeros for a task over a world with `actions` actions.
+    #[must_use]
+    pub fn zeros(labelled: &Labelled, actions: usize) -> Self {
+        let values = alloc::vec![0.0; labelled.pairs() * actions];
+        Self { values, states: labelled.states(), actions }
+    }
+
+    /// A table of `value` in all live automaton states: an optimistic start is one that no true
+    /// value exceeds.
+    #[must_use]
+    pub fn filled(labelled: &Labelled, actions: usize, value: f64) -> Self {
+        let mut table = Self::zeros(labelled, actions);
+        for q in labelled.live() {
+            table.layer_mut(q).fill(value);
+        }
+        table
+    }
+
+    /// The number of states of the world.
+    #[must_use]
+    pub const fn states(&self) -> usize {
+        self.states
+    }
+
+    /// The number of actions.
+    #[must_use]
+    pub const fn actions(&self) -> usize {
+        self.actions
+    }
+
+    /// The number of automaton states.
+    #[must_use]
+    pub fn automaton_states(&self) -> u32 {
+        (self.values.len() / (self.states * self.actions)) as u32
+    }
+
+    /// All values, in the order of the index.
+    #[must_use]
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// Q(s, q, ·).
+    #[inline]
+    #[must_use]
+    pub fn row(&self, q: u32, s: usize) -> &[f64] {
+        let start = (q as usize * self.states + s) * self.actions;
+        &self.values[start..start + self.actions]
+    }
+
+    /// Q(s, q, ·), to change it.
+    #[inline]
+    pub fn row_mut(&mut self, q: u32, s: usize) -> &mut [f64] {
+        let start = (q as usize * self.states + s) * self.actions;
+        &mut self.values[start..start + self.actions]
+    }
+
+    /// Q(·, q, ·), the values by which the sub-policy of `q` is chosen (paper, Eq. 3A5).
+    #[must_use]
+    pub fn layer(&self, q: u32) -> &[f64] {
+        let size = self.states * self.actions;
+        &self.values[q as usize * size..][..size]
+    }
+
+    fn layer_mut(&mut self, q: u32) -> &mut [f64] {
+        let size = self.states * self.actions;
+        &mut self.values[q as usize * size..][..size]
+    }
+
+    /// V(s, q): the largest value of an action.
+    #[inline]
+    #[must_use]
+    pub fn max(&self, q: u32, s: usize) -> f64 {
+        largest(self.row(q, s))
+    }
+
+    /// The action of the largest value.
+    #[inline]
+    #[must_use]
+    pub fn greedy(&self, q: u32, s: usize) -> u32 {
+        argmax(self.row(q, s))
+    }
+
+    /// The greedy policy, indexed `q * states + s`.
+    #[must_use]
+    pub fn policy(&self) -> Vec<u32> {
+        self.values.chunks(self.actions).map(argmax).collect()
+    }
+
+    /// The table divided by its largest value, as before a composition (paper, Section 5.1); the
+    /// same table if that is not positive.
+    #[must_use]
+    pub fn normalised(&self) -> Self {
+        let top = largest(&self.values);
+        let scale = if top > 0.0 { 1.0 / top } else { 1.0 };
+        Self { values: self.values.iter().map(|v| v * scale).collect(), ..*self }
+    }
+
+    /// Changes every value of the pair (q, s) by `change(a, value)`, for all pairs.
+    pub(crate) fn update(&mut self, mut change: impl FnMut(u32, usize, &mut [f64])) {
+        for (pair, row) in self.values.chunks_mut(self.actions).enumerate() {
+            change((pair / self.states) as u32, pair % self.states, row);
+        }
+    }
+}
+
+/// The largest of some values.
+#[inline]
+pub(crate) fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(f64::NEG_INFINITY, |best, &v| if v > best { v } else { best })
+}
+
+/// The index of the largest value, the lowest of equals.
+#[inline]
+pub(crate) fn argmax(values: &[f64]) -> u32 {
+    let mut best = 0;
+    for (i, v) in values.iter().enumerate() {
+        if *v > values[best] {
+            best = i;
+        }
+    }
+    best as u32
+}

@@ -1,0 +1,338 @@
+//! One strongly connected component of the automaton over the whole world: sweeps and elimination.
+
+use alloc::vec::Vec;
+
+use super::graph::{self, Order};
+use super::{Problem, TOLERANCE};
+use crate::augmented::{End, Payment};
+use crate::q::largest;
+
+/// Components of at most this many pairs may be solved by elimination.
+const ELIMINATE: usize = 1024;
+
+/// Sweeps after which a policy's values are found by elimination instead, where that is possible.
+const PATIENCE: usize = 200;
+
+/// The most sweeps; reached only where probabilities of leaving are below about 1e-6.
+const SWEEPS: usize = 1_000_000;
+
+/// Σ p · value\[successor\].
+#[inline]
+pub(super) fn dot(row: &[f64], successors: &[u32], values: &[f64]) -> f64 {
+    row.iter().zip(successors).map(|(p, &to)| p * values[to as usize]).sum()
+}
+
+/// What a backup sees: the probabilities of one state's successors, and what arriving is worth.
+pub(super) struct Backup<'a> {
+    matrix: &'a [f64],
+    arrivals: &'a [f64],
+}
+
+impl Backup<'_> {
+    /// The values of the actions.
+    #[inline]
+    fn values(&self) -> impl Iterator<Item = f64> {
+        let rows = self.matrix.chunks_exact(self.arrivals.len());
+        rows.map(|row| row.iter().zip(self.arrivals).map(|(p, value)| p * value).sum())
+    }
+
+    /// The value of one action.
+    #[inline]
+    pub(super) fn of(&self, action: u32) -> f64 {
+        let row = &self.matrix[action as usize * self.arrivals.len()..][..self.arrivals.len()];
+        row.iter().zip(self.arrivals).map(|(p, value)| p * value).sum()
+    }
+
+    /// The largest value.
+    #[inline]
+    pub(super) fn max(&self) -> f64 {
+        self.values().fold(f64::NEG_INFINITY, |best, value| if value > best { value } else { best })
+    }
+
+    /// The least value of the actions that are `allowed`.
+    #[inline]
+    pub(super) fn min_where(&self, allowed: impl Fn(usize) -> bool) -> f64 {
+        let values = self.values().enumerate().filter(|&(a, _)| allowed(a));
+        values.fold(f64::INFINITY, |best, (_, value)| if value < best { value } else { best })
+    }
+}
+
+/// A component: its members, and the order of its pairs.
+pub(super) struct Block<'a> {
+    problem: &'a Problem<'a>,
+    members: Vec<u32>,
+    payment: &'a Payment,
+    discount: f64,
+    /// The automaton does not move: sub-policy values.
+    fixed: bool,
+    order: Order,
+}
+
+impl<'a> Block<'a> {
+    /// The component of `members`, all actions allowed.
+    pub(super) fn new(
+        problem: &'a Problem<'a>,
+        members: &[u32],
+        payment: &'a Payment,
+        discount: f64,
+    ) -> Self {
+        let order = Self::order(problem, members, |_, _, _| true);
+        Self { problem, members: members.to_vec(), payment, discount, fixed: false, order }
+    }
+
+    /// The component of `members` under a policy, undiscounted.
+    pub(super) fn following(
+        problem: &'a Problem<'a>,
+        members: &[u32],
+        payment: &'a Payment,
+        policy: &[u32],
+    ) -> Self {
+        let order = Self::order(problem, members, |k, from, to| {
+            let action = policy[problem.labelled.pair(members[k], from)] as usize;
+            let successors = problem.dynamics.successors(from);
+            let column = successors.partition_point(|&other| (other as usize) < to);
+            problem.dynamics.matrix(from)[action * successors.len() + column] > 0.0
+        });
+        let members = members.to_vec();
+        Self { problem, members, payment, discount: 1.0, fixed: false, order }
+    }
+
+    /// One automaton state that never moves.
+    pub(super) fn fixed(
+        problem: &'a Problem<'a>,
+        q: u32,
+        payment: &'a Payment,
+        discount: f64,
+    ) -> Self {
+        Self { fixed: true, ..Self::new(problem, &[q], payment, discount) }
+    }
+
+    fn order(
+        problem: &Problem<'_>,
+        members: &[u32],
+        uses: impl Fn(usize, usize, usize) -> bool,
+    ) -> Order {
+        let labelled = problem.labelled;
+        let lost = |q| labelled.end(q) == Some(End::Lost);
+        let next = |q, s| labelled.next(q, s);
+        graph::order(members, labelled.states(), &problem.predecessors, lost, next, uses)
+    }
+
+    /// The same component under another payment.
+    pub(super) fn paying(self, payment: &'a Payment) -> Self {
+        Self { payment, ..self }
+    }
+
+    /// The same component, without the reachable pairs that `keep` refuses.
+    pub(super) fn only(mut self, keep: impl Fn(usize) -> bool) -> Self {
+        self.order.pairs.truncate(self.order.reached);
+        let (problem, members) = (self.problem, &self.members);
+        let pair = |k: u32, s: u32| problem.labelled.pair(members[k as usize], s as usize);
+        self.order.pairs.retain(|&(k, s)| keep(pair(k, s)));
+        self.order.reached = self.order.pairs.len();
+        self
+    }
+
+    /// The pairs from which an exit can be reached.
+    pub(super) fn pairs(&self) -> impl Iterator<Item = usize> {
+        let reached = &self.order.pairs[..self.order.reached];
+        reached.iter().map(|&(k, s)| self.pair(k, s))
+    }
+
+    /// Starts each pair at `weight` times (`base` + twice its distance from the exits).
+    pub(super) fn climb(&self, values: &mut [f64], base: f64, weight: &[f64]) {
+        for &(k, s) in &self.order.pairs {
+            let pair = self.pair(k, s);
+            let level = self.order.level[k as usize * self.states() + s as usize];
+            values[pair] = weight[pair] * (base + 2.0 * f64::from(level));
+        }
+    }
+
+    fn states(&self) -> usize {
+        self.problem.labelled.states()
+    }
+
+    #[inline]
+    fn pair(&self, k: u32, s: u32) -> usize {
+        self.problem.labelled.pair(self.members[k as usize], s as usize)
+    }
+
+    #[inline]
+    fn next(&self, q: u32, s: usize) -> u32 {
+        if self.fixed { q } else { self.problem.labelled.next(q, s) }
+    }
+
+    /// What arriving in each state is worth to each member: payment plus discounted value.
+    fn arrivals(&self, values: &[f64]) -> Vec<f64> {
+        let labelled = self.problem.labelled;
+        let mut arrivals = Vec::with_capacity(self.members.len() * self.states());
+        for &q in &self.members {
+            for s in 0..self.states() {
+                let value = values[labelled.pair(self.next(q, s), s)];
+                arrivals.push(self.problem.paid(self.payment, q, s) + self.discount * value);
+            }
+        }
+        arrivals
+    }
+
+    /// Sweeps until `values` is the fixed point of `backup`; over all pairs, or only those that can
+    /// reach an exit.
+    pub(super) fn sweep(
+        &self,
+        values: &mut [f64],
+        all: bool,
+        backup: impl Fn(usize, &Backup<'_>) -> f64,
+    ) {
+        self.sweep_at_most(SWEEPS, values, all, backup);
+    }
+
+    /// The same with a limit; whether it got there.
+    fn sweep_at_most(
+        &self,
+        limit: usize,
+        values: &mut [f64],
+        all: bool,
+        backup: impl Fn(usize, &Backup<'_>) -> f64,
+    ) -> bool {
+        let count = if all { self.order.pairs.len() } else { self.order.reached };
+        let mut arrivals = self.arrivals(values);
+        let mut before = f64::INFINITY;
+        for _ in 0..limit {
+            let (change, top) =
+                self.sweep_once(&self.order.pairs[..count], values, &mut arrivals, &backup);
+            if self.is_done(change, before, top) {
+                return true;
+            }
+            before = change;
+        }
+        false
+    }
+
+    /// Whether the error is small enough, given the largest change of this sweep and the last.
+    /// Discounted, the error is at most γ / (1 − γ) times the change; undiscounted, the rate at
+    /// which changes shrink, taken as at least a half, takes the place of γ.
+    fn is_done(&self, change: f64, before: f64, top: f64) -> bool {
+        let shrinks = if before.is_finite() { (change / before).clamp(0.5, 1.0) } else { 1.0 };
+        let rate = if self.discount < 1.0 { self.discount } else { shrinks };
+        change * rate <= TOLERANCE * (1.0 - rate) || change <= 4.0 * f64::EPSILON * top
+    }
+
+    /// One pass in order; the largest change, and the largest value.
+    fn sweep_once(
+        &self,
+        pairs: &[(u32, u32)],
+        values: &mut [f64],
+        arrivals: &mut [f64],
+        backup: &impl Fn(usize, &Backup<'_>) -> f64,
+    ) -> (f64, f64) {
+        let dynamics = self.problem.dynamics;
+        let mut gathered = Vec::new();
+        let (mut change, mut top): (f64, f64) = (0.0, 0.0);
+        for &(k, s) in pairs {
+            let layer = &arrivals[k as usize * self.states()..];
+            gathered.clear();
+            gathered.extend(dynamics.successors(s as usize).iter().map(|&to| layer[to as usize]));
+            let seen = Backup { matrix: dynamics.matrix(s as usize), arrivals: &gathered };
+            let pair = self.pair(k, s);
+            let value = backup(pair, &seen);
+            change = change.max((value - values[pair]).abs());
+            top = top.max(value.abs());
+            values[pair] = value;
+            self.arrive(self.members[k as usize], s as usize, value, arrivals);
+        }
+        (change, top)
+    }
+
+    /// Tells every member that enters `q` by reading `s` that this is now worth `value`.
+    #[inline]
+    fn arrive(&self, q: u32, s: usize, value: f64, arrivals: &mut [f64]) {
+        for (j, &member) in self.members.iter().enumerate() {
+            if self.next(member, s) == q {
+                let paid = self.problem.paid(self.payment, member, s);
+                arrivals[j * self.states() + s] = paid + self.discount * value;
+            }
+        }
+    }
+
+    /// The values of a policy: value(x) = constant(x) + E\[arrival\], over the pairs that can reach
+    /// an exit under it.
+    pub(super) fn solve(&self, values: &mut [f64], constant: &[f64], policy: &[u32]) {
+        let follow = |pair: usize, row: &Backup<'_>| constant[pair] + row.of(policy[pair]);
+        let small = self.order.reached <= ELIMINATE;
+        let limit = if small { PATIENCE } else { SWEEPS };
+        if !self.sweep_at_most(limit, values, false, follow) && small {
+            self.eliminate(values, constant, policy);
+        }
+    }
+
+    /// The same by Gaussian elimination with pivoting.
+    fn eliminate(&self, values: &mut [f64], constant: &[f64], policy: &[u32]) {
+        self.pairs().for_each(|pair| values[pair] = 0.0);
+        let outside = self.arrivals(values);
+        let pairs = &self.order.pairs[..self.order.reached];
+        let mut column = alloc::vec![usize::MAX; self.members.len() * self.states()];
+        for (i, &(k, s)) in pairs.iter().enumerate() {
+            column[k as usize * self.states() + s as usize] = i;
+        }
+        let mut rows: Vec<Vec<f64>> = Vec::with_capacity(pairs.len());
+        for (i, &(k, s)) in pairs.iter().enumerate() {
+            let pair = self.pair(k, s);
+            let mut row = self.equation((k, s), policy[pair], &column, &outside, pairs.len());
+            row[i] += 1.0;
+            row[pairs.len()] += constant[pair];
+            rows.push(row);
+        }
+        eliminate(&mut rows);
+        for (&(k, s), row) in pairs.iter().zip(&rows) {
+            values[self.pair(k, s)] = row[pairs.len()];
+        }
+    }
+
+    /// −p for each unknown that the pair leads to; at `n`, what it gets from outside.
+    fn equation(
+        &self,
+        (k, s): (u32, u32),
+        action: u32,
+        column: &[usize],
+        outside: &[f64],
+        n: usize,
+    ) -> Vec<f64> {
+        let mut row = alloc::vec![0.0; n + 1];
+        let successors = self.problem.dynamics.successors(s as usize);
+        let p = &self.problem.dynamics.matrix(s as usize)[action as usize * successors.len()..];
+        for (&to, p) in successors.iter().zip(p) {
+            let to = to as usize;
+            row[n] += p * outside[k as usize * self.states() + to];
+            let q = self.next(self.members[k as usize], to);
+            if let Ok(j) = self.members.binary_search(&q)
+                && let Some(unknown) = row[..n].get_mut(column[j * self.states() + to])
+            {
+                *unknown -= p;
+            }
+        }
+        row
+    }
+}
+
+/// Solves the equations in place: the last column of each row becomes its unknown.
+fn eliminate(rows: &mut [Vec<f64>]) {
+    let n = rows.len();
+    for i in 0..n {
+        let sizes: Vec<f64> = rows[i..].iter().map(|row| row[i].abs()).collect();
+        let top = largest(&sizes);
+        let pivot = sizes.iter().position(|&size| size == top).unwrap_or(0);
+        rows.swap(i, i + pivot);
+        let (above, below) = rows.split_at_mut(i + 1);
+        let pivot = &above[i];
+        for row in below.iter_mut().filter(|row| row[i] != 0.0) {
+            let factor = row[i] / pivot[i];
+            row[i..].iter_mut().zip(&pivot[i..]).for_each(|(x, p)| *x -= factor * p);
+        }
+    }
+    for i in (0..n).rev() {
+        let (above, below) = rows.split_at_mut(i + 1);
+        let row = &mut above[i];
+        let known: f64 = (i + 1..n).map(|j| row[j] * below[j - i - 1][n]).sum();
+        row[n] = (row[n] - known) / row[i];
+    }
+}

@@ -1,0 +1,183 @@
+//! Exact facts about the paper's grid: solver, product, composition.
+
+mod world;
+
+use tltl::Monitor;
+use tltl::augmented::{Labelled, Reward, Rewards};
+use tltl::compose::{Combine, Composition, Skill};
+use tltl::product::Product;
+use tltl::q::QTable;
+use tltl::solve::Problem;
+use world::{A, B, C, GAMMA, avoid, both, dynamics, eventually, next, on_paper};
+
+const PROGRESS: Rewards = Rewards::of(Reward::Progress);
+
+fn near(value: f64, expected: f64, tolerance: f64) {
+    assert!((value - expected).abs() < tolerance, "{value} is not {expected}");
+}
+
+fn value_and_steps(labelled: &Labelled) -> (f64, f64, f64) {
+    let dynamics = dynamics();
+    let problem = Problem::new(&dynamics, labelled);
+    let q = problem.optimal_q(&PROGRESS, GAMMA);
+    let (p, steps) = problem.mean(&problem.best());
+    (q.max(labelled.start(0), 0), p, steps)
+}
+
+#[test]
+fn optimal_values_and_steps() {
+    let (phi1, phi2) = (both(A, B), eventually(C));
+    let whole = Product::conjunction(&[&phi1, &phi2]);
+    let rows = [
+        (on_paper(&phi1), 1.375700084, 12.2002),
+        (on_paper(&phi2), 0.603321600, 6.7933),
+        (on_paper(&whole), 1.832763429, 16.7111),
+    ];
+    for (labelled, value, steps) in &rows {
+        let (v, p, e) = value_and_steps(labelled);
+        near(v, *value, 1e-9);
+        near(p, 1.0, 1e-9);
+        near(e, *steps, 5e-5);
+    }
+}
+
+#[test]
+fn product_sizes() {
+    let (phi1, phi2) = (both(A, B), eventually(C));
+    let whole = Product::conjunction(&[&phi1, &phi2]);
+    assert_eq!(whole.states(), 8);
+    assert_eq!((whole.edge_count(true, true), whole.edge_count(false, true)), (27, 19));
+    let trapped = Product::conjunction(&[&avoid(C, A), &eventually(B)]).edge_count(false, false);
+    assert_eq!(
+        trapped,
+        Product::conjunction(&[&eventually(A), &eventually(B)]).edge_count(false, true)
+    );
+}
+
+#[test]
+fn reward_modes_with_a_trap() {
+    let (dynamics, labelled) = (dynamics(), on_paper(&avoid(C, A)));
+    let problem = Problem::new(&dynamics, &labelled);
+    let p_of = |mode| {
+        let policy = problem.optimal_q(&Rewards::of(mode), GAMMA).policy();
+        100.0 * problem.mean(&problem.evaluate(&policy)).0
+    };
+    near(100.0 * problem.mean(&problem.best()).0, 98.49, 5e-3);
+    near(p_of(Reward::Progress), 98.13, 5e-3);
+    near(p_of(Reward::Literal), 50.0, 5e-2);
+    near(p_of(Reward::Acceptance), p_of(Reward::Shaped), 1e-9);
+}
+
+#[test]
+fn evaluation_agrees_with_the_optimum() {
+    let dynamics = dynamics();
+    let tasks: [&dyn Monitor<_>; 3] = [&both(A, B), &avoid(C, A), &next(A, A)];
+    for task in tasks {
+        let labelled = on_paper(task);
+        let problem = Problem::new(&dynamics, &labelled);
+        let best = problem.best();
+        let own = problem.evaluate(&best.policy);
+        for pair in 0..labelled.pairs() {
+            near(own.satisfied[pair], best.satisfied[pair], 1e-8);
+            if best.satisfied[pair] > 0.0 {
+                near(own.steps[pair], best.steps[pair], 1e-6);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_policy_that_never_arrives() {
+    let (dynamics, labelled) = (dynamics(), on_paper(&eventually(C)));
+    let problem = Problem::new(&dynamics, &labelled);
+    // Staying drifts by slips alone: slow, but it arrives; sweeps alone would take thousands.
+    let outcome = problem.evaluate(&vec![4; labelled.pairs()]);
+    let (p, steps) = problem.mean(&outcome);
+    near(p, 1.0, 1e-9);
+    assert!(steps > 500.0, "{steps}");
+}
+
+/// Values and product of φ₁ = ◇a ∧ ◇b and φ₂ = ◇c composed.
+#[test]
+fn composition_of_exact_skills() {
+    let (phi1, phi2) = (both(A, B), eventually(C));
+    let whole = Product::conjunction(&[&phi1, &phi2]);
+    let (one, two, task) = (on_paper(&phi1), on_paper(&phi2), on_paper(&whole));
+    let dynamics = dynamics();
+    let q1 = Problem::new(&dynamics, &one).optimal_q(&PROGRESS, GAMMA);
+    let q2 = Problem::new(&dynamics, &two).optimal_q(&PROGRESS, GAMMA);
+    let problem = Problem::new(&dynamics, &task);
+    let exact = problem.optimal_q(&PROGRESS, GAMMA);
+    let skills = [Skill { q: &q1, task: &one }, Skill { q: &q2, task: &two }];
+    let composition = Composition::new(&whole, &task, &skills);
+
+    let sum = composition.initial(Combine::NormalisedSum);
+    let fraction = problem.fraction_optimal(&sum.policy(), &exact, 1e-6);
+    near(100.0 * fraction, 91.96, 5e-3);
+    let pending: Vec<u32> = task
+        .live()
+        .filter(|&q| whole.components(q)[0] != 3 && whole.components(q)[1] == 0)
+        .collect();
+    assert_eq!(pending.len(), 3);
+    let fraction = problem.fraction_optimal_at(&pending, &sum.policy(), &exact, 1e-6);
+    near(100.0 * fraction, 81.25, 1e-9);
+
+    let start = composition.compensated(&dynamics, &PROGRESS, GAMMA);
+    let refined = composition.refined(&dynamics, &PROGRESS, GAMMA, &start);
+    same(&refined, &exact);
+    near(problem.fraction_optimal(&refined.policy(), &exact, 1e-6), 1.0, 1e-12);
+}
+
+#[test]
+fn composition_with_a_trap() {
+    let (phi1, phi2) = (avoid(C, A), both(B, C));
+    let whole = Product::conjunction(&[&phi1, &phi2]);
+    let (one, two, task) = (on_paper(&phi1), on_paper(&phi2), on_paper(&whole));
+    let dynamics = dynamics();
+    let q1 = Problem::new(&dynamics, &one).optimal_q(&PROGRESS, GAMMA);
+    let q2 = Problem::new(&dynamics, &two).optimal_q(&PROGRESS, GAMMA);
+    let problem = Problem::new(&dynamics, &task);
+    let exact = problem.optimal_q(&PROGRESS, GAMMA);
+    let skills = [Skill { q: &q1, task: &one }, Skill { q: &q2, task: &two }];
+    let composition = Composition::new(&whole, &task, &skills);
+    let start = composition.compensated(&dynamics, &PROGRESS, GAMMA);
+    same(&composition.refined(&dynamics, &PROGRESS, GAMMA, &start), &exact);
+    let fraction = |q: &QTable| problem.fraction_optimal(&q.policy(), &exact, 1e-6);
+    assert!(fraction(&start) > fraction(&composition.initial(Combine::Sum)));
+}
+
+fn same(one: &QTable, other: &QTable) {
+    one.values().iter().zip(other.values()).for_each(|(a, b)| near(*a, *b, 1e-8));
+}
+
+#[test]
+fn sub_policy_values_differ_from_flat_ones() {
+    let (dynamics, labelled) = (dynamics(), on_paper(&both(A, B)));
+    let problem = Problem::new(&dynamics, &labelled);
+    let flat = problem.optimal_q(&PROGRESS, GAMMA);
+    let fixed = problem.sub_policy_q(&PROGRESS, GAMMA);
+    // At a fixed q a goal is paid again and again.
+    assert!(fixed.max(0, 0) > 2.0 * flat.max(0, 0));
+}
+
+#[test]
+fn sequence_is_one_after_the_other() {
+    let (a, b) = (eventually(A), eventually(B));
+    let sequence = Product::sequence(&[&a, &b]);
+    assert_eq!(sequence.states(), 3);
+    assert_eq!(sequence.trajectory_robustness(&[B, A]).unwrap().max(0.0), 0.0);
+    let walk = |cells: &[_]| cells.iter().fold(0, |q, s| sequence.next(q, s).unwrap());
+    assert!(!sequence.is_accepting(walk(&[B, A])));
+    assert!(sequence.is_accepting(walk(&[B, A, B])));
+    let same = Product::sequence(&[&a, &a]);
+    let walk = |cells: &[_]| cells.iter().fold(0, |q, s| same.next(q, s).unwrap());
+    assert!(!same.is_accepting(walk(&[A])) && same.is_accepting(walk(&[A, A])));
+}
+
+#[test]
+fn disjunction_survives_a_lost_operand() {
+    let (phi, b) = (avoid(C, A), eventually(B));
+    let either = Product::disjunction(&[&phi, &b]);
+    let walk = |cells: &[_]| cells.iter().fold(0, |q, s| either.next(q, s).unwrap());
+    assert!(!either.is_terminal(walk(&[C])) && either.is_accepting(walk(&[C, B])));
+}
