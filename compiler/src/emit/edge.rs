@@ -1,0 +1,42 @@
+//! The edges of an automaton with their guards, as every drawing and table lists them.
+
+use crate::dfa::{Dfa, Guards, State};
+use crate::emit::sum::{Notation, Sum};
+use crate::guard::Cube;
+
+/// All transitions from one state to one state.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Edge {
+    /// From.
+    pub from: State,
+    /// To; the same for a self-loop.
+    pub to: State,
+    /// When: an irredundant sum of products.
+    pub guard: Vec<Cube>,
+}
+
+impl Edge {
+    /// Whether it leads back to where it starts.
+    #[must_use]
+    pub fn is_loop(&self) -> bool {
+        self.from == self.to
+    }
+
+    /// Its guard as text.
+    #[must_use]
+    pub fn label(&self, dfa: &Dfa, notation: Notation) -> String {
+        Sum::new(&dfa.propositions, &self.guard).notation(notation).to_string()
+    }
+}
+
+/// All edges, self-loops included, by rising states. An edge that only letters take that cannot
+/// occur is none.
+#[must_use]
+pub fn edges(dfa: &Dfa) -> Vec<Edge> {
+    let mut guards = Guards::new(dfa);
+    let pairs = dfa.states().flat_map(|q| dfa.successors(q).into_iter().map(move |to| (q, to)));
+    pairs
+        .map(|(from, to)| Edge { from, to, guard: guards.edge(from, to) })
+        .filter(|edge| !edge.guard.is_empty())
+        .collect()
+}
