@@ -1,0 +1,335 @@
+//! Conditions and terms as Rust expressions: the typed robustness function of each predicate, and
+//! its truth.
+//!
+//! A condition that is used once becomes part of the expression around it; one that is used more
+//! often, or lies deep, gets a `let` of its own, so the code is as long as the arena and never
+//! nested beyond a fixed depth.
+
+use proc_macro2::{Ident, Literal, Span as TokenSpan, TokenStream};
+use quote::{format_ident, quote};
+use rustc_hash::FxHashMap;
+
+use crate::ast::{Arithmetic, Comparison};
+use crate::predicate::{Condition, ConditionId, Module, Number, Scalar, State, Step, Term, TermId};
+use crate::source::Span;
+
+/// Expressions deeper than this are cut by a `let`.
+const DEPTH: u32 = 12;
+
+/// Which reading of a condition is written.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Reading {
+    /// `f64`: the robustness.
+    Robustness,
+    /// `bool`, in a function that returns a `Result`: whether it holds.
+    Truth,
+}
+
+/// What the written code refers to outside itself.
+pub struct Scope<'a> {
+    /// The module that declares the predicates.
+    pub module: &'a Module,
+    /// The path of the runtime crate.
+    pub runtime: &'a TokenStream,
+    /// The Rust tokens at a place of the source.
+    pub host: &'a dyn Fn(Span) -> TokenStream,
+}
+
+impl Scope<'_> {
+    /// The name of the state in the code.
+    pub fn state(&self) -> Ident {
+        match &self.module.state {
+            State::Host { name, .. } => ident(name),
+            _ => Ident::new("s", TokenSpan::call_site()),
+        }
+    }
+
+    /// The statements and the expression that are a condition.
+    pub fn condition(&self, id: ConditionId, reading: Reading) -> TokenStream {
+        let mut writer = Writer {
+            scope: self,
+            reading,
+            uses: self.uses(id),
+            conditions: FxHashMap::default(),
+            terms: FxHashMap::default(),
+            lets: TokenStream::new(),
+        };
+        let (result, _) = writer.written(id);
+        let lets = writer.lets;
+        quote! { #lets #result }
+    }
+
+    /// How often each condition that `root` needs is used.
+    fn uses(&self, root: ConditionId) -> Vec<u32> {
+        let mut uses = vec![0; self.module.arena.conditions().len()];
+        uses[root.0 as usize] = 1;
+        for (index, condition) in self.module.arena.conditions().iter().enumerate().rev() {
+            if uses[index] > 0 {
+                operands(condition).for_each(|operand| uses[operand.0 as usize] += 1);
+            }
+        }
+        uses
+    }
+}
+
+fn operands(condition: &Condition) -> impl Iterator<Item = ConditionId> {
+    let pair = match *condition {
+        Condition::Not(a) => [Some(a), None],
+        Condition::And(a, b) | Condition::Or(a, b) => [Some(a), Some(b)],
+        _ => [None, None],
+    };
+    pair.into_iter().flatten()
+}
+
+/// An expression and how deep it is nested.
+type Written = (TokenStream, u32);
+
+struct Writer<'a> {
+    scope: &'a Scope<'a>,
+    reading: Reading,
+    uses: Vec<u32>,
+    conditions: FxHashMap<ConditionId, Written>,
+    terms: FxHashMap<TermId, Written>,
+    lets: TokenStream,
+}
+
+impl Writer<'_> {
+    /// Writes everything that `root` needs, operands first.
+    fn written(&mut self, root: ConditionId) -> Written {
+        for index in (0..=root.0).filter(|&index| self.uses[index as usize] > 0).collect::<Vec<_>>()
+        {
+            let id = ConditionId(index);
+            let (code, depth) = self.one(id);
+            let name = format_ident!("c{index}");
+            let written = if id != root && (self.uses[index as usize] > 1 || depth > DEPTH) {
+                self.lets.extend(quote! { let #name = #code; });
+                (quote! { #name }, 0)
+            } else {
+                (code, depth)
+            };
+            self.conditions.insert(id, written);
+        }
+        self.conditions[&root].clone()
+    }
+
+    fn one(&mut self, id: ConditionId) -> Written {
+        let runtime = self.scope.runtime;
+        let state = self.scope.state();
+        let robust = self.reading == Reading::Robustness;
+        match self.scope.module.arena.condition(id) {
+            Condition::Truth(value) => (truth(*value, robust), 0),
+            Condition::Not(a) => self.unary(*a),
+            Condition::And(a, b) => self.binary(*a, *b, &quote! { min }, &quote! { & }),
+            Condition::Or(a, b) => self.binary(*a, *b, &quote! { max }, &quote! { | }),
+            Condition::Compare(comparison, a, b) => self.comparison(*comparison, *a, *b),
+            Condition::Bool(place) => {
+                let place = self.place(*place);
+                let rho = quote! { #runtime::private::truth(#place) };
+                (if robust { rho } else { place }, 0)
+            }
+            Condition::Is(predicate) => {
+                let name = ident(&self.scope.module.predicates[predicate.0 as usize].name);
+                let rho = quote! { #name(#state) };
+                let holds = quote! { #runtime::Predicate::holds(&#name {}, #state)? };
+                (if robust { rho } else { holds }, 0)
+            }
+            Condition::Value { span, .. } => {
+                let value = (self.scope.host)(*span);
+                let rho = quote! { #runtime::Predicate::robustness(&(#value), #state) };
+                let holds = quote! { #runtime::Predicate::holds(&(#value), #state)? };
+                (if robust { rho } else { holds }, 0)
+            }
+            // Only a bare formula has free propositions, and it is never written as Rust.
+            Condition::Free(_) => (truth(false, robust), 0),
+        }
+    }
+
+    fn unary(&mut self, a: ConditionId) -> Written {
+        let (a, depth) = self.conditions[&a].clone();
+        let code = if self.reading == Reading::Robustness {
+            quote! { -#a }
+        } else {
+            quote! { !(#a) }
+        };
+        (code, depth + 1)
+    }
+
+    fn binary(
+        &mut self,
+        a: ConditionId,
+        b: ConditionId,
+        function: &TokenStream,
+        operator: &TokenStream,
+    ) -> Written {
+        let runtime = self.scope.runtime;
+        let ((a, deep_a), (b, deep_b)) =
+            (self.conditions[&a].clone(), self.conditions[&b].clone());
+        let code = if self.reading == Reading::Robustness {
+            quote! { #runtime::private::#function(#a, #b) }
+        } else {
+            quote! { (#a) #operator (#b) }
+        };
+        (code, deep_a.max(deep_b) + 1)
+    }
+
+    fn comparison(&mut self, comparison: Comparison, a: TermId, b: TermId) -> Written {
+        let ((a, deep_a), (b, deep_b)) = (self.term(a), self.term(b));
+        let depth = deep_a.max(deep_b) + 1;
+        let runtime = self.scope.runtime;
+        let private = quote! { #runtime::private };
+        let code = if self.reading == Reading::Robustness {
+            match comparison {
+                Comparison::Less | Comparison::AtMost => quote! { #b - #a },
+                Comparison::Greater | Comparison::AtLeast => quote! { #a - #b },
+                Comparison::Equal => quote! { -#private::abs(#a - #b) },
+                Comparison::Unequal => quote! { #private::abs(#a - #b) },
+            }
+        } else {
+            match comparison {
+                Comparison::Less => quote! { #private::less(#a, #b)? },
+                Comparison::AtMost => quote! { #private::at_most(#a, #b)? },
+                Comparison::Greater => quote! { #private::less(#b, #a)? },
+                Comparison::AtLeast => quote! { #private::at_most(#b, #a)? },
+                Comparison::Equal => quote! { #private::equal(#a, #b)? },
+                Comparison::Unequal => quote! { !#private::equal(#a, #b)? },
+            }
+        };
+        let code = if self.reading == Reading::Robustness { quote! { (#code) } } else { code };
+        (code, depth)
+    }
+
+    /// A term, and first everything that it needs.
+    fn term(&mut self, root: TermId) -> Written {
+        let mut needed = vec![root];
+        let mut at = 0;
+        while let Some(&id) = needed.get(at) {
+            needed.extend(parts(self.scope.module.arena.term(id)));
+            at += 1;
+        }
+        needed.sort_unstable();
+        needed.dedup();
+        for id in needed {
+            if !self.terms.contains_key(&id) {
+                let (code, depth) = self.one_term(id);
+                let name = format_ident!("t{}", id.0);
+                let written = if depth > DEPTH {
+                    self.lets.extend(quote! { let #name = #code; });
+                    (quote! { #name }, 0)
+                } else {
+                    (code, depth)
+                };
+                self.terms.insert(id, written);
+            }
+        }
+        self.terms[&root].clone()
+    }
+
+    fn one_term(&mut self, id: TermId) -> Written {
+        let runtime = self.scope.runtime;
+        match self.scope.module.arena.term(id) {
+            Term::Number(Number(value)) => (number(*value), 0),
+            Term::Place { scalar: Scalar::Number("f64"), .. } => (self.place(id), 0),
+            Term::Place { .. } | Term::Host { .. } => {
+                let place = self.place(id);
+                (quote! { #runtime::private::number(#place) }, 0)
+            }
+            // Only a bare formula has free variables, and it is never written as Rust.
+            Term::Variable(_) => (number(f64::NAN), 0),
+            Term::Negate(a) => {
+                let (a, depth) = self.terms[a].clone();
+                (quote! { (-#a) }, depth + 1)
+            }
+            Term::Calculate(operator, a, b) => {
+                let ((a, deep_a), (b, deep_b)) = (self.terms[a].clone(), self.terms[b].clone());
+                let operator = match operator {
+                    Arithmetic::Add => quote! { + },
+                    Arithmetic::Subtract => quote! { - },
+                    Arithmetic::Multiply => quote! { * },
+                    Arithmetic::Divide => quote! { / },
+                };
+                (quote! { (#a #operator #b) }, deep_a.max(deep_b) + 1)
+            }
+            Term::Call(function, a, b) => {
+                let (a, deep_a) = self.terms[a].clone();
+                let name = ident(function.name());
+                let b = b.map(|b| self.terms[&b].clone());
+                let deep_b = b.as_ref().map_or(0, |b| b.1);
+                let b = b.map(|(b, _)| quote! { , #b });
+                (quote! { #runtime::private::#name(#a #b) }, deep_a.max(deep_b) + 1)
+            }
+        }
+    }
+
+    /// A place within the state, or a Rust expression.
+    fn place(&self, id: TermId) -> TokenStream {
+        match self.scope.module.arena.term(id) {
+            Term::Place { steps, .. } => {
+                let state = self.scope.state();
+                let steps = steps.iter().map(|step| match step {
+                    Step::Field(name) => {
+                        let name = ident(name);
+                        quote! { .#name }
+                    }
+                    Step::Index(index) => {
+                        let index = Literal::u32_unsuffixed(*index);
+                        quote! { [#index] }
+                    }
+                });
+                quote! { #state #(#steps)* }
+            }
+            Term::Host { span, .. } => {
+                let host = (self.scope.host)(*span);
+                quote! { (#host) }
+            }
+            _ => TokenStream::new(),
+        }
+    }
+}
+
+fn parts(term: &Term) -> impl Iterator<Item = TermId> {
+    let pair = match *term {
+        Term::Negate(a) => [Some(a), None],
+        Term::Calculate(_, a, b) => [Some(a), Some(b)],
+        Term::Call(_, a, b) => [Some(a), b],
+        _ => [None, None],
+    };
+    pair.into_iter().flatten()
+}
+
+fn truth(value: bool, robust: bool) -> TokenStream {
+    match (robust, value) {
+        (false, value) => quote! { #value },
+        (true, true) => quote! { ::core::primitive::f64::INFINITY },
+        (true, false) => quote! { ::core::primitive::f64::NEG_INFINITY },
+    }
+}
+
+fn number(value: f64) -> TokenStream {
+    if value.is_nan() {
+        return quote! { ::core::primitive::f64::NAN };
+    }
+    let literal = Literal::f64_suffixed(value.abs());
+    if value.is_sign_negative() { quote! { (-#literal) } } else { quote! { #literal } }
+}
+
+/// A name of the source as a Rust identifier, raw if Rust has taken the word.
+pub fn ident(name: &str) -> Ident {
+    let span = TokenSpan::call_site();
+    let name = name.strip_prefix("r#").unwrap_or(name);
+    if matches!(name, "self" | "Self" | "super" | "crate" | "_") {
+        format_ident!("{}_", name)
+    } else if KEYWORDS.contains(&name) {
+        Ident::new_raw(name, span)
+    } else {
+        Ident::new(name, span)
+    }
+}
+
+/// Rust's strict and reserved words that a raw identifier may be.
+const KEYWORDS: [&str; 48] = [
+    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "do", "dyn",
+    "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let",
+    "loop", "macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref", "return",
+    "static", "struct", "trait", "true", "try", "type", "typeof", "unsafe", "unsized", "use",
+    "virtual", "where", "while", "yield",
+];

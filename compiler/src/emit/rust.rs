@@ -1,0 +1,358 @@
+//! A compiled source as Rust: what `tltl!` and `include_tltl!` expand to.
+//!
+//! For every predicate one typed robustness function, for every task one function that returns the
+//! runtime's `Task` with its `static` automaton. The code names the runtime by an absolute path,
+//! allocates nothing and parses nothing; the same source gives the same tokens.
+
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::{format_ident, quote};
+
+use crate::compile::Compiled;
+use crate::dfa::Dfa;
+use crate::emit::predicates::{Reading, Scope};
+pub use crate::emit::predicates::ident as identifier;
+use crate::emit::tables;
+use crate::predicate::{Condition, Enum, PredicateId, State, Struct, Task, Type};
+use crate::source::Span;
+
+/// How the code is fitted to the place where it stands.
+pub struct Options<'a> {
+    /// The path of the runtime crate, absolute.
+    pub runtime: TokenStream,
+    /// A type of the user's that has the fields of the declared state, to be used in its place.
+    pub state: Option<TokenStream>,
+    /// The Rust tokens at a place of the source.
+    pub host: &'a dyn Fn(Span) -> TokenStream,
+}
+
+/// A bare formula as an expression: a `Task` over the predicates that are in scope.
+#[must_use]
+pub fn expression(compiled: &Compiled, options: &Options<'_>) -> TokenStream {
+    let Some((task, automata)) = compiled.module.tasks.iter().zip(&compiled.automata).next() else {
+        return TokenStream::new();
+    };
+    let emitter = Emitter::new(compiled, options);
+    let runtime = &options.runtime;
+    let values = task.predicates.iter().map(|&predicate| emitter.value(predicate));
+    let types: Vec<Ident> =
+        (0..task.predicates.len()).map(|i| format_ident!("P{}", i)).collect();
+    let robustness = (0..types.len()).map(|i| {
+        let place = Literal::usize_unsuffixed(i);
+        quote! { #place => #runtime::Predicate::robustness(&self.#place, s) }
+    });
+    let holds = (0..types.len()).map(|i| {
+        let place = Literal::usize_unsuffixed(i);
+        quote! { #place => #runtime::Predicate::holds(&self.#place, s) }
+    });
+    let implementation = emitter.predicates(
+        &quote! { <__S: ?Sized, #(#types: #runtime::Predicate<__S>),*> },
+        &quote! { __S },
+        &quote! { __TltlPredicates<#(#types),*> },
+        &quote! { #(#robustness,)* },
+        &quote! { #(#holds,)* },
+        task,
+    );
+    let parts = emitter.parts(task, &automata.dfa);
+    quote! {{
+        #[derive(Clone, Copy)]
+        struct __TltlPredicates<#(#types),*>(#(#types),*);
+        #implementation
+        impl<#(#types),*> __TltlPredicates<#(#types),*> {
+            fn __tltl_task(self) -> #runtime::Task<Self> {
+                #parts
+                #runtime::Task::from_parts(__TLTL_FORMULA.text, &__TLTL_FORMULA, &__TLTL_AUTOMATON, self)
+            }
+        }
+        __TltlPredicates(#(#values),*).__tltl_task()
+    }}
+}
+
+/// A source of declarations as items: the state, the predicates and the tasks.
+#[must_use]
+pub fn items(compiled: &Compiled, options: &Options<'_>) -> TokenStream {
+    let emitter = Emitter::new(compiled, options);
+    let module = &compiled.module;
+    let enums = module.enums.iter().map(|declared| emitter.enumeration(declared));
+    let structs = module.structs.iter().map(|declared| emitter.structure(declared));
+    let state = match (&module.state, &options.state) {
+        (State::Declared(state), None) => Some(emitter.structure(state)),
+        _ => None,
+    };
+    let predicates = (0..).map(PredicateId).take(module.predicates.len());
+    let predicates = predicates
+        .filter(|id| module.predicates[id.0 as usize].declared)
+        .map(|id| emitter.predicate(id));
+    let tasks = module.tasks.iter().zip(&compiled.automata);
+    let tasks = tasks.map(|(task, automata)| emitter.task(task, &automata.dfa));
+    quote! { #(#enums)* #(#structs)* #state #(#predicates)* #(#tasks)* }
+}
+
+struct Emitter<'a> {
+    compiled: &'a Compiled,
+    options: &'a Options<'a>,
+    runtime: &'a TokenStream,
+    /// The runtime's path as text, for the tables.
+    path: String,
+}
+
+impl<'a> Emitter<'a> {
+    fn new(compiled: &'a Compiled, options: &'a Options<'a>) -> Self {
+        let path = options.runtime.to_string().replace(' ', "");
+        Self { compiled, options, runtime: &options.runtime, path }
+    }
+
+    fn scope(&self) -> Scope<'_> {
+        Scope { module: &self.compiled.module, runtime: self.runtime, host: self.options.host }
+    }
+
+    /// The type of the state.
+    fn state(&self) -> TokenStream {
+        match (&self.options.state, &self.compiled.module.state) {
+            (Some(state), _) => state.clone(),
+            (None, State::Declared(state)) => {
+                let name = identifier(&state.name);
+                quote! { #name }
+            }
+            (None, State::Host { ty, .. }) => (self.options.host)(*ty),
+            (None, State::Free | State::Inferred) => quote! { () },
+        }
+    }
+
+    /// A predicate of a bare formula as a value: the user's own, or two closures.
+    fn value(&self, id: PredicateId) -> TokenStream {
+        let module = &self.compiled.module;
+        let condition = module.predicates[id.0 as usize].condition;
+        if let Condition::Value { span, .. } = module.arena.condition(condition) {
+            return (self.options.host)(*span);
+        }
+        let runtime = self.runtime;
+        let (name, state) = (self.scope().state(), self.state());
+        let robustness = self.scope().condition(condition, Reading::Robustness);
+        let holds = self.scope().condition(condition, Reading::Truth);
+        quote! {
+            #runtime::private::Closures(
+                |#name: &#state| -> ::core::primitive::f64 { #robustness },
+                |#name: &#state| { ::core::result::Result::Ok({ #holds }) },
+            )
+        }
+    }
+
+    fn predicate(&self, id: PredicateId) -> TokenStream {
+        let predicate = &self.compiled.module.predicates[id.0 as usize];
+        let (name, runtime) = (identifier(&predicate.name), self.runtime);
+        let (s, state) = (self.scope().state(), self.state());
+        let robustness = self.scope().condition(predicate.condition, Reading::Robustness);
+        let holds = self.scope().condition(predicate.condition, Reading::Truth);
+        let text = format!("Robustness of the predicate `{}`.", predicate.name);
+        let docs = documentation(&predicate.docs, &[text]);
+        let implementing = format!("The predicate `{}`.", predicate.name);
+        quote! {
+            #docs
+            #[allow(non_snake_case, unused_variables, clippy::all)]
+            #[must_use]
+            pub fn #name(#s: &#state) -> ::core::primitive::f64 { #robustness }
+
+            #[doc = #implementing]
+            #[allow(non_camel_case_types)]
+            #[derive(Clone, Copy, Debug)]
+            pub struct #name {}
+
+            impl #runtime::Predicate<#state> for #name {
+                #[inline]
+                fn robustness(&self, s: &#state) -> ::core::primitive::f64 { #name(s) }
+                #[inline]
+                #[allow(unused_variables, clippy::all)]
+                fn holds(
+                    &self,
+                    #s: &#state,
+                ) -> ::core::result::Result<::core::primitive::bool, #runtime::robustness::NotANumber> {
+                    ::core::result::Result::Ok({ #holds })
+                }
+            }
+        }
+    }
+
+    fn task(&self, task: &Task, dfa: &Dfa) -> TokenStream {
+        let name = task.name.as_deref().unwrap_or("task");
+        let (function, runtime, state) = (identifier(name), self.runtime, self.state());
+        let of = |reading| {
+            let arms = task.predicates.iter().enumerate().map(move |(i, &id)| {
+                let place = Literal::usize_unsuffixed(i);
+                let code = self.arm(id, reading);
+                quote! { #place => #code }
+            });
+            quote! { #(#arms,)* }
+        };
+        let implementation = self.predicates(
+            &TokenStream::new(),
+            &state,
+            &quote! { #function },
+            &of(Reading::Robustness),
+            &of(Reading::Truth),
+            task,
+        );
+        let parts = self.parts(task, dfa);
+        let docs = documentation(&task.docs, &[format!("`{}`", task.text), sizes(dfa)]);
+        let about = format!("The predicates of the task `{name}`.");
+        quote! {
+            #docs
+            #[allow(non_snake_case)]
+            #[must_use]
+            pub const fn #function() -> #runtime::Task<#function> {
+                #parts
+                #runtime::Task::from_parts(#name, &__TLTL_FORMULA, &__TLTL_AUTOMATON, #function {})
+            }
+
+            #[doc = #about]
+            #[allow(non_camel_case_types)]
+            #[derive(Clone, Copy, Debug)]
+            pub struct #function {}
+
+            #implementation
+        }
+    }
+
+    /// A predicate within the `match` of a task.
+    fn arm(&self, id: PredicateId, reading: Reading) -> TokenStream {
+        let predicate = &self.compiled.module.predicates[id.0 as usize];
+        let (runtime, s) = (self.runtime, self.scope().state());
+        let robust = reading == Reading::Robustness;
+        if predicate.declared {
+            let name = identifier(&predicate.name);
+            return if robust {
+                quote! { #name(#s) }
+            } else {
+                quote! { #runtime::Predicate::holds(&#name {}, #s) }
+            };
+        }
+        let code = self.scope().condition(predicate.condition, reading);
+        if robust {
+            quote! { { #code } }
+        } else {
+            quote! { ::core::result::Result::Ok({ #code }) }
+        }
+    }
+
+    /// The implementation of `Predicates` over the arms of the two `match`es.
+    fn predicates(
+        &self,
+        generics: &TokenStream,
+        state: &TokenStream,
+        name: &TokenStream,
+        robustness: &TokenStream,
+        holds: &TokenStream,
+        task: &Task,
+    ) -> TokenStream {
+        let runtime = self.runtime;
+        let s = if generics.is_empty() { self.scope().state() } else {identifier("s") };
+        let operators = Literal::usize_unsuffixed(tables::operator_count(&task.spec));
+        quote! {
+            #[allow(unused_variables, clippy::all)]
+            impl #generics #runtime::robustness::Predicates<#state> for #name {
+                #[inline]
+                fn robustness(&self, i: ::core::primitive::usize, #s: &#state) -> ::core::primitive::f64 {
+                    match i {
+                        #robustness
+                        _ => #runtime::private::no_predicate(i),
+                    }
+                }
+                #[inline]
+                fn holds(
+                    &self,
+                    i: ::core::primitive::usize,
+                    #s: &#state,
+                ) -> ::core::result::Result<::core::primitive::bool, #runtime::robustness::NotANumber> {
+                    match i {
+                        #holds
+                        _ => #runtime::private::no_predicate(i),
+                    }
+                }
+                #[inline]
+                fn with_scratch<__R>(
+                    &self,
+                    f: impl ::core::ops::FnOnce(
+                        &mut [::core::primitive::f64],
+                        &mut [::core::primitive::f64],
+                    ) -> __R,
+                ) -> __R {
+                    f(&mut [0.0; #operators], &mut [0.0; #operators])
+                }
+            }
+        }
+    }
+
+    /// The statics of a task.
+    fn parts(&self, task: &Task, dfa: &Dfa) -> TokenStream {
+        let runtime = self.runtime;
+        let formula = tables::formula(&task.spec, &task.text, &self.path);
+        let automaton = tables::automaton(dfa, &self.path);
+        quote! {
+            static __TLTL_FORMULA: #runtime::Formula = #formula;
+            static __TLTL_AUTOMATON: #runtime::Automaton = #automaton;
+        }
+    }
+
+    fn structure(&self, declared: &Struct) -> TokenStream {
+        let name = identifier(&declared.name);
+        let docs = documentation(&declared.docs, &[]);
+        let fields = declared.fields.iter().map(|field| {
+            let docs = documentation(&field.docs, &[]);
+            let (name, ty) = (identifier(&field.name), self.ty(&field.ty));
+            quote! { #docs pub #name: #ty }
+        });
+        quote! {
+            #docs
+            #[allow(missing_docs, non_snake_case, non_camel_case_types)]
+            #[derive(Clone, Copy, Debug, PartialEq)]
+            pub struct #name { #(#fields,)* }
+        }
+    }
+
+    fn enumeration(&self, declared: &Enum) -> TokenStream {
+        let name = identifier(&declared.name);
+        let docs = documentation(&declared.docs, &[]);
+        let variants = declared.variants.iter().map(|variant|identifier(variant));
+        quote! {
+            #docs
+            #[allow(missing_docs, non_camel_case_types)]
+            #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+            pub enum #name { #(#variants,)* }
+        }
+    }
+
+    fn ty(&self, ty: &Type) -> TokenStream {
+        let module = &self.compiled.module;
+        match ty {
+            Type::Scalar(scalar) => {
+                let name = identifier(scalar.name());
+                quote! { ::core::primitive::#name }
+            }
+            Type::Struct(index) => {
+                let name = identifier(&module.structs[*index as usize].name);
+                quote! { #name }
+            }
+            Type::Enum(index) => {
+                let name = identifier(&module.enums[*index as usize].name);
+                quote! { #name }
+            }
+            Type::Array(element, length) => {
+                let (element, length) = (self.ty(element), Literal::u32_unsuffixed(*length));
+                quote! { [#element; #length] }
+            }
+        }
+    }
+}
+
+/// Doc attributes: the author's lines, then the tool's, each a paragraph.
+fn documentation(lines: &[String], paragraphs: &[String]) -> TokenStream {
+    let author = lines.iter().map(|line| format!(" {}", line.trim()));
+    let lines = author.chain(paragraphs.iter().flat_map(|text| [String::new(), format!(" {text}")]));
+    let lines = lines.skip_while(String::is_empty);
+    quote! { #(#[doc = #lines])* }
+}
+
+fn sizes(dfa: &Dfa) -> String {
+    let size = dfa.size();
+    let trap = if size.trap { ", one of them the trap" } else { "" };
+    format!("Minimal automaton: {} states{trap}, {} edges and {} self-loops.", size.states, size.edges, size.self_loops)
+}

@@ -1,0 +1,189 @@
+//! Tokens to text and back: what makes one grammar serve files, the command line and the macro.
+//!
+//! A [`Flat`] is the text of a token stream with the place of every token in it. The compiler
+//! reads the text; an error's bytes lead back to the tokens that the author wrote, so rustc
+//! underlines those, and Rust expressions inside a formula are spliced into the output as the
+//! very tokens that they were.
+
+use proc_macro2::{Delimiter, Group, Spacing, Span, TokenStream, TokenTree};
+use tltl_compiler::source;
+
+/// The text of a token stream, and where each token stands in it.
+pub(crate) struct Flat {
+    pub(crate) text: String,
+    /// Every token tree, groups before what they hold.
+    places: Vec<(usize, usize, TokenTree)>,
+    /// Whether the text is the content of a string literal, whose parts have no span of their own.
+    literal: bool,
+}
+
+impl Flat {
+    /// Flattens what stands in the macro's brackets: a formula, or one string literal that holds it.
+    pub(crate) fn new(input: TokenStream) -> Self {
+        let mut trees: Vec<TokenTree> = input.clone().into_iter().collect();
+        if let [TokenTree::Literal(literal)] = trees.as_slice() {
+            if let Some(text) = unquote(&literal.to_string()) {
+                let whole = (0, text.len().max(1), trees.remove(0));
+                return Self { text, places: vec![whole], literal: true };
+            }
+        }
+        let mut flat = Self { text: String::new(), places: Vec::new(), literal: false };
+        flat.stream(input);
+        flat
+    }
+
+    fn stream(&mut self, stream: TokenStream) {
+        let mut before: Option<TokenTree> = None;
+        let mut trees = stream.into_iter().peekable();
+        while let Some(tree) = trees.next() {
+            if let (true, Some(line)) = (is_hash(&tree), trees.peek().and_then(doc_line)) {
+                // rustc has turned the comment into an attribute; here it is a comment again.
+                self.text.push_str(&format!("\n///{line}\n"));
+                trees.next();
+                before = None;
+                continue;
+            }
+            if before.as_ref().is_some_and(|before| apart(before, &tree)) {
+                self.text.push(' ');
+            }
+            self.tree(&tree);
+            before = Some(tree);
+        }
+    }
+
+    fn tree(&mut self, tree: &TokenTree) {
+        let (start, place) = (self.text.len(), self.places.len());
+        self.places.push((start, start, tree.clone()));
+        match tree {
+            TokenTree::Group(group) => {
+                let (open, close) = delimiters(group);
+                self.text.push_str(open);
+                self.stream(group.stream());
+                self.text.push_str(close);
+            }
+            other => self.text.push_str(&other.to_string()),
+        }
+        self.places[place].1 = self.text.len();
+    }
+
+    /// The first and the last token of a part of the text, for rustc to underline.
+    pub(crate) fn spans(&self, span: source::Span) -> (Span, Span) {
+        let touched = self.places.iter().filter(|(start, end, tree)| {
+            !matches!(tree, TokenTree::Group(_))
+                && *start < span.end.max(span.start + 1)
+                && *end > span.start
+        });
+        let mut touched = touched.map(|(.., tree)| tree.span());
+        let first = touched.next().or_else(|| self.bracket(span)).unwrap_or_else(Span::call_site);
+        (first, touched.last().unwrap_or(first))
+    }
+
+    /// The bracket or, past the end, the last token at a place.
+    fn bracket(&self, span: source::Span) -> Option<Span> {
+        let around = self.places.iter().filter_map(|(start, end, tree)| match tree {
+            TokenTree::Group(group) if *start == span.start => Some(group.span_open()),
+            TokenTree::Group(group) if *end == span.end => Some(group.span_close()),
+            _ => None,
+        });
+        around.last().or_else(|| self.places.last().map(|(.., tree)| tree.span()))
+    }
+
+    /// The tokens of a part of the text.
+    pub(crate) fn tokens(&self, span: source::Span) -> TokenStream {
+        if self.literal {
+            let text = self.text.get(span.start..span.end).unwrap_or_default();
+            return text.parse().unwrap_or_default();
+        }
+        let mut at = span.start;
+        let within = self.places.iter().filter(|(start, end, _)| {
+            let taken = *start >= at && *end <= span.end;
+            if taken {
+                at = *end;
+            }
+            taken
+        });
+        within.map(|(.., tree)| tree.clone()).collect()
+    }
+
+    /// Whether the text came from a string literal.
+    pub(crate) fn is_literal(&self) -> bool {
+        self.literal
+    }
+}
+
+fn is_hash(tree: &TokenTree) -> bool {
+    matches!(tree, TokenTree::Punct(punct) if punct.as_char() == '#')
+}
+
+/// The text of `[doc = "…"]`.
+fn doc_line(tree: &TokenTree) -> Option<String> {
+    let TokenTree::Group(group) = tree else { return None };
+    let inner: Vec<TokenTree> = group.stream().into_iter().collect();
+    match inner.as_slice() {
+        [TokenTree::Ident(doc), TokenTree::Punct(_), TokenTree::Literal(line)] if doc == "doc" => {
+            unquote(&line.to_string()).map(|line| line.replace('\n', " "))
+        }
+        _ => None,
+    }
+}
+
+/// The brackets of a group; the invisible ones that a macro's argument carries become round.
+fn delimiters(group: &Group) -> (&'static str, &'static str) {
+    match group.delimiter() {
+        Delimiter::Parenthesis => ("(", ")"),
+        Delimiter::Brace => ("{", "}"),
+        Delimiter::Bracket => ("[", "]"),
+        Delimiter::None if group.stream().into_iter().count() > 1 => ("(", ")"),
+        Delimiter::None => ("", ""),
+    }
+}
+
+/// Whether a blank belongs between two tokens: always where they would run together, else where
+/// a reader wants one.
+fn apart(before: &TokenTree, after: &TokenTree) -> bool {
+    match (before, after) {
+        (TokenTree::Punct(punct), _) if punct.spacing() == Spacing::Joint => false,
+        (TokenTree::Punct(punct), _) => !matches!(punct.as_char(), '.' | ':' | '!' | '#'),
+        (_, TokenTree::Punct(punct)) => !matches!(punct.as_char(), '.' | ':' | ',' | ';'),
+        (TokenTree::Ident(_), TokenTree::Group(group)) => group.delimiter() == Delimiter::Brace,
+        _ => true,
+    }
+}
+
+/// The content of a string literal, plain or raw.
+fn unquote(literal: &str) -> Option<String> {
+    if let Some(raw) = literal.strip_prefix('r') {
+        let body = raw.trim_matches('#');
+        return Some(body.strip_prefix('"')?.strip_suffix('"')?.to_owned());
+    }
+    let body = literal.strip_prefix('"')?.strip_suffix('"')?;
+    let mut text = String::with_capacity(body.len());
+    let mut rest = body.chars();
+    while let Some(c) = rest.next() {
+        match (c, c == '\\') {
+            (c, false) => text.push(c),
+            (_, true) => text.push(escaped(&mut rest)?),
+        }
+    }
+    Some(text)
+}
+
+fn escaped(rest: &mut std::str::Chars<'_>) -> Option<char> {
+    Some(match rest.next()? {
+        'n' => '\n',
+        't' => '\t',
+        'r' => '\r',
+        '0' => '\0',
+        'x' => {
+            let code: String = rest.by_ref().take(2).collect();
+            char::from(u8::from_str_radix(&code, 16).ok()?)
+        }
+        'u' => {
+            let code: String = rest.by_ref().skip(1).take_while(|&c| c != '}').collect();
+            char::from_u32(u32::from_str_radix(&code.replace('_', ""), 16).ok()?)?
+        }
+        // A line that goes on: the newline and the blanks after it are nothing.
+        '\n' => ' ',
+        other => other,
+    })
+}
