@@ -1,2 +1,9 @@
-//! CLI.
-fn main() {}
+//! `tltlc`: the compiler on the command line.
+
+mod cli;
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    cli::run()
+}

@@ -87,6 +87,48 @@ pub fn items(compiled: &Compiled, options: &Options<'_>) -> TokenStream {
     quote! { #(#enums)* #(#structs)* #state #(#predicates)* #(#tasks)* }
 }
 
+/// A source as a Rust file, as the macros would generate it, formatted.
+///
+/// Declarations become items; of a bare formula, whose propositions are free, there are only the
+/// formula and its automaton.
+#[cfg(feature = "cli")]
+#[must_use]
+pub fn file(compiled: &Compiled) -> String {
+    let host = |_: Span| TokenStream::new();
+    let options = Options { runtime: quote! { ::tltl }, state: None, host: &host };
+    let bare = compiled.module.tasks.iter().all(|task| task.name.is_none());
+    let tokens = if bare {
+        statics(compiled, &options)
+    } else {
+        items(compiled, &options)
+    };
+    match syn::parse2(tokens.clone()) {
+        Ok(file) => prettyplease::unparse(&file),
+        Err(_) => tokens.to_string(),
+    }
+}
+
+/// The formula and the automaton of a bare formula, whose propositions are free.
+#[cfg(feature = "cli")]
+fn statics(compiled: &Compiled, options: &Options<'_>) -> TokenStream {
+    let emitter = Emitter::new(compiled, options);
+    let tasks = compiled.module.tasks.iter().zip(&compiled.automata);
+    let tasks = tasks.map(|(task, automata)| {
+        let (runtime, path) = (&options.runtime, &emitter.path);
+        let formula = tables::formula(&task.spec, &task.text, path);
+        let automaton = tables::automaton(&automata.dfa, path);
+        let about = format!("`{}`", task.text);
+        let size = sizes(&automata.dfa);
+        quote! {
+            #[doc = #about]
+            pub static FORMULA: #runtime::Formula = #formula;
+            #[doc = #size]
+            pub static AUTOMATON: #runtime::Automaton = #automaton;
+        }
+    });
+    quote! { #(#tasks)* }
+}
+
 struct Emitter<'a> {
     compiled: &'a Compiled,
     options: &'a Options<'a>,
@@ -113,7 +155,11 @@ impl<'a> Emitter<'a> {
                 let name = identifier(&state.name);
                 quote! { #name }
             }
-            (None, State::Host { ty, .. }) => (self.options.host)(*ty),
+            // A header says `&Type`.
+            (None, State::Host { ty, .. }) => (self.options.host)(*ty)
+                .into_iter()
+                .skip_while(|tree| tree.to_string() == "&")
+                .collect(),
             (None, State::Free | State::Inferred) => quote! { () },
         }
     }
