@@ -6,7 +6,11 @@
 //! name is a field or a predicate, and whether an operand is a number or a formula, is for
 //! [`check`](crate::check).
 
+mod print;
+
 use std::ops::Range;
+
+pub use print::Printed;
 
 use crate::source::{Source, Span};
 
@@ -134,10 +138,18 @@ pub struct Entry {
     pub node: Node,
     /// All of it, without brackets around it.
     pub span: Span,
+    /// All of it, with the brackets around it if there are any.
+    pub outer: Span,
     /// Its operator; the whole of it if it has none.
     pub operator: Span,
+}
+
+impl Entry {
     /// Whether the author put brackets around it.
-    pub bracketed: bool,
+    #[must_use]
+    pub fn is_bracketed(&self) -> bool {
+        self.outer != self.span
+    }
 }
 
 /// The type of a field, as written: a name within array brackets, outermost length last.
@@ -179,6 +191,8 @@ pub enum ItemKind {
     Predicate(Vec<Declaration>, NodeId),
     /// `task name = formula`; a bare formula is one whose name is empty
     Task(Vec<Declaration>, NodeId),
+    /// It could not be parsed; only its name is known
+    Broken,
 }
 
 /// One declaration of a source.
@@ -270,9 +284,7 @@ impl Ast {
             Node::Truth(_) | Node::Number(_) | Node::Name | Node::Text | Node::Verbatim => vec![],
             Node::Field { base, .. } => vec![*base],
             Node::Index { base, index } => vec![*base, *index],
-            Node::Call { callee, arguments } => {
-                [&[*callee], self.arguments(arguments)].concat()
-            }
+            Node::Call { callee, arguments } => [&[*callee], self.arguments(arguments)].concat(),
             Node::Prefix(_, a) | Node::Quantified { body: a, .. } => vec![*a],
             Node::Infix(_, a, b) => vec![*a, *b],
         }
@@ -290,16 +302,17 @@ impl Ast {
 
     pub(crate) fn push(&mut self, node: Node, span: Span, operator: Span) -> NodeId {
         let id = u32::try_from(self.entries.len()).expect("fewer than 2^32 expressions");
-        self.entries.push(Entry { node, span, operator, bracketed: false });
+        self.entries.push(Entry { node, span, outer: span, operator });
         NodeId(id)
     }
 
-    pub(crate) fn bracket(&mut self, id: NodeId) {
-        self.entries[id.0 as usize].bracketed = true;
+    pub(crate) fn bracket(&mut self, id: NodeId, brackets: Span) {
+        self.entries[id.0 as usize].outer = brackets;
     }
 
     pub(crate) fn push_arguments(&mut self, arguments: &[NodeId]) -> Range<u32> {
-        let end = |list: &Vec<NodeId>| u32::try_from(list.len()).expect("fewer than 2^32 arguments");
+        let end =
+            |list: &Vec<NodeId>| u32::try_from(list.len()).expect("fewer than 2^32 arguments");
         let start = end(&self.arguments);
         self.arguments.extend_from_slice(arguments);
         start..end(&self.arguments)

@@ -119,7 +119,8 @@ fn window(source: &Source, line: Span, focus: Span) -> (String, usize) {
 
 fn underline(source: &Source, line: Span, start: usize, label: &Label<'_>) -> String {
     let (from, to) = (label.span.start.max(start), label.span.end.min(line.end));
-    let indent = width(source.slice(Span::new(start, from.min(line.end)))) + from.saturating_sub(line.end).min(1);
+    let indent = width(source.slice(Span::new(start, from.min(line.end))))
+        + from.saturating_sub(line.end).min(1);
     let length = width(source.slice(Span::new(from, to.max(from)))).clamp(1, WINDOW);
     let mark = if label.primary { "^" } else { "-" };
     let text = if label.text.is_empty() { String::new() } else { format!(" {}", label.text) };

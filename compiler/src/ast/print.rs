@@ -1,0 +1,196 @@
+//! Expressions as text, with the brackets that a reader wants: `U` and `T` are never mixed
+//! without them, and what an operator before a comparison reaches is shown.
+
+use std::fmt;
+
+use super::{Arithmetic, Ast, Infix, Node, NodeId, Prefix};
+use crate::parse::compact;
+
+/// An expression of an [`Ast`] that can be printed.
+pub struct Printed<'a> {
+    ast: &'a Ast,
+    root: NodeId,
+}
+
+/// What is still to be printed.
+enum Piece {
+    Node(NodeId),
+    Text(&'static str),
+}
+
+impl Ast {
+    /// The expression `root` as text; parsing it gives the same expression.
+    #[must_use]
+    pub fn display(&self, root: NodeId) -> Printed<'_> {
+        Printed { ast: self, root }
+    }
+
+    /// What stands for the operand `id` of `parent` in print.
+    fn operand(&self, parent: &Node, id: NodeId, left: bool) -> [Piece; 3] {
+        if wants_brackets(parent, self, id, left) {
+            [Piece::Text("("), Piece::Node(id), Piece::Text(")")]
+        } else {
+            [Piece::Text(""), Piece::Node(id), Piece::Text("")]
+        }
+    }
+
+    /// The pieces of one expression, in order.
+    fn pieces(&self, id: NodeId) -> Vec<Piece> {
+        let node = self.node(id);
+        let operand = |id, left| self.operand(node, id, left);
+        let mut pieces = Vec::new();
+        match *node {
+            Node::Prefix(op, a) => {
+                pieces.push(Piece::Text(op.symbol()));
+                pieces.extend(operand(a, false));
+            }
+            Node::Infix(op, a, b) => {
+                pieces.extend(operand(a, true));
+                pieces.extend([Piece::Text(" "), Piece::Text(op.symbol()), Piece::Text(" ")]);
+                pieces.extend(operand(b, false));
+            }
+            Node::Index { base, index } => pieces.extend([
+                Piece::Node(base),
+                Piece::Text("["),
+                Piece::Node(index),
+                Piece::Text("]"),
+            ]),
+            Node::Call { callee, ref arguments } => {
+                pieces.extend([Piece::Node(callee), Piece::Text("(")]);
+                for (i, argument) in self.arguments(arguments).iter().enumerate() {
+                    pieces.push(Piece::Text(if i == 0 { "" } else { ", " }));
+                    pieces.push(Piece::Node(*argument));
+                }
+                pieces.push(Piece::Text(")"));
+            }
+            _ => {}
+        }
+        pieces
+    }
+
+    /// Writes what an expression has of its own, if it is not all operands.
+    fn leaf(&self, id: NodeId, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.node(id) {
+            Node::Truth(value) => write!(f, "{value}"),
+            Node::Number(_) => f.write_str(self.text(id)),
+            Node::Name => f.write_str(&compact(self.text(id))),
+            Node::Text | Node::Verbatim => f.write_str(self.text(id)),
+            _ => Ok(()),
+        }
+    }
+}
+
+impl fmt::Display for Printed<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut open = vec![Step::Piece(Piece::Node(self.root))];
+        while let Some(step) = open.pop() {
+            match step {
+                Step::Piece(Piece::Text(text)) => f.write_str(text)?,
+                Step::Field(id) => {
+                    if let Node::Field { field, .. } = self.ast.node(id) {
+                        write!(f, ".{}", self.ast.source().slice(*field))?;
+                    }
+                }
+                Step::Piece(Piece::Node(id)) => match *self.ast.node(id) {
+                    Node::Field { base, .. } => {
+                        open.push(Step::Field(id));
+                        open.push(Step::Piece(Piece::Node(base)));
+                    }
+                    Node::Quantified { all, name, set, body } => {
+                        let slice = |span| self.ast.source().slice(span);
+                        let word = if all { "all" } else { "some" };
+                        write!(f, "for {word} {} in {}: ", slice(name), slice(set))?;
+                        open.push(Step::Piece(Piece::Node(body)));
+                    }
+                    _ => {
+                        self.ast.leaf(id, f)?;
+                        open.extend(self.ast.pieces(id).into_iter().rev().map(Step::Piece));
+                    }
+                },
+            }
+        }
+        Ok(())
+    }
+}
+
+enum Step {
+    Piece(Piece),
+    /// The name of a field, after its base.
+    Field(NodeId),
+}
+
+fn level(node: &Node) -> u8 {
+    match node {
+        Node::Quantified { .. } => 0,
+        Node::Infix(Infix::Implies, ..) => 1,
+        Node::Infix(Infix::Or, ..) => 2,
+        Node::Infix(Infix::And, ..) => 3,
+        Node::Infix(Infix::Until | Infix::Then, ..) => 4,
+        Node::Prefix(Prefix::Not | Prefix::Eventually | Prefix::Next, _) => 5,
+        Node::Infix(Infix::Compare(_), ..) => 6,
+        Node::Infix(Infix::Calculate(Arithmetic::Add | Arithmetic::Subtract), ..) => 7,
+        Node::Infix(Infix::Calculate(_), ..) => 8,
+        Node::Prefix(Prefix::Minus, _) => 9,
+        _ => 10,
+    }
+}
+
+/// Whether the operand `id` of `parent` is printed in brackets.
+fn wants_brackets(parent: &Node, ast: &Ast, id: NodeId, left: bool) -> bool {
+    let child = ast.node(id);
+    let (outer, inner) = (level(parent), level(child));
+    match (parent, child) {
+        // A chain of comparisons; an author's brackets keep two comparisons apart.
+        (Node::Infix(Infix::Compare(_), ..), Node::Infix(Infix::Compare(_), ..)) => {
+            !left || ast.entry(id).is_bracketed()
+        }
+        (Node::Infix(Infix::Until, ..), Node::Infix(Infix::Until, ..))
+        | (Node::Infix(Infix::Then, ..), Node::Infix(Infix::Then, ..))
+        | (Node::Infix(Infix::Implies, ..), Node::Infix(Infix::Implies, ..)) => left,
+        (
+            Node::Infix(Infix::Until | Infix::Then, ..),
+            Node::Infix(Infix::Until | Infix::Then, ..),
+        ) => true,
+        (
+            Node::Infix(Infix::Until | Infix::Then, ..),
+            Node::Prefix(Prefix::Eventually | Prefix::Next, _),
+        ) => left,
+        (Node::Prefix(op, _), Node::Infix(..)) => *op != Prefix::Minus || inner < 9,
+        (_, Node::Quantified { .. }) => true,
+        (Node::Prefix(..), _) => inner < outer,
+        _ if left => inner < outer,
+        _ => {
+            inner < outer
+                || inner == outer && matches!(parent, Node::Infix(Infix::Calculate(_), ..))
+        }
+    }
+}
+
+impl Prefix {
+    /// Its symbol, with the blank that a word needs.
+    #[must_use]
+    pub const fn symbol(self) -> &'static str {
+        match self {
+            Self::Not => "!",
+            Self::Eventually => "F ",
+            Self::Next => "X ",
+            Self::Minus => "-",
+        }
+    }
+}
+
+impl Infix {
+    /// Its symbol.
+    #[must_use]
+    pub const fn symbol(self) -> &'static str {
+        match self {
+            Self::Implies => "=>",
+            Self::Or => "||",
+            Self::And => "&&",
+            Self::Until => "U",
+            Self::Then => "T",
+            Self::Compare(op) => op.symbol(),
+            Self::Calculate(op) => op.symbol(),
+        }
+    }
+}

@@ -1,0 +1,232 @@
+//! [`Ast`] to [`Module`]: names, types, negation normal form, co-safety.
+//!
+//! The stages of one expression: [`role`] goes from the root down and decides what each operand
+//! has to be, a number or a formula, and whether it stands under a negation; [`term`] and
+//! [`atom`] go from the leaves up and resolve names and comparisons; [`formula`] builds the
+//! [`Spec`](crate::spec::Spec). All are loops over the arena. A mistake is noted once, where it is
+//! made, and what depends on it is left alone.
+
+mod atom;
+mod formula;
+mod intent;
+mod name;
+mod order;
+mod role;
+mod scope;
+mod term;
+
+use std::collections::{BTreeMap, HashMap, HashSet};
+
+use crate::ast::{Ast, ItemKind, NodeId};
+use crate::error::{Error, Errors, Kind};
+use crate::parse;
+use crate::predicate::{
+    Arena, ConditionId, Constant, Module, Predicate, PredicateId, State, Task, TaskId,
+};
+use crate::source::{Source, Span};
+use scope::Scope;
+
+/// What a name may be that the source does not declare.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Names {
+    /// A bare formula: any name is a proposition, or a real variable inside a comparison.
+    Free,
+    /// The macro: a Rust value in scope, or an expression over the state.
+    Host,
+    /// A task file: nothing.
+    Declared,
+}
+
+/// Checks a parsed source.
+///
+/// # Errors
+/// All mistakes of meaning that it has.
+pub fn check(ast: &Ast, names: Names) -> Result<Module, Errors> {
+    finish(ast, names, Vec::new())
+}
+
+/// Parses and checks a bare formula: a module of one task without a name.
+///
+/// # Errors
+/// All mistakes that it has.
+pub fn formula(source: &Source) -> Result<Module, Errors> {
+    let (ast, mistakes) = parse::recover_formula(source);
+    finish(&ast, Names::Free, mistakes)
+}
+
+/// Parses and checks a task file.
+///
+/// # Errors
+/// All mistakes that it has, of form and of meaning.
+pub fn file(source: &Source) -> Result<Module, Errors> {
+    let (ast, mistakes) = parse::recover_file(source);
+    finish(&ast, Names::Declared, mistakes)
+}
+
+/// Parses and checks what stands inside `tltl!{ … }`.
+///
+/// # Errors
+/// All mistakes that it has, of form and of meaning.
+pub fn fragment(source: &Source) -> Result<Module, Errors> {
+    let (ast, mistakes) = parse::recover_fragment(source);
+    finish(&ast, Names::Host, mistakes)
+}
+
+fn finish(ast: &Ast, names: Names, mistakes: Vec<Error>) -> Result<Module, Errors> {
+    let broken = !mistakes.is_empty();
+    let mut checker = Checker::new(ast, names, mistakes);
+    checker.items();
+    if !broken {
+        checker.warn_unused();
+    }
+    let Checker { mut module, mistakes, tasks, .. } = checker;
+    module.warnings = Errors::split(mistakes)?;
+    module.tasks = tasks.into_iter().flatten().collect();
+    Ok(module)
+}
+
+/// The state of checking one source.
+struct Checker<'a> {
+    ast: &'a Ast,
+    names: Names,
+    scope: Scope<'a>,
+    module: Module,
+    /// The tasks that are checked, by their place among the tasks of the source.
+    tasks: Vec<Option<Task>>,
+    mistakes: Vec<Error>,
+    /// The value of each constant, by item.
+    constants: BTreeMap<usize, f64>,
+    /// The predicate of each predicate item.
+    declared: BTreeMap<usize, PredicateId>,
+    /// The predicate that a condition is, and whether it is its negation.
+    known: HashMap<ConditionId, (PredicateId, bool)>,
+    /// Items that something uses.
+    used: HashSet<usize>,
+    /// Where each Rust predicate value stands first.
+    values: HashMap<String, Span>,
+    /// In a bare formula, what each name has been used as first.
+    free: HashMap<String, (bool, Span)>,
+}
+
+impl<'a> Checker<'a> {
+    fn new(ast: &'a Ast, names: Names, mut mistakes: Vec<Error>) -> Self {
+        let scope = Scope::new(ast, &mut mistakes);
+        let module = Module {
+            docs: ast.docs().to_vec(),
+            state: scope.state(ast, names),
+            structs: scope.structs.clone(),
+            enums: scope.enums.clone(),
+            constants: Vec::new(),
+            predicates: Vec::new(),
+            arena: Arena::default(),
+            tasks: Vec::new(),
+            warnings: Vec::new(),
+        };
+        let tasks = vec![None; scope.task_count()];
+        Self {
+            ast,
+            names,
+            scope,
+            module,
+            tasks,
+            mistakes,
+            constants: BTreeMap::new(),
+            declared: BTreeMap::new(),
+            known: HashMap::new(),
+            used: HashSet::new(),
+            values: HashMap::new(),
+            free: HashMap::new(),
+        }
+    }
+
+    /// Checks all items, each after the ones that it uses.
+    fn items(&mut self) {
+        let order = order::order(self.ast, &self.scope, &mut self.mistakes);
+        for item in order {
+            match &self.ast.items()[item].kind {
+                ItemKind::Constant(root) => self.constant(item, *root),
+                ItemKind::Predicate(parameters, root) if parameters.is_empty() => {
+                    self.predicate(item, *root);
+                }
+                ItemKind::Task(parameters, root) if parameters.is_empty() => {
+                    self.task(item, *root);
+                }
+                ItemKind::Predicate(parameters, _) | ItemKind::Task(parameters, _) => {
+                    self.mistakes.push(
+                        Error::new(
+                            Kind::Syntax,
+                            "parameters are not supported yet",
+                            parameters[0].name,
+                        )
+                        .help("write one item for each value"),
+                    );
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn constant(&mut self, item: usize, root: NodeId) {
+        let roles = self.roles(root, role::Role::Number);
+        let Some(term) = self.terms(root, &roles).last().copied().flatten() else { return };
+        let Some(value) = self.module.arena.constant(term) else {
+            let message = "a constant is made of numbers and other constants only";
+            return self.mistakes.push(Error::new(Kind::Type, message, self.ast.span(root)));
+        };
+        self.constants.insert(item, value);
+        let entry = &self.ast.items()[item];
+        let name = self.ast.source().slice(entry.name).to_owned();
+        self.module.constants.push(Constant { name, docs: entry.docs.clone(), value });
+    }
+
+    fn predicate(&mut self, item: usize, root: NodeId) {
+        let Some(condition) = self.condition(root) else { return };
+        let entry = &self.ast.items()[item];
+        let id = self.add_predicate(Predicate {
+            name: self.ast.source().slice(entry.name).to_owned(),
+            declared: true,
+            docs: entry.docs.clone(),
+            span: entry.name,
+            condition,
+        });
+        self.declared.insert(item, id);
+    }
+
+    fn add_predicate(&mut self, predicate: Predicate) -> PredicateId {
+        let count = self.module.predicates.len();
+        self.module.predicates.push(predicate);
+        PredicateId(u32::try_from(count).expect("fewer than 2^32 predicates"))
+    }
+
+    /// The task that `item` declares; `None` if it is not one.
+    fn task_id(&self, item: usize) -> Option<TaskId> {
+        self.scope.task_id(item)
+    }
+
+    /// Warns of predicates and constants that nothing uses.
+    fn warn_unused(&mut self) {
+        if !self.ast.items().iter().any(|item| matches!(item.kind, ItemKind::Task(..))) {
+            return;
+        }
+        for (index, item) in self.ast.items().iter().enumerate() {
+            let what = match item.kind {
+                ItemKind::Predicate(..) => "predicate",
+                ItemKind::Constant(_) => "constant",
+                _ => continue,
+            };
+            if !self.used.contains(&index) {
+                let name = self.ast.source().slice(item.name);
+                let message = format!("{what} `{name}` is never used");
+                self.mistakes.push(Error::new(Kind::Unused, message, item.name).warning());
+            }
+        }
+    }
+
+    /// The name that stands for the state in Rust expressions.
+    fn host(&self) -> Option<&str> {
+        match &self.module.state {
+            State::Host { name, .. } => Some(name),
+            _ => None,
+        }
+    }
+}

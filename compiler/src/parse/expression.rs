@@ -1,0 +1,359 @@
+//! Operator precedence: the flat sequence of operands and operators that the grammar gives, as a
+//! tree in the arena.
+//!
+//! Dijkstra's shunting yard with two stacks, so that depth costs heap, never stack. Brackets,
+//! calls and indices are entries of the operator stack.
+
+use super::item::place;
+use super::{Pair, message};
+use crate::ast::{Arithmetic, Ast, Comparison, Infix, Node, NodeId, Prefix};
+use crate::error::{Error, Kind};
+use crate::grammar::Rule;
+use crate::source::Span;
+
+/// Builds the expression of `pair`, whose text starts at byte `at`, and returns its root.
+pub(super) fn build(ast: &mut Ast, pair: Pair<'_>, at: usize) -> Result<NodeId, Error> {
+    let mut yard = Yard { ast, at, operands: Vec::new(), pending: Vec::new() };
+    let mut operand_next = true;
+    for token in pair.into_inner() {
+        operand_next = if operand_next { yard.prefix(token) } else { yard.infix(token) }?;
+    }
+    yard.finish()
+}
+
+/// An operator that waits for its right operand, or a bracket that waits for its end.
+#[derive(Clone, Copy)]
+enum Pending {
+    Prefix(Prefix, Span),
+    Quantifier {
+        all: bool,
+        name: Span,
+        set: Span,
+        span: Span,
+    },
+    Infix(Infix, Span),
+    Open(Span),
+    /// A call; its arguments are the operands from `first` on.
+    Call {
+        first: usize,
+        span: Span,
+    },
+    Index(Span),
+}
+
+struct Yard<'a> {
+    ast: &'a mut Ast,
+    at: usize,
+    operands: Vec<NodeId>,
+    pending: Vec<Pending>,
+}
+
+impl Yard<'_> {
+    /// Reads a token where an operand may start; answers whether one is still due.
+    fn prefix(&mut self, token: Pair<'_>) -> Result<bool, Error> {
+        let span = place(&token, self.at);
+        let operator = match token.as_rule() {
+            Rule::not => Pending::Prefix(Prefix::Not, span),
+            Rule::eventually => Pending::Prefix(Prefix::Eventually, span),
+            Rule::next_op => Pending::Prefix(Prefix::Next, span),
+            Rule::minus => Pending::Prefix(Prefix::Minus, span),
+            Rule::open => Pending::Open(span),
+            Rule::quantifier => self.quantifier(token),
+            _ => {
+                let node = self.primary(&token, span)?;
+                self.push(node, span, span);
+                return Ok(false);
+            }
+        };
+        self.pending.push(operator);
+        Ok(true)
+    }
+
+    fn quantifier(&self, token: Pair<'_>) -> Pending {
+        let span = place(&token, self.at);
+        let mut all = false;
+        let mut names = Vec::new();
+        for part in token.into_inner() {
+            match part.as_rule() {
+                Rule::word_all => all = true,
+                Rule::identifier => names.push(place(&part, self.at)),
+                _ => {}
+            }
+        }
+        let name = |i| names.get(i).copied().unwrap_or(span);
+        Pending::Quantifier { all, name: name(0), set: name(1), span }
+    }
+
+    fn primary(&self, token: &Pair<'_>, span: Span) -> Result<Node, Error> {
+        Ok(match token.as_rule() {
+            Rule::truth => Node::Truth(true),
+            Rule::falsity => Node::Truth(false),
+            Rule::number => Node::Number(number(token.as_str(), span)?),
+            Rule::verbatim => Node::Verbatim,
+            Rule::text => Node::Text,
+            _ => Node::Name,
+        })
+    }
+
+    /// Reads a token after an operand; answers whether another operand is due.
+    fn infix(&mut self, token: Pair<'_>) -> Result<bool, Error> {
+        let span = place(&token, self.at);
+        match token.as_rule() {
+            Rule::field => self.field(token, span),
+            Rule::empty_call => {
+                self.pending.push(Pending::Call { first: self.operands.len(), span });
+                self.close(span)?;
+            }
+            Rule::close => self.close(span)?,
+            Rule::call => {
+                self.pending.push(Pending::Call { first: self.operands.len(), span });
+                return Ok(true);
+            }
+            Rule::index => {
+                self.pending.push(Pending::Index(span));
+                return Ok(true);
+            }
+            Rule::comma => {
+                self.comma(span)?;
+                return Ok(true);
+            }
+            Rule::iff => return Err(message::unsupported("<=>", span)),
+            rule => {
+                let operator = infix_of(rule);
+                self.reduce_above(operator);
+                self.pending.push(Pending::Infix(operator, span));
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    fn field(&mut self, token: Pair<'_>, span: Span) {
+        let base = self.pop();
+        let field = token.into_inner().next().map_or(span, |name| place(&name, self.at));
+        let whole = self.outer(base).to(span);
+        self.push(Node::Field { base, field }, whole, field);
+    }
+
+    fn comma(&mut self, span: Span) -> Result<(), Error> {
+        self.reduce_all();
+        match self.pending.last() {
+            Some(Pending::Call { .. }) => Ok(()),
+            _ => Err(Error::new(
+                Kind::Syntax,
+                "a comma stands only between the arguments of a function",
+                span,
+            )
+            .help("to ask for both, write `&&`; for one of the two, `||`")),
+        }
+    }
+
+    /// Ends the innermost bracket with the `)` or `]` at `span`.
+    fn close(&mut self, span: Span) -> Result<(), Error> {
+        self.reduce_all();
+        let found = self.ast.source().slice(span).chars().last().unwrap_or(')');
+        let Some(open) = self.pending.pop() else {
+            let message = format!("`{found}` closes nothing");
+            let opening = if found == ')' { '(' } else { '[' };
+            return Err(Error::new(Kind::Syntax, message, span)
+                .help(format!("remove it, or put the missing `{opening}` before")));
+        };
+        match (open, found) {
+            (Pending::Open(start), ')') => self.bracketed(start.to(span)),
+            (Pending::Call { first, span: start }, ')') => self.call(first, start, span)?,
+            (Pending::Index(_), ']') => {
+                let (index, base) = (self.pop(), self.pop());
+                let whole = self.outer(base).to(span);
+                self.push(Node::Index { base, index }, whole, whole);
+            }
+            (open, _) => {
+                let (start, symbol, end) = bracket(open);
+                let message = format!("`{symbol}` is closed by `{found}`");
+                return Err(Error::new(Kind::Syntax, message, span)
+                    .label(format!("expected `{end}`"))
+                    .related(start, "opened here"));
+            }
+        }
+        Ok(())
+    }
+
+    fn bracketed(&mut self, brackets: Span) {
+        if let Some(&operand) = self.operands.last() {
+            self.ast.bracket(operand, brackets);
+        }
+    }
+
+    fn call(&mut self, first: usize, start: Span, end: Span) -> Result<(), Error> {
+        let arguments = self.operands.split_off(first);
+        let callee = self.pop();
+        let name = self.ast.span(callee);
+        match self.ast.node(callee) {
+            Node::Name if message::is_unsupported(self.ast.text(callee)) => {
+                return Err(message::unsupported(self.ast.text(callee), name));
+            }
+            Node::Name | Node::Field { .. } => {}
+            _ => {
+                let text = self.ast.text(callee);
+                let message = format!("an operator is missing between `{text}` and `(`");
+                return Err(Error::new(Kind::Syntax, message, start)
+                    .help("only a name can be called like a function; to multiply, write `*`"));
+            }
+        }
+        let arguments = self.ast.push_arguments(&arguments);
+        self.push(Node::Call { callee, arguments }, name.to(end), name);
+        Ok(())
+    }
+
+    fn finish(mut self) -> Result<NodeId, Error> {
+        self.reduce_all();
+        match self.pending.pop() {
+            None => Ok(self.pop()),
+            Some(open) => {
+                let (start, symbol, end) = bracket(open);
+                Err(Error::new(Kind::Syntax, format!("`{symbol}` is never closed"), start)
+                    .label(format!("the matching `{end}` is missing")))
+            }
+        }
+    }
+
+    /// Applies the waiting operators that bind more tightly than `incoming` does.
+    fn reduce_above(&mut self, incoming: Infix) {
+        let limit = level(incoming);
+        while let Some(top) = self.pending.last() {
+            let tighter = match top {
+                Pending::Prefix(Prefix::Minus, _) => true,
+                Pending::Prefix(..) => PREFIX > limit,
+                Pending::Infix(op, _) if groups_right(incoming) => level(*op) > limit,
+                Pending::Infix(op, _) => level(*op) >= limit,
+                _ => false,
+            };
+            if !tighter {
+                return;
+            }
+            self.reduce();
+        }
+    }
+
+    /// Applies all waiting operators up to the innermost bracket.
+    fn reduce_all(&mut self) {
+        while matches!(
+            self.pending.last(),
+            Some(Pending::Prefix(..) | Pending::Infix(..) | Pending::Quantifier { .. })
+        ) {
+            self.reduce();
+        }
+    }
+
+    fn reduce(&mut self) {
+        match self.pending.pop() {
+            Some(Pending::Prefix(op, span)) => {
+                let operand = self.pop();
+                let whole = span.to(self.outer(operand));
+                self.push(Node::Prefix(op, operand), whole, span);
+            }
+            Some(Pending::Infix(op, span)) => {
+                let (right, left) = (self.pop(), self.pop());
+                let whole = self.outer(left).to(self.outer(right));
+                self.push(Node::Infix(op, left, right), whole, span);
+            }
+            Some(Pending::Quantifier { all, name, set, span }) => {
+                let body = self.pop();
+                let whole = span.to(self.outer(body));
+                self.push(Node::Quantified { all, name, set, body }, whole, span);
+            }
+            _ => {}
+        }
+    }
+
+    /// The span of an operand with the brackets around it.
+    fn outer(&self, operand: NodeId) -> Span {
+        self.ast.entry(operand).outer
+    }
+
+    fn push(&mut self, node: Node, span: Span, operator: Span) {
+        let id = self.ast.push(node, span, operator);
+        self.operands.push(id);
+    }
+
+    /// The last operand; the grammar sees to it that there is one.
+    fn pop(&mut self) -> NodeId {
+        self.operands.pop().expect("an operand before every operator that needs one")
+    }
+}
+
+/// How tightly the prefix operators bind; see [`level`]. A minus binds more tightly than all.
+const PREFIX: u8 = 5;
+
+/// How tightly an operator binds, comparisons and arithmetic the most.
+fn level(operator: Infix) -> u8 {
+    match operator {
+        Infix::Implies => 1,
+        Infix::Or => 2,
+        Infix::And => 3,
+        Infix::Until | Infix::Then => 4,
+        Infix::Compare(_) => 6,
+        Infix::Calculate(Arithmetic::Add | Arithmetic::Subtract) => 7,
+        Infix::Calculate(Arithmetic::Multiply | Arithmetic::Divide) => 8,
+    }
+}
+
+fn groups_right(operator: Infix) -> bool {
+    matches!(operator, Infix::Implies | Infix::Until | Infix::Then)
+}
+
+fn infix_of(rule: Rule) -> Infix {
+    match rule {
+        Rule::implies => Infix::Implies,
+        Rule::or => Infix::Or,
+        Rule::and => Infix::And,
+        Rule::until => Infix::Until,
+        Rule::then => Infix::Then,
+        Rule::equal => Infix::Compare(Comparison::Equal),
+        Rule::unequal => Infix::Compare(Comparison::Unequal),
+        Rule::at_most => Infix::Compare(Comparison::AtMost),
+        Rule::at_least => Infix::Compare(Comparison::AtLeast),
+        Rule::less => Infix::Compare(Comparison::Less),
+        Rule::greater => Infix::Compare(Comparison::Greater),
+        Rule::plus => Infix::Calculate(Arithmetic::Add),
+        Rule::times => Infix::Calculate(Arithmetic::Multiply),
+        Rule::divide => Infix::Calculate(Arithmetic::Divide),
+        // The last that the grammar has: `-`.
+        _ => Infix::Calculate(Arithmetic::Subtract),
+    }
+}
+
+/// A bracket, its symbol, and the symbol that ends it.
+fn bracket(open: Pending) -> (Span, char, char) {
+    match open {
+        Pending::Index(span) => (span, '[', ']'),
+        Pending::Open(span) | Pending::Call { span, .. } => (span, '(', ')'),
+        Pending::Prefix(_, span) | Pending::Infix(_, span) | Pending::Quantifier { span, .. } => {
+            (span, '(', ')')
+        }
+    }
+}
+
+/// The largest whole number up to which a double counts exactly.
+const EXACT: f64 = 9_007_199_254_740_992.0;
+
+fn number(text: &str, span: Span) -> Result<f64, Error> {
+    let digits = text.replace('_', "");
+    let suffix = digits.find(['f', 'i', 'u']).unwrap_or(digits.len());
+    let value: f64 = digits[..suffix].parse().unwrap_or(f64::INFINITY);
+    let whole = !digits.contains(['.', 'e', 'E']);
+    if !value.is_finite() {
+        let message =
+            format!("`{}` is larger than any number that a computer calculates with", short(text));
+        return Err(Error::new(Kind::Number, message, span).help("the largest is about 1.8e308"));
+    }
+    if whole && value > EXACT {
+        let message = format!("`{}` is too large to be exact", short(text));
+        return Err(Error::new(Kind::Number, message, span)
+            .help("whole numbers are exact up to 2^53 = 9007199254740992; write it with an exponent if a rounded value will do"));
+    }
+    Ok(value)
+}
+
+fn short(text: &str) -> String {
+    if text.len() <= 40 { text.to_owned() } else { format!("{}…", &text[..40]) }
+}

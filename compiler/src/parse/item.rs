@@ -1,0 +1,146 @@
+//! Items: what stands around expressions.
+
+use super::{Pair, expression, token};
+use crate::ast::{Ast, Declaration, FieldType, Item, ItemKind};
+use crate::error::{Error, Kind};
+use crate::grammar::Rule;
+use crate::source::Span;
+
+/// Adds the item of `pair`, whose text starts at byte `at` of the source.
+pub(super) fn build(ast: &mut Ast, pair: Pair<'_>, at: usize, mistakes: &mut Vec<Error>) {
+    let mut docs = Vec::new();
+    for part in pair.into_inner() {
+        match part.as_rule() {
+            Rule::doc => docs.push(doc_text(part.as_str())),
+            Rule::EOI => {}
+            _ => {
+                let span = place(&part, at);
+                let (name, kind) = declaration(ast, part, at, mistakes);
+                check_word(ast, name, mistakes);
+                ast.push_item(Item { docs: std::mem::take(&mut docs), name, kind, span });
+            }
+        }
+    }
+}
+
+/// Adds the header `|name: &Type|` as an item.
+pub(super) fn header(ast: &mut Ast, pair: &Pair<'_>) {
+    let mut parts = pair.clone().into_inner();
+    let (Some(name), Some(ty)) = (parts.next(), parts.next()) else { return };
+    let kind = ItemKind::Host(trimmed(ast, place(&ty, 0)));
+    let (name, span) = (place(&name, 0), place(pair, 0));
+    ast.push_item(Item { docs: Vec::new(), name, kind, span });
+}
+
+/// Adds an item of which no more than the name can be read, so that its uses are no mistakes.
+pub(super) fn broken(ast: &mut Ast, span: Span) {
+    if let Some(name) = token::item_name(ast.source().text(), span) {
+        ast.push_item(Item { docs: Vec::new(), name, kind: ItemKind::Broken, span });
+    }
+}
+
+/// The text of a doc comment: no slashes, no blank in front.
+pub(super) fn doc_text(comment: &str) -> String {
+    let text = comment.get(3..).unwrap_or_default();
+    text.strip_prefix(' ').unwrap_or(text).trim_end().to_owned()
+}
+
+/// Where `pair` stands if its text starts at byte `at`.
+pub(super) fn place(pair: &Pair<'_>, at: usize) -> Span {
+    let span = pair.as_span();
+    Span::new(span.start(), span.end()).shifted(at)
+}
+
+fn declaration(
+    ast: &mut Ast,
+    pair: Pair<'_>,
+    at: usize,
+    mistakes: &mut Vec<Error>,
+) -> (Span, ItemKind) {
+    let rule = pair.as_rule();
+    let mut name = Span::default();
+    let mut names = Vec::new();
+    let mut fields = Vec::new();
+    let mut root = None;
+    let mut host = None;
+    for part in pair.into_inner() {
+        match part.as_rule() {
+            Rule::identifier if name == Span::default() => name = place(&part, at),
+            Rule::identifier => names.push(place(&part, at)),
+            Rule::fields | Rule::parameters => fields = declarations(ast, part, at, mistakes),
+            Rule::host_type => host = Some(trimmed(ast, place(&part, at))),
+            Rule::expression => match expression::build(ast, part, at) {
+                Ok(node) => root = Some(node),
+                Err(error) => mistakes.push(error),
+            },
+            _ => {}
+        }
+    }
+    let kind = match (rule, root, host) {
+        (Rule::state, _, Some(ty)) => ItemKind::Host(ty),
+        (Rule::state, ..) => ItemKind::State(fields),
+        (Rule::record, ..) => ItemKind::Struct(fields),
+        (Rule::enumeration, ..) => ItemKind::Enum(names),
+        (Rule::constant, Some(root), _) => ItemKind::Constant(root),
+        (Rule::predicate, Some(root), _) => ItemKind::Predicate(fields, root),
+        (Rule::task, Some(root), _) => ItemKind::Task(fields, root),
+        _ => ItemKind::Broken,
+    };
+    (name, kind)
+}
+
+fn declarations(
+    ast: &Ast,
+    pair: Pair<'_>,
+    at: usize,
+    mistakes: &mut Vec<Error>,
+) -> Vec<Declaration> {
+    let mut fields = Vec::new();
+    for field in pair.into_inner().filter(|part| part.as_rule() == Rule::field_declaration) {
+        let mut docs = Vec::new();
+        let mut name = Span::default();
+        for part in field.into_inner() {
+            match part.as_rule() {
+                Rule::doc => docs.push(doc_text(part.as_str())),
+                Rule::identifier => name = place(&part, at),
+                Rule::field_type => {
+                    check_word(ast, name, mistakes);
+                    let docs = std::mem::take(&mut docs);
+                    fields.push(Declaration { docs, name, ty: field_type(part, at) });
+                }
+                _ => {}
+            }
+        }
+    }
+    fields
+}
+
+fn field_type(pair: Pair<'_>, at: usize) -> FieldType {
+    let span = place(&pair, at);
+    let mut name = Span::default();
+    let mut lengths = Vec::new();
+    for part in pair.into_inner() {
+        match part.as_rule() {
+            Rule::identifier => name = place(&part, at),
+            Rule::array_close => lengths.extend(part.into_inner().map(|part| place(&part, at))),
+            _ => {}
+        }
+    }
+    FieldType { name, lengths, span }
+}
+
+/// Refuses an operator's word as a declared name.
+fn check_word(ast: &Ast, name: Span, mistakes: &mut Vec<Error>) {
+    let word = ast.source().slice(name);
+    let Some(meaning) = token::keyword(word) else { return };
+    mistakes.push(
+        Error::new(Kind::Keyword, format!("`{word}` cannot be a name: it means {meaning}"), name)
+            .help(format!("choose another name, such as `{word}_` or a longer word")),
+    );
+}
+
+fn trimmed(ast: &Ast, span: Span) -> Span {
+    let text = ast.source().slice(span);
+    let start = span.start + text.len() - text.trim_start().len();
+    Span::new(start, start + text.trim().len())
+}

@@ -1,0 +1,276 @@
+//! Syntax mistakes as sentences: what is missing or too much, in the author's own words.
+
+use super::token::{self, Tokens};
+use crate::error::{Error, Kind};
+use crate::grammar::Rule;
+use crate::source::{Source, Span};
+
+/// What stands around the place where parsing stopped.
+struct Found<'a> {
+    text: &'a str,
+    before: Option<Span>,
+    here: Option<Span>,
+    after: Option<Span>,
+    end: usize,
+}
+
+impl<'a> Found<'a> {
+    fn new(text: &'a str, from: usize, at: usize) -> Self {
+        let mut tokens = Tokens::new(text, from);
+        let mut before = None;
+        let mut here = None;
+        for token in tokens.by_ref() {
+            if token.end > at {
+                here = Some(token);
+                break;
+            }
+            before = Some(token);
+        }
+        let end = before.map_or(from, |token| token.end);
+        Self { text, before, here, after: tokens.next(), end }
+    }
+
+    fn word(&self, token: Option<Span>) -> &'a str {
+        token.map_or("", |token| &self.text[token.start..token.end])
+    }
+
+    /// Where the missing thing should stand: the next token, or the end of the last one.
+    fn gap(&self) -> Span {
+        self.before.or(self.here).unwrap_or(Span::new(self.end, self.end))
+    }
+
+    fn here_or_end(&self) -> Span {
+        self.here.unwrap_or(Span::new(self.end, self.end))
+    }
+
+    /// Whether the parsed item ends here.
+    fn at_end(&self) -> bool {
+        matches!(self.word(self.here), "" | ";" | "///" | "//!")
+            || token::starts_with_item(&self.text[self.here_or_end().start..])
+    }
+}
+
+/// The mistake that made pest stop, in a text parsed from byte `from` on.
+pub(super) fn sentence(source: &Source, from: usize, error: &pest::error::Error<Rule>) -> Error {
+    let at = from
+        + match error.location {
+            pest::error::InputLocation::Pos(at) => at,
+            pest::error::InputLocation::Span((at, _)) => at,
+        };
+    let found = Found::new(source.text(), from, at);
+    let expected: &[Rule] = match &error.variant {
+        pest::error::ErrorVariant::ParsingError { positives, .. } => positives,
+        pest::error::ErrorVariant::CustomError { .. } => &[],
+    };
+    if let Some(error) = unsupported_here(&found) {
+        return error;
+    }
+    if expected.contains(&Rule::truth) {
+        operand_missing(&found)
+    } else if expected.contains(&Rule::until) {
+        operator_missing(&found)
+    } else {
+        other(&found, expected)
+    }
+}
+
+/// An operator of another logic at the place where parsing stopped, or just before it.
+fn unsupported_here(found: &Found<'_>) -> Option<Error> {
+    let (before, here) = (found.word(found.before), found.word(found.here));
+    if here == "[" && found.word(found.after) == "]" {
+        return found.here.map(|span| unsupported("[]", Span::new(span.start, span.end + 1)));
+    }
+    let here_is = is_unsupported(here) && !found.at_end();
+    if here_is && (BINARY.contains(&here) || here == "□" || here == "[]") {
+        return found.here.map(|span| unsupported(here, span));
+    }
+    let before_is = is_unsupported(before) && !BINARY.contains(&before);
+    let goes_on = here.starts_with(token::is_word_start) || matches!(here, "!" | "(" | "◇" | "○");
+    let operator = matches!(here, "U" | "T" | "and" | "or");
+    (before_is && goes_on && !operator && !found.at_end())
+        .then(|| found.before.map(|span| unsupported(before, span)))
+        .flatten()
+}
+
+fn operand_missing(found: &Found<'_>) -> Error {
+    let (before, here) = (found.word(found.before), found.word(found.here));
+    let syntax = |message: String, span| Error::new(Kind::Syntax, message, span);
+    match (before, here) {
+        ("", "") => syntax("there is no formula here".into(), found.here_or_end())
+            .help("write one, such as `F a`: \"eventually a\""),
+        (_, "~") => syntax("negation is written `!`, not `~`".into(), found.here_or_end()),
+        (_, "=") if before == "=" => equals(found),
+        ("(" | "[", ")" | "]") => syntax(
+            "nothing stands between the brackets".into(),
+            found.gap().to(found.here_or_end()),
+        ),
+        (",", ")") => syntax("an argument is missing after the comma".into(), found.gap()),
+        (_, ">") if before == "<" => syntax(
+            "`<>` is \"eventually\" and stands before a formula".into(),
+            found.gap().to(found.here_or_end()),
+        )
+        .help("to say \"different\", write `!=`"),
+        (_, "{" | "\"") => syntax(format!("`{here}` cannot start a formula"), found.here_or_end()),
+        _ if is_infix(here) && (before.is_empty() || matches!(before, "(" | "=" | "|")) => {
+            let error = syntax(format!("`{here}` has nothing on its left"), found.here_or_end());
+            word_as_name(error, here)
+        }
+        _ if is_infix(before) || is_prefix(before) => after_operator(found),
+        ("=", _) => {
+            syntax("nothing follows `=`".into(), found.gap()).label("a formula should stand here")
+        }
+        _ if found.at_end() => syntax(format!("`{before}` is never finished"), found.gap())
+            .label("an operand is missing after this"),
+        _ => syntax(format!("`{here}` cannot stand here"), found.here_or_end())
+            .help("a name, a number, a comparison, `!`, `F`, `X` or `(` can"),
+    }
+}
+
+/// Nothing that can be an operand follows the operator before.
+fn after_operator(found: &Found<'_>) -> Error {
+    let (before, here) = (found.word(found.before), found.word(found.here));
+    let side = if is_prefix(before) { "after it" } else { "on its right" };
+    let error = Error::new(Kind::Syntax, format!("`{before}` has nothing {side}"), found.gap());
+    let error = if found.at_end() || matches!(here, ")" | "]") {
+        error.label("an operand is missing after this")
+    } else {
+        error.related(found.here_or_end(), format!("`{here}` cannot be its operand"))
+    };
+    if is_infix(here) { word_as_name(error, here) } else { word_as_name(error, before) }
+}
+
+/// Adds, for an operator that is a word, that it cannot be a name.
+fn word_as_name(error: Error, word: &str) -> Error {
+    match token::keyword(word) {
+        Some(meaning) => {
+            error.help(format!("`{word}` means {meaning} and cannot be the name of a proposition"))
+        }
+        None => error,
+    }
+}
+
+fn operator_missing(found: &Found<'_>) -> Error {
+    let (before, here) = (found.word(found.before), found.word(found.here));
+    let syntax = |message: String| Error::new(Kind::Syntax, message, found.here_or_end());
+    match here {
+        "=" => equals(found),
+        "=<" => syntax("\"at most\" is written `<=`, not `=<`".into()),
+        "^" | "**" => {
+            syntax(format!("`{here}` is not an operator")).help("for powers, write `pow(x, 2)`")
+        }
+        "%" => syntax("`%` is not an operator".into()),
+        "!" | "F" | "X" | "¬" | "◇" | "○" | "not" => {
+            between(found).help(format!("`{here}` stands before a formula, not after one"))
+        }
+        "" => syntax(format!("the source ends after `{before}`")),
+        ":" | "?" | "." | "$" | "@" | "#" | "'" | "\\" | "`" => {
+            syntax(format!("`{here}` is not part of the language"))
+        }
+        _ => between(found),
+    }
+}
+
+fn between(found: &Found<'_>) -> Error {
+    let (before, here) = (found.word(found.before), found.word(found.here));
+    let message = format!("an operator is missing between `{before}` and `{here}`");
+    Error::new(Kind::Syntax, message, found.here_or_end())
+        .related(found.gap(), "this is complete")
+        .help("such as `&&`, `||`, `=>`, `U` (until) or `T` (then)")
+}
+
+fn equals(found: &Found<'_>) -> Error {
+    Error::new(
+        Kind::Syntax,
+        "`=` gives a name its meaning; to compare, write `==`",
+        found.here_or_end(),
+    )
+}
+
+fn other(found: &Found<'_>, expected: &[Rule]) -> Error {
+    let here = found.word(found.here);
+    let mut names: Vec<_> = expected.iter().filter_map(|rule| rule_name(*rule)).collect();
+    names.dedup();
+    let expected = match names.split_last() {
+        None => "something else".to_owned(),
+        Some((last, [])) => (*last).to_owned(),
+        Some((last, rest)) => format!("{} or {last}", rest.join(", ")),
+    };
+    let found_text = if here.is_empty() { "the end".to_owned() } else { format!("`{here}`") };
+    let message = format!("expected {expected}, found {found_text}");
+    Error::new(Kind::Syntax, message, found.here_or_end())
+}
+
+fn rule_name(rule: Rule) -> Option<&'static str> {
+    Some(match rule {
+        Rule::word_state => "`state`",
+        Rule::word_struct => "`struct`",
+        Rule::word_enum => "`enum`",
+        Rule::word_const => "`const`",
+        Rule::word_predicate => "`predicate`",
+        Rule::word_task => "`task`",
+        Rule::identifier => "a name",
+        Rule::fields => "`{`",
+        Rule::field_declaration => "a field such as `x: f64`",
+        Rule::field_type => "a type such as `f64`",
+        Rule::header_type | Rule::host_type => "a type",
+        Rule::array_close => "`; 6]`",
+        Rule::digits => "a number",
+        Rule::parameters => "`(`",
+        Rule::expression => "a formula",
+        _ => return None,
+    })
+}
+
+fn is_prefix(word: &str) -> bool {
+    matches!(word, "!" | "F" | "X" | "not" | "¬" | "◇" | "○" | "<>")
+}
+
+fn is_infix(word: &str) -> bool {
+    const WORDS: [&str; 31] = [
+        "=>", "->", "⇒", "||", "|", "∨", "or", "&&", "&", "∧", "and", "U", "T", "==", "!=", "≠",
+        "<=", "≤", ">=", "≥", "<", ">", "+", "-", "−", "*", "×", "/", "÷", "<=>", "<->",
+    ];
+    WORDS.contains(&word)
+}
+
+const BINARY: [&str; 6] = ["R", "V", "W", "M", "S", "<=>"];
+
+/// Whether `word` is an operator of another temporal logic.
+pub(super) fn is_unsupported(word: &str) -> bool {
+    unsupported_reason(word).is_some()
+}
+
+/// What the operator means elsewhere, why it is not here, and what to write instead.
+fn unsupported_reason(word: &str) -> Option<(&'static str, &'static str, &'static str)> {
+    const NEVER: &str =
+        "no finite trajectory can ever establish it, for the next state may break it";
+    const PAST: &str = "it looks back, and the automaton reads the trajectory forwards";
+    const AVOID: &str = "to stay out of `b` until `a`, write `!b U a`";
+    Some(match word {
+        "G" | "[]" | "□" => ("always", NEVER, AVOID),
+        "R" | "V" => (
+            "release",
+            NEVER,
+            "if `b` must hold up to and including an `a` that comes, write `b U (a && b)`",
+        ),
+        "W" => ("weak until", NEVER, "if `b` must come, write `a U b`"),
+        "M" => ("strong release", "it is `U` in other words", "for `a M b` write `b U (a && b)`"),
+        "Y" => ("yesterday", PAST, "for `a` and `b` in consecutive states, write `F (a && X b)`"),
+        "O" => ("once in the past", PAST, "for `a` before `b`, write `a T b`"),
+        "H" => ("always in the past", PAST, AVOID),
+        "S" => ("since", PAST, "turn it around: `a U b` looks forwards"),
+        "<=>" => (
+            "if and only if",
+            "it would need the negation of both sides, temporal ones too",
+            "for `a` and `b` without F, X, U, T write `(a => b) && (b => a)`",
+        ),
+        _ => return None,
+    })
+}
+
+/// The error for an operator of another temporal logic.
+pub(super) fn unsupported(word: &str, span: Span) -> Error {
+    let (meaning, reason, rewrite) = unsupported_reason(word).unwrap_or(("", "", ""));
+    let message = format!("`{word}` (\"{meaning}\") is not an operator of this language: {reason}");
+    Error::new(Kind::UnsupportedOperator, message, span).help(rewrite)
+}

@@ -1,0 +1,129 @@
+//! Words and symbols as a reader sees them, for messages and for finding the next item after a
+//! mistake. Parsing itself does not use this.
+
+use crate::source::Span;
+
+const ITEM_WORDS: [&str; 6] = ["state", "struct", "enum", "const", "predicate", "task"];
+
+const SYMBOLS: [&str; 24] = [
+    "<=>", "<->", "///", "//!", "=>", "->", "&&", "||", "==", "!=", "<=", ">=", "<>", "[]", "::",
+    "**", "=<", "&", "|", "<", ">", "=", "-", "/",
+];
+
+/// What a keyword means; `None` if `word` is an ordinary name.
+pub(super) fn keyword(word: &str) -> Option<&'static str> {
+    Some(match word {
+        "F" => "\"eventually\"",
+        "X" => "\"at the next state\"",
+        "U" => "\"until\"",
+        "T" => "\"then\"",
+        "true" | "false" => "a truth value",
+        "not" => "\"not\"",
+        "and" => "\"and\"",
+        "or" => "\"or\"",
+        _ => return None,
+    })
+}
+
+/// Whether `text` begins like an item.
+pub(super) fn starts_with_item(text: &str) -> bool {
+    let Some(first) = Tokens::new(text, 0).next() else { return false };
+    let word = &text[first.start..first.end];
+    word == "///" || word == "//!" || begins_item(text, first)
+}
+
+/// The name of the item that starts in `span`.
+pub(super) fn item_name(text: &str, span: Span) -> Option<Span> {
+    let mut tokens = Tokens::new(text, span.start);
+    let word = tokens.find(|token| ITEM_WORDS.contains(&&text[token.start..token.end]))?;
+    (word.end <= span.end && begins_item(text, word)).then(|| tokens.next()).flatten()
+}
+
+/// Where the next item starts, at `from` or later but after the item that starts at `at`: its word
+/// is the first of a line, or follows a `;`.
+pub(super) fn next_item(text: &str, at: usize, from: usize) -> usize {
+    let mut first = true;
+    let mut item_seen = false;
+    let mut doc = None;
+    for token in Tokens::new(text, at) {
+        let word = &text[token.start..token.end];
+        let new_line = text[..token.start].rfind(|c: char| !c.is_whitespace() || c == '\n');
+        first |= new_line.is_none_or(|at| text[at..].starts_with('\n'));
+        if first && word == "///" {
+            doc = doc.or(Some(token.start));
+        } else if first && begins_item(text, token) {
+            if item_seen && token.start >= from || token.start > from {
+                return doc.unwrap_or(token.start).max(at + 1);
+            }
+            item_seen = true;
+            doc = None;
+        } else {
+            item_seen = true;
+            doc = None;
+        }
+        first = word == ";";
+    }
+    text.len()
+}
+
+fn begins_item(text: &str, token: Span) -> bool {
+    ITEM_WORDS.contains(&&text[token.start..token.end])
+        && Tokens::new(text, token.end)
+            .next()
+            .is_some_and(|next| text[next.start..].starts_with(is_word_start))
+}
+
+/// The tokens of a text from some byte on; comments are skipped, doc comments are one token `///`.
+pub(super) struct Tokens<'a> {
+    text: &'a str,
+    at: usize,
+}
+
+impl<'a> Tokens<'a> {
+    pub(super) fn new(text: &'a str, at: usize) -> Self {
+        Self { text, at }
+    }
+
+    fn skip_trivia(&mut self) {
+        loop {
+            let rest = &self.text[self.at..];
+            let trimmed = rest.trim_start_matches(|c: char| c.is_whitespace() || c == '\u{feff}');
+            self.at += rest.len() - trimmed.len();
+            let doc = trimmed.starts_with("//!")
+                || trimmed.starts_with("///") && !trimmed.starts_with("////");
+            if trimmed.starts_with("//") && !doc {
+                self.at += trimmed.find('\n').unwrap_or(trimmed.len());
+            } else if trimmed.starts_with("/*") {
+                self.at += trimmed.find("*/").map_or(trimmed.len(), |end| end + 2);
+            } else {
+                return;
+            }
+        }
+    }
+}
+
+impl Iterator for Tokens<'_> {
+    type Item = Span;
+
+    fn next(&mut self) -> Option<Span> {
+        self.skip_trivia();
+        let rest = &self.text[self.at..];
+        let first = rest.chars().next()?;
+        let length = if is_word_start(first) || first.is_ascii_digit() {
+            rest.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(rest.len())
+        } else {
+            let symbol = SYMBOLS.iter().find(|symbol| rest.starts_with(**symbol));
+            symbol.map_or(first.len_utf8(), |symbol| symbol.len())
+        };
+        let token = Span::new(self.at, self.at + length);
+        self.at = token.end;
+        if matches!(&self.text[token.start..token.end], "///" | "//!") {
+            self.at += rest[length..].find('\n').unwrap_or(rest.len() - length);
+        }
+        Some(token)
+    }
+}
+
+pub(super) fn is_word_start(c: char) -> bool {
+    c.is_alphabetic() || c == '_'
+}

@@ -1,0 +1,541 @@
+//! What a source declares: the state, the predicates over one state, and the tasks.
+//!
+//! A [`Module`] is typed: a [`Condition`] is true or false, a [`Term`] is a number, and constants
+//! are folded. Both live in arenas, operands before the operators that use them, hash-consed,
+//! so that equal comparisons are equal ids.
+
+mod print;
+
+use std::collections::HashMap;
+use std::fmt;
+
+pub use print::Printed;
+
+use crate::ast::{Arithmetic, Comparison};
+use crate::error::Error;
+use crate::source::Span;
+use crate::spec::Spec;
+
+/// A predicate of a [`Module`]: an index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct PredicateId(pub u32);
+
+/// A condition of a [`Module`]: an index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct ConditionId(pub u32);
+
+/// A term of a [`Module`]: an index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct TermId(pub u32);
+
+/// A task of a [`Module`]: an index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct TaskId(pub u32);
+
+/// A scalar type of a field.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Scalar {
+    /// A Rust number type, by its name.
+    Number(&'static str),
+    /// `bool`
+    Bool,
+}
+
+impl Scalar {
+    /// The scalar type that Rust calls `name`.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        const NUMBERS: [&str; 10] =
+            ["f64", "f32", "i8", "i16", "i32", "i64", "u8", "u16", "u32", "u64"];
+        if name == "bool" {
+            return Some(Self::Bool);
+        }
+        NUMBERS.into_iter().find(|number| *number == name).map(Self::Number)
+    }
+
+    /// What Rust calls it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Number(name) => name,
+            Self::Bool => "bool",
+        }
+    }
+}
+
+/// The type of a field.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Type {
+    /// A number or a truth value.
+    Scalar(Scalar),
+    /// A struct: an index of [`Module::structs`].
+    Struct(u32),
+    /// An enumeration: an index of [`Module::enums`].
+    Enum(u32),
+    /// An array of so many elements.
+    Array(Box<Type>, u32),
+}
+
+/// One field of a state or a struct.
+#[derive(Clone, Debug)]
+pub struct Field {
+    /// Its name.
+    pub name: String,
+    /// What the author says about it.
+    pub docs: Vec<String>,
+    /// Its type.
+    pub ty: Type,
+}
+
+/// A struct that the source declares; the state is one too.
+#[derive(Clone, Debug)]
+pub struct Struct {
+    /// Its name.
+    pub name: String,
+    /// What the author says about it.
+    pub docs: Vec<String>,
+    /// Its fields.
+    pub fields: Vec<Field>,
+}
+
+/// An enumeration that the source declares.
+#[derive(Clone, Debug)]
+pub struct Enum {
+    /// Its name.
+    pub name: String,
+    /// What the author says about it.
+    pub docs: Vec<String>,
+    /// The names of its values.
+    pub variants: Vec<String>,
+}
+
+/// What predicates are about.
+#[derive(Clone, Debug)]
+pub enum State {
+    /// Nothing is declared: propositions are free.
+    Free,
+    /// A struct that the source declares.
+    Declared(Struct),
+    /// A value of a Rust type of the user's.
+    Host {
+        /// The name that stands for the state.
+        name: String,
+        /// Where the source has the type.
+        ty: Span,
+        /// Where the source has the name.
+        span: Span,
+    },
+    /// The macro without a header: the type is the one that the predicates take.
+    Inferred,
+}
+
+/// A named constant.
+#[derive(Clone, Debug)]
+pub struct Constant {
+    /// Its name.
+    pub name: String,
+    /// What the author says about it.
+    pub docs: Vec<String>,
+    /// Its value.
+    pub value: f64,
+}
+
+/// A part of a place within the state: `.pose`, `[2]`.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Step {
+    /// A field.
+    Field(String),
+    /// An element of an array.
+    Index(u32),
+}
+
+/// A function of numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[allow(missing_docs, reason = "each is the function of its name")]
+pub enum Function {
+    Abs,
+    Min,
+    Max,
+    Sqrt,
+    Hypot,
+    Sin,
+    Cos,
+    Tan,
+    Asin,
+    Acos,
+    Atan,
+    Atan2,
+    Exp,
+    Ln,
+    Pow,
+    Floor,
+    Ceil,
+}
+
+impl Function {
+    /// All functions with their names and numbers of arguments; `min` and `max` take more too.
+    pub const ALL: [(&'static str, Self, usize); 17] = [
+        ("abs", Self::Abs, 1),
+        ("min", Self::Min, 2),
+        ("max", Self::Max, 2),
+        ("sqrt", Self::Sqrt, 1),
+        ("hypot", Self::Hypot, 2),
+        ("sin", Self::Sin, 1),
+        ("cos", Self::Cos, 1),
+        ("tan", Self::Tan, 1),
+        ("asin", Self::Asin, 1),
+        ("acos", Self::Acos, 1),
+        ("atan", Self::Atan, 1),
+        ("atan2", Self::Atan2, 2),
+        ("exp", Self::Exp, 1),
+        ("ln", Self::Ln, 1),
+        ("pow", Self::Pow, 2),
+        ("floor", Self::Floor, 1),
+        ("ceil", Self::Ceil, 1),
+    ];
+
+    /// The function called `name`, and how many arguments it takes.
+    #[must_use]
+    pub fn named(name: &str) -> Option<(Self, usize)> {
+        let found = Self::ALL.into_iter().find(|(known, ..)| *known == name)?;
+        Some((found.1, found.2))
+    }
+
+    /// Its name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        Self::ALL.into_iter().find(|(_, function, _)| *function == self).map_or("", |found| found.0)
+    }
+
+    /// Its value at `x`, and at `y` if it takes two numbers.
+    #[must_use]
+    pub fn value(self, x: f64, y: f64) -> f64 {
+        match self {
+            Self::Abs => x.abs(),
+            Self::Min => x.min(y),
+            Self::Max => x.max(y),
+            Self::Sqrt => x.sqrt(),
+            Self::Hypot => x.hypot(y),
+            Self::Sin => x.sin(),
+            Self::Cos => x.cos(),
+            Self::Tan => x.tan(),
+            Self::Asin => x.asin(),
+            Self::Acos => x.acos(),
+            Self::Atan => x.atan(),
+            Self::Atan2 => x.atan2(y),
+            Self::Exp => x.exp(),
+            Self::Ln => x.ln(),
+            Self::Pow => x.powf(y),
+            Self::Floor => x.floor(),
+            Self::Ceil => x.ceil(),
+        }
+    }
+}
+
+/// A literal number, equal to another one if the bits are.
+#[derive(Clone, Copy, Debug)]
+pub struct Number(pub f64);
+
+impl PartialEq for Number {
+    fn eq(&self, other: &Self) -> bool {
+        self.0.to_bits() == other.0.to_bits()
+    }
+}
+
+impl Eq for Number {}
+
+impl std::hash::Hash for Number {
+    fn hash<H: std::hash::Hasher>(&self, state: &mut H) {
+        self.0.to_bits().hash(state);
+    }
+}
+
+/// A number, as a function of one state.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Term {
+    /// A constant, finite.
+    Number(Number),
+    /// A place within the declared state.
+    Place {
+        /// The way to it.
+        steps: Vec<Step>,
+        /// What stands there.
+        scalar: Scalar,
+    },
+    /// A free real variable of a bare formula.
+    Variable(String),
+    /// A Rust expression.
+    Host {
+        /// Its text without blanks; the same text is the same term.
+        text: String,
+        /// Where it stands first.
+        span: Span,
+    },
+    /// −x
+    Negate(TermId),
+    /// x + y and its like
+    Calculate(Arithmetic, TermId, TermId),
+    /// f(x), or f(x, y)
+    Call(Function, TermId, Option<TermId>),
+}
+
+/// True or false, as a function of one state.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Condition {
+    /// ⊤ or ⊥
+    Truth(bool),
+    /// Negation.
+    Not(ConditionId),
+    /// Conjunction.
+    And(ConditionId, ConditionId),
+    /// Disjunction.
+    Or(ConditionId, ConditionId),
+    /// A comparison of two numbers.
+    Compare(Comparison, TermId, TermId),
+    /// A Boolean place of the state, declared or Rust's.
+    Bool(TermId),
+    /// Another predicate of the module.
+    Is(PredicateId),
+    /// A Rust value in scope that is itself a predicate over the state.
+    Value {
+        /// Its text without blanks.
+        text: String,
+        /// Where it stands first.
+        span: Span,
+    },
+    /// A free proposition of a bare formula: nothing is known of it but the predicate's name.
+    Free(String),
+}
+
+/// The arenas of conditions and terms.
+#[derive(Clone, Debug, Default)]
+pub struct Arena {
+    conditions: Vec<Condition>,
+    terms: Vec<Term>,
+    known_conditions: HashMap<Condition, ConditionId>,
+    known_terms: HashMap<Term, TermId>,
+    hosts: HashMap<String, TermId>,
+}
+
+impl Arena {
+    /// One condition.
+    #[must_use]
+    pub fn condition(&self, id: ConditionId) -> &Condition {
+        &self.conditions[id.0 as usize]
+    }
+
+    /// One term.
+    #[must_use]
+    pub fn term(&self, id: TermId) -> &Term {
+        &self.terms[id.0 as usize]
+    }
+
+    /// All conditions, operands first.
+    #[must_use]
+    pub fn conditions(&self) -> &[Condition] {
+        &self.conditions
+    }
+
+    /// All terms, operands first.
+    #[must_use]
+    pub fn terms(&self) -> &[Term] {
+        &self.terms
+    }
+
+    /// The value of a term that does not depend on the state.
+    #[must_use]
+    pub fn constant(&self, id: TermId) -> Option<f64> {
+        match self.term(id) {
+            Term::Number(Number(value)) => Some(*value),
+            _ => None,
+        }
+    }
+
+    /// A condition, shared with an equal one.
+    pub fn add_condition(&mut self, condition: Condition) -> ConditionId {
+        if let Some(id) = self.known_conditions.get(&condition) {
+            return *id;
+        }
+        let id = ConditionId(index(self.conditions.len()));
+        self.conditions.push(condition.clone());
+        self.known_conditions.insert(condition, id);
+        id
+    }
+
+    /// A term, shared with an equal one.
+    pub fn add_term(&mut self, term: Term) -> TermId {
+        if let Some(id) = self.find_term(&term) {
+            return id;
+        }
+        let id = TermId(index(self.terms.len()));
+        if let Term::Host { text, .. } = &term {
+            self.hosts.insert(text.clone(), id);
+        }
+        self.terms.push(term.clone());
+        self.known_terms.insert(term, id);
+        id
+    }
+
+    fn find_term(&self, term: &Term) -> Option<TermId> {
+        match term {
+            Term::Host { text, .. } => self.hosts.get(text).copied(),
+            _ => self.known_terms.get(term).copied(),
+        }
+    }
+}
+
+fn index(length: usize) -> u32 {
+    u32::try_from(length).expect("fewer than 2^32 of a kind")
+}
+
+/// A predicate over one state.
+#[derive(Clone, Debug)]
+pub struct Predicate {
+    /// The name that the author gave it; its normalised text if none.
+    pub name: String,
+    /// Whether an item of the source declares it.
+    pub declared: bool,
+    /// What the author says about it.
+    pub docs: Vec<String>,
+    /// Where the source has it first.
+    pub span: Span,
+    /// When it holds.
+    pub condition: ConditionId,
+}
+
+/// How a task is made of other tasks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Connective {
+    /// All of them.
+    And,
+    /// At least one of them.
+    Or,
+}
+
+/// A formula to satisfy.
+#[derive(Clone, Debug)]
+pub struct Task {
+    /// Its name; `None` for a bare formula.
+    pub name: Option<String>,
+    /// What the author says about it.
+    pub docs: Vec<String>,
+    /// Where the source has its name; its formula if it has none.
+    pub span: Span,
+    /// The formula, printed with the brackets that a reader wants.
+    pub text: String,
+    /// What it means.
+    pub spec: Spec,
+    /// The predicate of each proposition of the spec.
+    pub predicates: Vec<PredicateId>,
+    /// The tasks that it is the plain conjunction or disjunction of.
+    pub parts: Option<(Connective, Vec<TaskId>)>,
+}
+
+/// A checked source.
+#[derive(Clone, Debug)]
+pub struct Module {
+    /// What the author says about the whole.
+    pub docs: Vec<String>,
+    /// What the predicates are about.
+    pub state: State,
+    /// The structs that the state is made of.
+    pub structs: Vec<Struct>,
+    /// The enumerations.
+    pub enums: Vec<Enum>,
+    /// The constants.
+    pub constants: Vec<Constant>,
+    /// The predicates; one that another one uses stands before it.
+    pub predicates: Vec<Predicate>,
+    /// Their conditions and terms.
+    pub arena: Arena,
+    /// The tasks, in source order.
+    pub tasks: Vec<Task>,
+    /// What the author should look at.
+    pub warnings: Vec<Error>,
+}
+
+impl Comparison {
+    /// Its symbol.
+    #[must_use]
+    pub const fn symbol(self) -> &'static str {
+        match self {
+            Self::Less => "<",
+            Self::AtMost => "<=",
+            Self::Greater => ">",
+            Self::AtLeast => ">=",
+            Self::Equal => "==",
+            Self::Unequal => "!=",
+        }
+    }
+
+    /// The comparison that holds iff this one does not.
+    #[must_use]
+    pub const fn negated(self) -> Self {
+        match self {
+            Self::Less => Self::AtLeast,
+            Self::AtMost => Self::Greater,
+            Self::Greater => Self::AtMost,
+            Self::AtLeast => Self::Less,
+            Self::Equal => Self::Unequal,
+            Self::Unequal => Self::Equal,
+        }
+    }
+
+    /// The comparison that says the same of the operands the other way round.
+    #[must_use]
+    pub const fn mirrored(self) -> Self {
+        match self {
+            Self::Less => Self::Greater,
+            Self::AtMost => Self::AtLeast,
+            Self::Greater => Self::Less,
+            Self::AtLeast => Self::AtMost,
+            Self::Equal | Self::Unequal => self,
+        }
+    }
+
+    /// Whether it holds of two numbers.
+    #[must_use]
+    pub fn holds(self, left: f64, right: f64) -> bool {
+        match self {
+            Self::Less => left < right,
+            Self::AtMost => left <= right,
+            Self::Greater => left > right,
+            Self::AtLeast => left >= right,
+            Self::Equal => left == right,
+            Self::Unequal => left != right,
+        }
+    }
+}
+
+impl Arithmetic {
+    /// Its symbol.
+    #[must_use]
+    pub const fn symbol(self) -> &'static str {
+        match self {
+            Self::Add => "+",
+            Self::Subtract => "-",
+            Self::Multiply => "*",
+            Self::Divide => "/",
+        }
+    }
+
+    /// Its value.
+    #[must_use]
+    pub fn value(self, left: f64, right: f64) -> f64 {
+        match self {
+            Self::Add => left + right,
+            Self::Subtract => left - right,
+            Self::Multiply => left * right,
+            Self::Divide => left / right,
+        }
+    }
+}
+
+impl fmt::Display for Step {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Field(name) => write!(f, ".{name}"),
+            Self::Index(index) => write!(f, "[{index}]"),
+        }
+    }
+}
