@@ -34,11 +34,11 @@
 //!   "seed": 7 | null,
 //!   "certificate": {                   null where the world has no model
 //!     "satisfied": 1.0,                P(satisfied), mean over the starts with s_0 read
-//!     "steps": 12.2003,                E[steps] given success; null: it never succeeds
+//!     "steps": 12.2003,                E[steps] given success; null: never succeeds
 //!     "optimal_satisfied": 1.0,
-//!     "optimal_steps": 12.2002,
+//!     "optimal_steps": 12.2002,         null: success is impossible
 //!     "regret_satisfied": 0.0,
-//!     "regret_steps": 0.00001,
+//!     "regret_steps": 0.00001,          null where one of the two is
 //!     "worst_regret_satisfied": 0.0,
 //!     "fraction_optimal": 0.97
 //!   } | null

@@ -4,7 +4,8 @@
 //! generator, the experience. [`Learner::train`] runs whole episodes until a total number of
 //! environment steps is reached, so that training in slices (to show progress, to write a
 //! checkpoint) gives bit for bit what training at once gives; with serde a learner can be saved
-//! between slices and resumed.
+//! between slices and resumed (serde_json reads floats back exactly only with its feature
+//! `float_roundtrip`).
 //!
 //! [`Settings::paper`] is the paper's recipe. [`Settings::default`] learns better from the same
 //! steps: a world's step does not depend on q, so each one updates *every* live automaton state
@@ -24,7 +25,9 @@ pub use experience::Experience;
 
 use crate::augmented::{Labelled, Payment, Rewards};
 use crate::env::{FiniteEnv, below, unit};
+use crate::model::{Dynamics, ModelError};
 use crate::q::QTable;
+use crate::solve::Problem;
 
 /// Episodes in a row that are over at reset before training gives up.
 const IDLE: u32 = 100_000;
@@ -112,7 +115,7 @@ impl Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        let alpha = Schedule::Harmonic { start: 1.0, half: 20.0 };
+        let alpha = Schedule::Harmonic { start: 1.0, half: 8.0 };
         Self { alpha, counterfactual: true, remember: true, ..Self::paper() }
     }
 }
@@ -231,6 +234,20 @@ impl<R: Rng> Learner<R> {
         } else {
             updates.apply(&mut self.q, q, seen, alpha);
         }
+    }
+
+    /// Replays the remembered experience until nothing changes: the table becomes the optimum of
+    /// the world as it was seen. It gets more out of the same steps than any step size does; costs
+    /// about a millisecond on a small world, and takes no environment step.
+    ///
+    /// # Errors
+    /// If nothing is remembered.
+    pub fn replay(&mut self, task: &Labelled) -> Result<(), ModelError> {
+        let world = Dynamics::new(&self.experience)?;
+        let Settings { gamma, rewards, .. } = self.settings;
+        let payment = task.payment(&rewards, gamma);
+        self.q = Problem::new(&world, task).optimal_q_of(&payment, gamma, Some(&self.q));
+        Ok(())
     }
 
     /// The action values so far.

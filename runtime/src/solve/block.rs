@@ -208,13 +208,13 @@ impl<'a> Block<'a> {
         false
     }
 
-    /// Whether the error is small enough, given the largest change of this sweep and the last.
+    /// Whether the error is small enough (absolute for values up to 1, relative above), given the largest change of this sweep and the last.
     /// Discounted, the error is at most γ / (1 − γ) times the change; undiscounted, the rate at
     /// which changes shrink, taken as at least a half, takes the place of γ.
     fn is_done(&self, change: f64, before: f64, top: f64) -> bool {
         let shrinks = if before.is_finite() { (change / before).clamp(0.5, 1.0) } else { 1.0 };
         let rate = if self.discount < 1.0 { self.discount } else { shrinks };
-        change * rate <= TOLERANCE * (1.0 - rate) || change <= 4.0 * f64::EPSILON * top
+        change * rate <= TOLERANCE * top.max(1.0) * (1.0 - rate)
     }
 
     /// One pass in order; the largest change, and the largest value.

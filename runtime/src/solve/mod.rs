@@ -27,7 +27,7 @@ use crate::model::Dynamics;
 use crate::q::QTable;
 use block::{Backup, Block, dot};
 
-/// The largest error of values.
+/// The largest error of values, relative to them where they exceed 1.
 const TOLERANCE: f64 = 1e-11;
 
 /// A finite world under a task: the augmented MDP that is solved.
@@ -57,16 +57,16 @@ pub struct Outcome {
 pub struct Certificate {
     /// P(satisfied) of the policy.
     pub satisfied: f64,
-    /// E\[steps\] of the policy, given success; infinite if it never succeeds.
-    pub steps: f64,
+    /// E\[steps\] of the policy, given success; `None` if it never succeeds.
+    pub steps: Option<f64>,
     /// The largest possible P(satisfied).
     pub optimal_satisfied: f64,
-    /// The smallest possible E\[steps\] among the policies of that P.
-    pub optimal_steps: f64,
+    /// The smallest possible E\[steps\] among the policies of that P; `None` if that is 0.
+    pub optimal_steps: Option<f64>,
     /// `optimal_satisfied - satisfied`.
     pub regret_satisfied: f64,
     /// `steps / optimal_steps - 1`; it can be negative where P is smaller than possible.
-    pub regret_steps: f64,
+    pub regret_steps: Option<f64>,
     /// The smallest P(satisfied) over the starts that can succeed at all, less what is possible
     /// there: 0 if the policy is as safe as can be from everywhere.
     pub worst_regret_satisfied: f64,
@@ -203,11 +203,11 @@ impl<'a> Problem<'a> {
         let (optimal_satisfied, optimal_steps) = self.mean(&best);
         Certificate {
             satisfied,
-            steps,
+            steps: finite(steps),
             optimal_satisfied,
-            optimal_steps,
+            optimal_steps: finite(optimal_steps),
             regret_satisfied: optimal_satisfied - satisfied,
-            regret_steps: if optimal_steps > 0.0 { steps / optimal_steps - 1.0 } else { 0.0 },
+            regret_steps: finite(if steps > 0.0 { steps / optimal_steps - 1.0 } else { 0.0 }),
             worst_regret_satisfied: self.worst_regret(&own, &best),
             fraction_optimal: self.fraction_optimal(policy, q_star, 1e-6),
         }
@@ -380,6 +380,10 @@ impl<'a> Problem<'a> {
         }
         Outcome { policy, satisfied, steps }
     }
+}
+
+fn finite(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value)
 }
 
 /// The action of the fewest steps among those of the largest P.
