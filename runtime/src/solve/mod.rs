@@ -156,8 +156,7 @@ impl<'a> Problem<'a> {
     #[must_use]
     pub fn best(&self) -> Outcome {
         let accept = self.acceptance();
-        let best = |_: usize, row: &Backup<'_>| row.max();
-        let satisfied = self.undiscounted(&accept, best);
+        let satisfied = self.reach(&accept);
         let safe = self.action_values(&accept, 1.0, &satisfied);
         let shortest = |pair: usize, row: &Backup<'_>| {
             let (q, s) = self.split(pair);
@@ -308,15 +307,14 @@ impl<'a> Problem<'a> {
         values
     }
 
-    /// The least solution above 0, over the pairs from which the task can be satisfied.
-    fn undiscounted(
-        &self,
-        payment: &Payment,
-        backup: impl Fn(usize, &Backup<'_>) -> f64,
-    ) -> Vec<f64> {
+    /// The largest possible P(satisfied).
+    fn reach(&self, accept: &Payment) -> Vec<f64> {
         let mut values = self.zeros();
         for members in &self.components {
-            Block::new(self, members, payment, 1.0).sweep(&mut values, false, &backup);
+            let block = Block::new(self, members, accept, 1.0);
+            if !block.succeeds(&mut values) {
+                block.sweep(&mut values, false, |_, row| row.max());
+            }
         }
         values
     }
