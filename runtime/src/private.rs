@@ -145,42 +145,6 @@ pub fn number(value: impl Number) -> f64 {
     value.to_f64()
 }
 
-/// Floating-point functions that `core` lacks.
-#[diagnostic::on_unimplemented(
-    message = "this function needs floating-point routines that `core` lacks",
-    label = "turn on the feature `std` or `libm` of the crate `tltl`"
-)]
-pub trait Math {
-    /// √x
-    fn sqrt(x: f64) -> f64;
-    /// √(x² + y²), without undue overflow
-    fn hypot(x: f64, y: f64) -> f64;
-    /// sin x, x in radians
-    fn sin(x: f64) -> f64;
-    /// cos x, x in radians
-    fn cos(x: f64) -> f64;
-    /// tan x, x in radians
-    fn tan(x: f64) -> f64;
-    /// The angle in [-π/2, π/2] whose sine is x
-    fn asin(x: f64) -> f64;
-    /// The angle in [0, π] whose cosine is x
-    fn acos(x: f64) -> f64;
-    /// The angle in [-π/2, π/2] whose tangent is x
-    fn atan(x: f64) -> f64;
-    /// The angle of the point (x, y), in radians
-    fn atan2(y: f64, x: f64) -> f64;
-    /// e^x
-    fn exp(x: f64) -> f64;
-    /// The natural logarithm
-    fn ln(x: f64) -> f64;
-    /// x^y
-    fn pow(x: f64, y: f64) -> f64;
-    /// The largest integer not above x
-    fn floor(x: f64) -> f64;
-    /// The smallest integer not below x
-    fn ceil(x: f64) -> f64;
-}
-
 /// |x|, which needs no library.
 #[inline]
 #[must_use]
@@ -188,74 +152,46 @@ pub fn abs(x: f64) -> f64 {
     x.abs()
 }
 
-/// Stands for the library that has the functions of [`Math`].
-#[derive(Clone, Copy, Debug)]
-pub struct Library;
+/// Floating-point functions that `core` lacks; `f64` has them if there is a library.
+#[diagnostic::on_unimplemented(
+    message = "this function needs floating-point routines that `core` lacks",
+    label = "turn on the feature `std` or `libm` of the crate `tltl`"
+)]
+pub trait Math {}
+
+#[cfg(any(feature = "std", feature = "libm"))]
+impl Math for f64 {}
 
 macro_rules! functions {
-    ($($name:ident($($argument:ident),*))*) => {
-        $(
-            #[doc = concat!("[`Math::", stringify!($name), "`]")]
-            #[inline]
-            pub fn $name($($argument: f64),*) -> f64
-            where
-                Library: Math,
-            {
-                <Library as Math>::$name($($argument),*)
-            }
-        )*
-    };
+    ($($name:ident($x:ident $(, $y:ident)?) = $std:path, $libm:path;)*) => {$(
+        #[doc = concat!("The function `", stringify!($name), "`; angles are in radians.")]
+        #[inline]
+        pub fn $name<X: Math + Into<f64>>($x: X $(, $y: f64)?) -> f64 {
+            let $x: f64 = $x.into();
+            #[cfg(feature = "std")]
+            return $std($x $(, $y)?);
+            #[cfg(all(feature = "libm", not(feature = "std")))]
+            return $libm($x $(, $y)?);
+            // Nothing is `Math` here, so nothing calls this.
+            #[cfg(not(any(feature = "std", feature = "libm")))]
+            return $x $(+ $y)?;
+        }
+    )*};
 }
 
 functions! {
-    sqrt(x) hypot(x, y) sin(x) cos(x) tan(x) asin(x) acos(x) atan(x) atan2(y, x) exp(x) ln(x) pow(x, y) floor(x) ceil(x)
-}
-
-macro_rules! library {
-    ($($name:ident($($argument:ident),*) = $function:path;)*) => {
-        impl Math for Library {
-            $(
-                #[inline]
-                fn $name($($argument: f64),*) -> f64 {
-                    $function($($argument),*)
-                }
-            )*
-        }
-    };
-}
-
-#[cfg(feature = "std")]
-library! {
-    sqrt(x) = f64::sqrt;
-    hypot(x, y) = f64::hypot;
-    sin(x) = f64::sin;
-    cos(x) = f64::cos;
-    tan(x) = f64::tan;
-    asin(x) = f64::asin;
-    acos(x) = f64::acos;
-    atan(x) = f64::atan;
-    atan2(y, x) = f64::atan2;
-    exp(x) = f64::exp;
-    ln(x) = f64::ln;
-    pow(x, y) = f64::powf;
-    floor(x) = f64::floor;
-    ceil(x) = f64::ceil;
-}
-
-#[cfg(all(feature = "libm", not(feature = "std")))]
-library! {
-    sqrt(x) = libm::sqrt;
-    hypot(x, y) = libm::hypot;
-    sin(x) = libm::sin;
-    cos(x) = libm::cos;
-    tan(x) = libm::tan;
-    asin(x) = libm::asin;
-    acos(x) = libm::acos;
-    atan(x) = libm::atan;
-    atan2(y, x) = libm::atan2;
-    exp(x) = libm::exp;
-    ln(x) = libm::log;
-    pow(x, y) = libm::pow;
-    floor(x) = libm::floor;
-    ceil(x) = libm::ceil;
+    sqrt(x) = f64::sqrt, libm::sqrt;
+    hypot(x, y) = f64::hypot, libm::hypot;
+    sin(x) = f64::sin, libm::sin;
+    cos(x) = f64::cos, libm::cos;
+    tan(x) = f64::tan, libm::tan;
+    asin(x) = f64::asin, libm::asin;
+    acos(x) = f64::acos, libm::acos;
+    atan(x) = f64::atan, libm::atan;
+    atan2(y, x) = f64::atan2, libm::atan2;
+    exp(x) = f64::exp, libm::exp;
+    ln(x) = f64::ln, libm::log;
+    pow(x, y) = f64::powf, libm::pow;
+    floor(x) = f64::floor, libm::floor;
+    ceil(x) = f64::ceil, libm::ceil;
 }
