@@ -51,6 +51,8 @@ pub enum Kind {
     Vacuous,
     /// The automaton grows beyond its budget.
     Budget,
+    /// An automaton is not one that a formula could have.
+    Automaton,
 }
 
 impl Kind {
@@ -75,6 +77,7 @@ impl Kind {
             Self::Intent => "intent",
             Self::Vacuous => "vacuous",
             Self::Budget => "budget",
+            Self::Automaton => "automaton",
         }
     }
 }
@@ -202,6 +205,9 @@ impl fmt::Display for Error {
 
 impl std::error::Error for Error {}
 
+/// The most mistakes that are reported at once.
+const MOST: usize = 100;
+
 /// All mistakes of a source: at least one error, in source order; warnings may stand among them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Errors(Vec<Error>);
@@ -214,7 +220,16 @@ impl Errors {
     pub fn split(mut mistakes: Vec<Error>) -> Result<Vec<Error>, Self> {
         mistakes.sort_by_key(|mistake| mistake.span);
         mistakes.dedup();
-        if mistakes.iter().all(Error::is_warning) { Ok(mistakes) } else { Err(Self(mistakes)) }
+        if mistakes.iter().all(Error::is_warning) {
+            mistakes.truncate(MOST);
+            return Ok(mistakes);
+        }
+        if mistakes.len() > MOST {
+            mistakes.sort_by_key(Error::is_warning);
+            mistakes.truncate(MOST);
+            mistakes.sort_by_key(|mistake| mistake.span);
+        }
+        Err(Self(mistakes))
     }
 
     /// The mistakes in source order.

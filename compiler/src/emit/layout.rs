@@ -19,85 +19,85 @@ mod straighten;
 
 /// The room that something takes around its anchor; the anchor is in the middle of the width.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Room {
+pub(super) struct Room {
     /// The width.
-    pub width: f64,
+    pub(super) width: f64,
     /// How far it goes above its anchor.
-    pub up: f64,
+    pub(super) up: f64,
     /// How far it goes below its anchor.
-    pub down: f64,
+    pub(super) down: f64,
 }
 
 /// An edge between two different nodes.
 #[derive(Clone, Copy, Debug)]
-pub struct Link {
+pub(super) struct Link {
     /// From node.
-    pub from: usize,
+    pub(super) from: usize,
     /// To node.
-    pub to: usize,
+    pub(super) to: usize,
     /// Its label, which stands on the line.
-    pub label: Room,
+    pub(super) label: Room,
     /// How much it wants to be straight; 1 is usual.
-    pub weight: f64,
+    pub(super) weight: f64,
 }
 
 /// What is to be drawn; node 0 comes first.
 #[derive(Clone, Debug, Default)]
-pub struct Graph {
+pub(super) struct Graph {
     /// The nodes.
-    pub nodes: Vec<Room>,
+    pub(super) nodes: Vec<Room>,
     /// The edges, at most one from node to node.
-    pub links: Vec<Link>,
+    pub(super) links: Vec<Link>,
     /// The radius of the circle that each node is; its anchor is the middle.
-    pub radius: f64,
+    pub(super) radius: f64,
     /// The node that shall be furthest to the right.
-    pub last: Option<usize>,
+    pub(super) last: Option<usize>,
     /// The node that shall be lowest in its layer.
-    pub lowest: Option<usize>,
+    pub(super) lowest: Option<usize>,
 }
 
 /// A horizontal stretch of an edge within a layer.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pass {
+pub(super) struct Pass {
     /// Where the layer begins.
-    pub left: f64,
+    pub(super) left: f64,
     /// Where the layer ends.
-    pub right: f64,
+    pub(super) right: f64,
     /// The height of the edge there.
-    pub y: f64,
+    pub(super) y: f64,
 }
 
 /// The way of an edge from left to right.
 #[derive(Clone, Debug, Default)]
-pub struct Route {
+pub(super) struct Route {
     /// Whether the edge itself goes from right to left.
-    pub backward: bool,
+    pub(super) backward: bool,
     /// Where it touches its left node.
-    pub start: (f64, f64),
+    pub(super) start: (f64, f64),
     /// The layers of its two nodes and all between them.
-    pub passes: Vec<Pass>,
+    pub(super) passes: Vec<Pass>,
     /// Where it touches its right node.
-    pub end: (f64, f64),
+    pub(super) end: (f64, f64),
     /// The anchor of its label.
-    pub label: (f64, f64),
+    pub(super) label: (f64, f64),
 }
 
 /// A finished layout; all coordinates are positive.
 #[derive(Clone, Debug, Default)]
-pub struct Layout {
+pub(super) struct Layout {
     /// The anchor of each node.
-    pub nodes: Vec<(f64, f64)>,
+    pub(super) nodes: Vec<(f64, f64)>,
     /// The way of each edge.
-    pub routes: Vec<Route>,
+    pub(super) routes: Vec<Route>,
     /// The width of all.
-    pub width: f64,
+    pub(super) width: f64,
     /// The height of all.
-    pub height: f64,
+    pub(super) height: f64,
 }
 
 /// Lays a graph out.
 #[must_use]
-pub fn layout(graph: &Graph) -> Layout {
+pub(super) fn layout(graph: &Graph) -> Layout {
     let ranking = rank::rank(graph);
     let mut network = network::build(graph, &ranking);
     order::order(&mut network, graph.lowest);

@@ -1,0 +1,141 @@
+//! Which states accept, and that they go on accepting.
+
+use super::body::{Body, Described};
+use super::header::{Acceptance, Header};
+use super::refused;
+use crate::dfa::{Dfa, State, Target};
+use crate::error::Error;
+
+/// The automaton with one accepting state for all, and a trap for missing transitions.
+pub(super) fn finish(header: &Header, body: Body) -> Result<Dfa, Error> {
+    let Body { diagram, states, .. } = body;
+    let states: Vec<Described> = states.into_iter().flatten().collect();
+    let trap = states.len() as State;
+    let mut transitions: Vec<Target> = states.iter().map(|state| state.transitions).collect();
+    transitions.push(Target::to_state(trap));
+    let dfa = Dfa {
+        propositions: header.propositions.clone(),
+        diagram,
+        transitions,
+        accepting: None,
+        trap: None,
+        possible: None,
+    };
+    let accepting = accepting(header.acceptance, &dfa, &states)?;
+    check(&dfa, &states, &accepting)?;
+    Ok(merge(dfa, &accepting))
+}
+
+/// For each state whether a trace that ends in it is accepted.
+fn accepting(acceptance: Acceptance, dfa: &Dfa, states: &[Described]) -> Result<Vec<bool>, Error> {
+    let (set, inside) = match acceptance {
+        Acceptance::All => return Ok(vec![true; states.len()]),
+        Acceptance::None => return Ok(vec![false; states.len()]),
+        Acceptance::In(set) => (set, true),
+        Acceptance::Outside(set) => (set, false),
+    };
+    if states.iter().all(|state| state.edges.iter().all(|edge| edge.marks.is_empty())) {
+        return Ok(states.iter().map(|state| state.marks.contains(&set) == inside).collect());
+    }
+    let good = |state: &Described, marks: &[u32]| {
+        (marks.contains(&set) || state.marks.contains(&set)) == inside
+    };
+    let accepting =
+        closed(dfa, states, &|state| state.edges.iter().all(|edge| good(state, &edge.marks)));
+    for (state, here) in states.iter().zip(&accepting) {
+        for edge in &state.edges {
+            if good(state, &edge.marks) != accepting[edge.to as usize] && !here {
+                return Err(ambiguous(edge.span));
+            }
+        }
+    }
+    Ok(accepting)
+}
+
+/// The largest set of states that satisfy `good` and only lead to each other.
+fn closed(dfa: &Dfa, states: &[Described], good: &dyn Fn(&Described) -> bool) -> Vec<bool> {
+    let mut kept: Vec<bool> = states.iter().map(good).collect();
+    let mut before = vec![Vec::new(); states.len()];
+    let mut lost = Vec::new();
+    for (q, state) in (0..).zip(states) {
+        for to in dfa.leaves(state.transitions) {
+            match before.get_mut(to as usize) {
+                Some(before) => before.push(q),
+                None => kept[q] = false,
+            }
+        }
+    }
+    lost.extend((0..kept.len()).filter(|&q| !kept[q]));
+    while let Some(q) = lost.pop() {
+        for &p in &before[q] {
+            if std::mem::replace(&mut kept[p], false) {
+                lost.push(p);
+            }
+        }
+    }
+    kept
+}
+
+fn ambiguous(span: crate::source::Span) -> Error {
+    refused(
+        "the acceptance marks on edges do not tell when a finite trace is accepted for good",
+        span,
+    )
+    .help("write the automaton with state-based acceptance (Spot: `-S` or `--state-based-acceptance`)")
+}
+
+/// Refuses an accepting state that can be left.
+fn check(dfa: &Dfa, states: &[Described], accepting: &[bool]) -> Result<(), Error> {
+    for (state, _) in states.iter().zip(accepting).filter(|(_, accepts)| **accepts) {
+        for to in dfa.leaves(state.transitions) {
+            let message = match states.get(to as usize) {
+                Some(_) if accepting[to as usize] => continue,
+                Some(to) => format!(
+                    "state {} accepts, but can go on to state {}, which does not: what is true of \
+                     a trace must stay true when it goes on",
+                    state.number, to.number
+                ),
+                None => format!(
+                    "state {} accepts, but some letters have no transition from it: what is true \
+                     of a trace must stay true when it goes on",
+                    state.number
+                ),
+            };
+            return Err(refused(message, state.span).help(
+                "only co-safe tasks can be used; on infinite traces the automaton may be \
+                       one, with accepting states that matter only there",
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Lets all accepting states be one and missing transitions lead to the trap. The initial state
+/// accepts too if every first letter is accepted.
+fn merge(mut dfa: Dfa, accepting: &[bool]) -> Dfa {
+    let trap = accepting.len() as State;
+    let first = accepting.iter().position(|&accepts| accepts).map(|q| q as State);
+    let rename = |state: State| match accepting.get(state as usize) {
+        Some(true) => first.unwrap_or(state),
+        Some(false) => state,
+        None => trap,
+    };
+    let mut diagram = crate::dfa::Diagram::default();
+    let mut moved: Vec<Target> = Vec::with_capacity(dfa.diagram.nodes().len());
+    let place = |target: Target, moved: &[Target]| match (target.node(), target.state()) {
+        (Some(node), _) => moved[node as usize],
+        (_, state) => Target::to_state(rename(state.unwrap_or(trap))),
+    };
+    for node in dfa.diagram.nodes() {
+        let (low, high) = (place(node.low, &moved), place(node.high, &moved));
+        moved.push(diagram.node(node.proposition, low, high));
+    }
+    dfa.transitions = dfa.transitions.iter().map(|&target| place(target, &moved)).collect();
+    dfa.diagram = diagram;
+    dfa.accepting = first;
+    if first.is_some_and(|first| dfa.transitions[0] == Target::to_state(first)) {
+        dfa.accepting = Some(0);
+        dfa.transitions[0] = Target::to_state(0);
+    }
+    dfa
+}

@@ -1,0 +1,243 @@
+//! The body: states and their transitions, laid over each other as decision diagrams.
+
+use rustc_hash::FxHashMap;
+
+use super::header::Header;
+use super::token::{Token, Tokens};
+use super::{MOST_NODES, refused, syntax};
+use crate::dfa::{Diagram, State, Target};
+use crate::error::Error;
+use crate::guard::{Guard, Store};
+use crate::source::Span;
+
+/// An edge's destination and marks.
+#[derive(Clone, Debug)]
+pub(super) struct Edge {
+    pub(super) to: State,
+    /// The acceptance sets on the edge itself.
+    pub(super) marks: Vec<u32>,
+    pub(super) span: Span,
+}
+
+/// A state as described.
+#[derive(Clone, Debug)]
+pub(super) struct Described {
+    /// Its number in the text.
+    pub(super) number: u32,
+    pub(super) marks: Vec<u32>,
+    pub(super) edges: Vec<Edge>,
+    pub(super) transitions: Target,
+    pub(super) span: Span,
+}
+
+/// The states in the order in which the text names them, so that nothing is as large as a number
+/// in the text; missing transitions lead to [`Body::NOWHERE`].
+#[derive(Default)]
+pub(super) struct Body {
+    pub(super) diagram: Diagram,
+    pub(super) states: Vec<Option<Described>>,
+    numbers: FxHashMap<u32, State>,
+    /// For each state its number in the text and where it is named first.
+    named: Vec<(u32, Span)>,
+}
+
+impl Body {
+    /// Where missing transitions lead.
+    pub(super) const NOWHERE: State = (1 << 31) - 1;
+
+    /// The state that the text numbers so.
+    fn state(&mut self, number: u32, span: Span) -> State {
+        let fresh = self.named.len() as State;
+        let state = *self.numbers.entry(number).or_insert(fresh);
+        if state == fresh {
+            self.named.push((number, span));
+            self.states.push(None);
+        }
+        state
+    }
+}
+
+pub(super) fn read(tokens: &mut Tokens, header: &mut Header) -> Result<Body, Error> {
+    let mut body = Body::default();
+    body.state(header.start.0, header.start.1);
+    while let Token::Header("State") = tokens.peek() {
+        state(tokens, header, &mut body)?;
+    }
+    if *tokens.peek() != Token::End {
+        return Err(tokens.unexpected("`State:` or `--END--`"));
+    }
+    tokens.next()?;
+    let undescribed = body.states.iter().position(Option::is_none);
+    match undescribed.map(|state| body.named[state]) {
+        Some((number, span)) => Err(syntax(format!("state {number} is not described"), span)),
+        None => Ok(body),
+    }
+}
+
+fn state(tokens: &mut Tokens, header: &mut Header, body: &mut Body) -> Result<(), Error> {
+    tokens.next()?;
+    let count = header.propositions.len();
+    let label = match tokens.peek() {
+        Token::Symbol('[') => Some(header.labels.bracketed(tokens, count)?),
+        _ => None,
+    };
+    let span = tokens.span();
+    let number = tokens.number("the number of a state")?;
+    if let Token::Text(_) = tokens.peek() {
+        tokens.next()?;
+    }
+    let marks = marks(tokens)?;
+    let here = body.state(number, span);
+    if body.states[here as usize].is_some() {
+        return Err(syntax(format!("state {number} is described twice"), span));
+    }
+    let described = Described {
+        number,
+        marks,
+        edges: Vec::new(),
+        transitions: Target::to_state(Body::NOWHERE),
+        span,
+    };
+    let described = edges(tokens, header, body, described, label)?;
+    body.states[here as usize] = Some(described);
+    Ok(())
+}
+
+fn edges(
+    tokens: &mut Tokens,
+    header: &mut Header,
+    body: &mut Body,
+    mut state: Described,
+    label: Option<Guard>,
+) -> Result<Described, Error> {
+    let count = header.propositions.len();
+    let mut implicit = Vec::new();
+    while matches!(tokens.peek(), Token::Symbol('[') | Token::Number(_)) {
+        let start = tokens.span();
+        let own = match tokens.peek() {
+            Token::Symbol('[') => Some(header.labels.bracketed(tokens, count)?),
+            _ => None,
+        };
+        let edge = edge(tokens, body, start)?;
+        match (label, own) {
+            (Some(_), Some(_)) => {
+                return Err(syntax("the state has a label, so its edges cannot have one", start));
+            }
+            (None, None) => implicit.push(edge.to),
+            (Some(guard), _) | (_, Some(guard)) => {
+                let mut overlay = Overlay::new(&header.labels.store, &mut body.diagram, edge.to);
+                let laid = overlay.lay(state.transitions, guard);
+                state.transitions = laid.ok_or_else(|| nondeterministic(&state, start))?;
+            }
+        }
+        state.edges.push(edge);
+        if body.diagram.nodes().len() > MOST_NODES {
+            return Err(refused("the transitions are too complex", start));
+        }
+    }
+    if !implicit.is_empty() {
+        state.transitions = table(body, &state, &implicit, count)?;
+    }
+    Ok(state)
+}
+
+fn edge(tokens: &mut Tokens, body: &mut Body, start: Span) -> Result<Edge, Error> {
+    let at = tokens.span();
+    let number = tokens.number("the state to go to")?;
+    if *tokens.peek() == Token::Symbol('&') {
+        return Err(refused("the automaton is alternating: an edge leads to several states", at)
+            .help("make it deterministic first"));
+    }
+    let to = body.state(number, at);
+    let marks = marks(tokens)?;
+    Ok(Edge { to, marks, span: start.to(at) })
+}
+
+/// Reads `{0 1}` if it comes next.
+fn marks(tokens: &mut Tokens) -> Result<Vec<u32>, Error> {
+    let mut marks = Vec::new();
+    if tokens.eat('{')? {
+        while *tokens.peek() != Token::Symbol('}') {
+            marks.push(tokens.number("the number of an acceptance set, or `}`")?);
+        }
+        tokens.next()?;
+    }
+    Ok(marks)
+}
+
+fn nondeterministic(state: &Described, span: Span) -> Error {
+    let message = format!(
+        "the automaton is not deterministic: state {} has another edge for some of these letters",
+        state.number
+    );
+    refused(message, span).related(state.span, "this state").help("make it deterministic first")
+}
+
+/// Transitions of edges without labels: one for each letter, proposition 0 changing fastest.
+fn table(
+    body: &mut Body,
+    state: &Described,
+    implicit: &[State],
+    count: usize,
+) -> Result<Target, Error> {
+    if implicit.len() < state.edges.len() {
+        return Err(syntax("some edges of this state have labels and some have none", state.span));
+    }
+    if u32::try_from(count).ok().and_then(|count| 1_usize.checked_shl(count))
+        != Some(implicit.len())
+    {
+        let message = format!(
+            "edges without labels need one for each letter, 2^{count}; state {} has {}",
+            state.number,
+            implicit.len()
+        );
+        return Err(syntax(message, state.span));
+    }
+    let mut row: Vec<Target> = implicit.iter().map(|&to| Target::to_state(to)).collect();
+    // The last proposition tells the first half of the row from the second.
+    for proposition in (0..count as u32).rev() {
+        let (low, high) = row.split_at(row.len() / 2);
+        let join = |(&low, &high)| body.diagram.node(proposition, low, high);
+        row = low.iter().zip(high).map(join).collect();
+    }
+    Ok(row[0])
+}
+
+/// Lays an edge over the transitions that are there.
+struct Overlay<'a> {
+    store: &'a Store,
+    diagram: &'a mut Diagram,
+    to: State,
+    known: FxHashMap<(Target, Guard), Target>,
+}
+
+impl<'a> Overlay<'a> {
+    fn new(store: &'a Store, diagram: &'a mut Diagram, to: State) -> Self {
+        Self { store, diagram, to, known: FxHashMap::default() }
+    }
+
+    /// The transitions with the edge where `guard` holds; none if another edge is in its way.
+    fn lay(&mut self, below: Target, guard: Guard) -> Option<Target> {
+        if guard == Guard::FALSE || below.state() == Some(self.to) {
+            return Some(below);
+        }
+        let asked = self.diagram.proposition(below);
+        if guard == Guard::TRUE && asked.is_none() {
+            return (below.state() == Some(Body::NOWHERE)).then(|| Target::to_state(self.to));
+        }
+        if let Some(&known) = self.known.get(&(below, guard)) {
+            return Some(known);
+        }
+        let proposition = asked.unwrap_or(u32::MAX).min(self.store.level(guard));
+        let (below0, below1) = self.diagram.split(below, proposition);
+        let (guard0, guard1) = if self.store.level(guard) == proposition {
+            self.store.branches(guard)
+        } else {
+            (guard, guard)
+        };
+        let (low, high) = (self.lay(below0, guard0)?, self.lay(below1, guard1)?);
+        let laid = self.diagram.node(proposition, low, high);
+        self.known.insert((below, guard), laid);
+        Some(laid)
+    }
+}

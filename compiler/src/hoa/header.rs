@@ -1,0 +1,223 @@
+//! The header: what matters of it.
+
+use rustc_hash::FxHashMap;
+
+use super::label::{Labels, label, no_proposition};
+use super::token::{Token, Tokens};
+use super::{MOST_PROPOSITIONS, refused, syntax};
+use crate::error::Error;
+use crate::guard::Guard;
+use crate::source::Span;
+
+/// Which runs accept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Acceptance {
+    /// Every state does: `t`.
+    All,
+    /// No state does: `f`.
+    None,
+    /// The states in the set.
+    In(u32),
+    /// The states outside the set.
+    Outside(u32),
+}
+
+/// What the header says.
+pub(super) struct Header {
+    pub(super) name: Option<String>,
+    /// The initial state and where it is named.
+    pub(super) start: (u32, Span),
+    pub(super) propositions: Vec<String>,
+    pub(super) acceptance: Acceptance,
+    pub(super) labels: Labels,
+}
+
+/// The header so far; some parts must come once, and aliases may come before `AP:`.
+#[derive(Default)]
+struct Draft<'a> {
+    name: Option<String>,
+    start: Option<(u32, Span)>,
+    propositions: Option<Vec<String>>,
+    acceptance: Option<Acceptance>,
+    labels: Labels,
+    aliases: FxHashMap<&'a str, Guard>,
+}
+
+pub(super) fn read(tokens: &mut Tokens) -> Result<Header, Error> {
+    version(tokens)?;
+    let mut draft = Draft::default();
+    while *tokens.peek() != Token::Body {
+        let span = tokens.span();
+        match tokens.peek().clone() {
+            Token::Header(name) => {
+                tokens.next()?;
+                draft.item(tokens, name, span)?;
+            }
+            _ => return Err(tokens.unexpected("a header such as `States:`, or `--BODY--`")),
+        }
+    }
+    let body = tokens.span();
+    tokens.next()?;
+    draft.finish(body)
+}
+
+fn version(tokens: &mut Tokens) -> Result<(), Error> {
+    if *tokens.peek() != Token::Header("HOA") {
+        return Err(tokens.unexpected("`HOA: v1`"));
+    }
+    tokens.next()?;
+    match tokens.peek() {
+        Token::Word("v1") => tokens.next().map(|_| ()),
+        _ => Err(tokens.unexpected("version `v1`")),
+    }
+}
+
+impl<'a> Draft<'a> {
+    fn item(&mut self, tokens: &mut Tokens<'a>, name: &'a str, span: Span) -> Result<(), Error> {
+        match name {
+            "Start" => {
+                if self.start.is_some() {
+                    return Err(refused("the automaton has several initial states", span)
+                        .help("make it deterministic first"));
+                }
+                self.start = Some(start(tokens)?);
+                Ok(())
+            }
+            "AP" => {
+                let propositions = propositions(tokens)?;
+                once(&mut self.propositions, propositions, "AP", span)
+            }
+            "Acceptance" => {
+                let acceptance = acceptance(tokens)?;
+                once(&mut self.acceptance, acceptance, "Acceptance", span)
+            }
+            "Alias" => self.alias(tokens, span),
+            "States" => tokens.number("the number of states").map(|_| ()),
+            "name" => {
+                if let Token::Text(text) = tokens.peek() {
+                    self.name = Some(text.clone());
+                }
+                skip(tokens)
+            }
+            _ if name.starts_with(|c: char| c.is_ascii_uppercase()) => {
+                let message = format!("the header `{name}:` is not known, and it may matter");
+                Err(refused(message, span))
+            }
+            _ => skip(tokens),
+        }
+    }
+
+    fn alias(&mut self, tokens: &mut Tokens<'a>, span: Span) -> Result<(), Error> {
+        let Token::Alias(name) = *tokens.peek() else {
+            return Err(tokens.unexpected("a name that begins with `@`"));
+        };
+        tokens.next()?;
+        let count = self.propositions.as_ref().map_or(MOST_PROPOSITIONS, Vec::len);
+        let guard = label(&mut self.labels, tokens, &self.aliases, count)?;
+        match self.aliases.insert(name, guard) {
+            Some(_) => Err(syntax(format!("the alias `@{name}` is defined twice"), span)),
+            None => Ok(()),
+        }
+    }
+
+    fn finish(mut self, body: Span) -> Result<Header, Error> {
+        let missing = |name: &str| syntax(format!("the header has no `{name}:`"), body);
+        self.labels.name(self.aliases);
+        let propositions = self.propositions.unwrap_or_default();
+        match self.labels.highest {
+            Some((number, span)) if number as usize >= propositions.len() => {
+                return Err(no_proposition(number, propositions.len(), span));
+            }
+            _ => {}
+        }
+        Ok(Header {
+            name: self.name,
+            start: self.start.ok_or_else(|| missing("Start"))?,
+            propositions,
+            acceptance: self.acceptance.ok_or_else(|| missing("Acceptance"))?,
+            labels: self.labels,
+        })
+    }
+}
+
+fn once<T>(place: &mut Option<T>, value: T, name: &str, span: Span) -> Result<(), Error> {
+    match place.replace(value) {
+        Some(_) => Err(syntax(format!("the header `{name}:` comes twice"), span)),
+        None => Ok(()),
+    }
+}
+
+/// Skips what belongs to a header that does not matter.
+fn skip(tokens: &mut Tokens) -> Result<(), Error> {
+    while !matches!(tokens.peek(), Token::Header(_) | Token::Body | Token::End | Token::Nothing) {
+        tokens.next()?;
+    }
+    Ok(())
+}
+
+fn start(tokens: &mut Tokens) -> Result<(u32, Span), Error> {
+    let span = tokens.span();
+    let state = tokens.number("the initial state")?;
+    if *tokens.peek() == Token::Symbol('&') {
+        return Err(refused("the automaton is alternating: it starts in several states", span)
+            .help("make it deterministic first"));
+    }
+    Ok((state, span))
+}
+
+fn propositions(tokens: &mut Tokens) -> Result<Vec<String>, Error> {
+    let span = tokens.span();
+    let count = tokens.number("the number of propositions")? as usize;
+    if count > MOST_PROPOSITIONS {
+        let message = format!("{count} propositions are more than the {MOST_PROPOSITIONS} allowed");
+        return Err(refused(message, span));
+    }
+    let mut names: Vec<String> = Vec::new();
+    while let Token::Text(name) = tokens.peek() {
+        if names.contains(name) {
+            return Err(syntax(format!("the proposition {name:?} comes twice"), tokens.span()));
+        }
+        names.push(name.clone());
+        tokens.next()?;
+    }
+    if names.len() == count {
+        return Ok(names);
+    }
+    Err(syntax(format!("{count} propositions are announced, and {} follow", names.len()), span))
+}
+
+fn acceptance(tokens: &mut Tokens) -> Result<Acceptance, Error> {
+    let mut span = tokens.span();
+    tokens.number("the number of acceptance sets")?;
+    let read = condition(tokens)?;
+    let simple =
+        matches!(tokens.peek(), Token::Header(_) | Token::Body | Token::End | Token::Nothing);
+    match read {
+        Some(acceptance) if simple => Ok(acceptance),
+        _ => {
+            span.end = tokens.span().start.max(span.end);
+            Err(refused("this acceptance condition is not one of finite traces", span).help(
+                "`Inf(0)` (Büchi) and `Fin(0)` (co-Büchi) with an absorbing accepting state are read",
+            ))
+        }
+    }
+}
+
+/// One of the conditions that are read, if it is one.
+fn condition(tokens: &mut Tokens) -> Result<Option<Acceptance>, Error> {
+    let inside = match tokens.peek() {
+        Token::Word("t") => return tokens.next().map(|_| Some(Acceptance::All)),
+        Token::Word("f") => return tokens.next().map(|_| Some(Acceptance::None)),
+        Token::Word("Inf") => true,
+        Token::Word("Fin") => false,
+        Token::Symbol('(') => return Ok(None),
+        _ => return Err(tokens.unexpected("an acceptance condition such as `Inf(0)`")),
+    };
+    tokens.next()?;
+    tokens.expect('(')?;
+    let negated = tokens.eat('!')?;
+    let set = tokens.number("the number of an acceptance set")?;
+    tokens.expect(')')?;
+    // Inf(!0) asks for marks outside the set, Fin(!0) forbids them in the long run.
+    Ok(Some(if inside != negated { Acceptance::In(set) } else { Acceptance::Outside(set) }))
+}
