@@ -271,6 +271,12 @@ impl Ast {
         self.source.slice(self.span(id))
     }
 
+    /// The text of an expression as messages quote it: on one line, and not too long.
+    #[must_use]
+    pub fn quote(&self, id: NodeId) -> String {
+        quoted(self.text(id))
+    }
+
     /// The arguments of a call.
     #[must_use]
     pub fn arguments(&self, range: &Range<u32>) -> &[NodeId] {
@@ -325,4 +331,16 @@ impl Ast {
     pub(crate) fn set_docs(&mut self, docs: Vec<String>) {
         self.docs = docs;
     }
+}
+
+/// The most characters of the source that a message quotes.
+const QUOTED: usize = 60;
+
+/// A text as messages quote it: on one line, and not too long.
+pub(crate) fn quoted(text: &str) -> String {
+    let mut short: String = text.chars().take(QUOTED).collect();
+    if short.len() < text.len() {
+        short.push('…');
+    }
+    short.split_whitespace().collect::<Vec<_>>().join(" ")
 }

@@ -214,8 +214,8 @@ impl<'a> Checker<'a> {
                 ItemKind::Constant(_) => "constant",
                 _ => continue,
             };
-            if !self.used.contains(&index) {
-                let name = self.ast.source().slice(item.name);
+            let name = self.ast.source().slice(item.name);
+            if !self.used.contains(&index) && self.scope.item(name) == Some(index) {
                 let message = format!("{what} `{name}` is never used");
                 self.mistakes.push(Error::new(Kind::Unused, message, item.name).warning());
             }

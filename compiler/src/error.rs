@@ -110,7 +110,7 @@ impl Error {
         Self {
             kind,
             severity: Severity::Error,
-            message: message.into(),
+            message: bounded(message.into()),
             span,
             label: String::new(),
             related: Vec::new(),
@@ -128,21 +128,21 @@ impl Error {
     /// Writes `label` beside the place of the mistake.
     #[must_use]
     pub fn label(mut self, label: impl Into<String>) -> Self {
-        self.label = label.into();
+        self.label = bounded(label.into());
         self
     }
 
     /// Points at another place that matters.
     #[must_use]
     pub fn related(mut self, span: Span, label: impl Into<String>) -> Self {
-        self.related.push((span, label.into()));
+        self.related.push((span, bounded(label.into())));
         self
     }
 
     /// Adds a line that says what to do.
     #[must_use]
     pub fn help(mut self, help: impl Into<String>) -> Self {
-        self.help.push(help.into());
+        self.help.push(bounded(help.into()));
         self
     }
 
@@ -193,6 +193,17 @@ impl Error {
     pub fn render(&self, source: &Source, style: Style) -> String {
         render::report(self, source, style)
     }
+}
+
+/// The longest sentence that anyone reads; names and formulas in it may be of any length.
+const LONGEST: usize = 400;
+
+fn bounded(mut text: String) -> String {
+    if let Some((end, _)) = text.char_indices().nth(LONGEST) {
+        text.truncate(end);
+        text.push('…');
+    }
+    text
 }
 
 impl fmt::Display for Error {

@@ -84,6 +84,7 @@ pub enum Rule {
     r#truth,
     r#falsity,
     r#name,
+    r#trivia,
     r#reserved,
     r#number,
     r#text,
@@ -174,6 +175,7 @@ impl Rule {
             Rule::r#truth,
             Rule::r#falsity,
             Rule::r#name,
+            Rule::r#trivia,
             Rule::r#reserved,
             Rule::r#number,
             Rule::r#text,
@@ -2310,65 +2312,78 @@ impl ::pest::Parser<Rule> for Grammar {
                             Rule::r#name,
                             |state| {
                                 state
-                                    .sequence(|state| {
-                                        state
-                                            .lookahead(
-                                                false,
-                                                |state| {
-                                                    self::r#reserved(state)
-                                                        .or_else(|state| {
-                                                            state
-                                                                .sequence(|state| {
-                                                                    self::r#item_word(state)
-                                                                        .and_then(|state| { super::hidden::skip(state) })
-                                                                        .and_then(|state| { self::r#identifier(state) })
-                                                                })
-                                                        })
-                                                },
-                                            )
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| {
-                                                state.optional(|state| { state.match_string("::") })
-                                            })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { self::r#identifier(state) })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| {
-                                                state
-                                                    .sequence(|state| {
-                                                        state
-                                                            .optional(|state| {
-                                                                state
-                                                                    .sequence(|state| {
+                                    .atomic(
+                                        ::pest::Atomicity::Atomic,
+                                        |state| {
+                                            state
+                                                .sequence(|state| {
+                                                    state
+                                                        .lookahead(
+                                                            false,
+                                                            |state| {
+                                                                self::r#reserved(state)
+                                                                    .or_else(|state| {
                                                                         state
-                                                                            .match_string("::")
-                                                                            .and_then(|state| { super::hidden::skip(state) })
-                                                                            .and_then(|state| { self::r#identifier(state) })
-                                                                    })
-                                                                    .and_then(|state| {
-                                                                        state
-                                                                            .repeat(|state| {
-                                                                                state
-                                                                                    .sequence(|state| {
-                                                                                        super::hidden::skip(state)
-                                                                                            .and_then(|state| {
-                                                                                                state
-                                                                                                    .sequence(|state| {
-                                                                                                        state
-                                                                                                            .match_string("::")
-                                                                                                            .and_then(|state| { super::hidden::skip(state) })
-                                                                                                            .and_then(|state| { self::r#identifier(state) })
+                                                                            .sequence(|state| {
+                                                                                self::r#item_word(state)
+                                                                                    .and_then(|state| {
+                                                                                        state
+                                                                                            .sequence(|state| {
+                                                                                                self::r#trivia(state)
+                                                                                                    .and_then(|state| {
+                                                                                                        state.repeat(|state| { self::r#trivia(state) })
                                                                                                     })
                                                                                             })
                                                                                     })
+                                                                                    .and_then(|state| { self::r#identifier(state) })
                                                                             })
                                                                     })
-                                                            })
-                                                    })
-                                            })
-                                    })
+                                                            },
+                                                        )
+                                                        .and_then(|state| {
+                                                            state
+                                                                .optional(|state| {
+                                                                    state
+                                                                        .sequence(|state| {
+                                                                            state
+                                                                                .match_string("::")
+                                                                                .and_then(|state| {
+                                                                                    state.repeat(|state| { self::r#trivia(state) })
+                                                                                })
+                                                                        })
+                                                                })
+                                                        })
+                                                        .and_then(|state| { self::r#identifier(state) })
+                                                        .and_then(|state| {
+                                                            state
+                                                                .repeat(|state| {
+                                                                    state
+                                                                        .sequence(|state| {
+                                                                            state
+                                                                                .repeat(|state| { self::r#trivia(state) })
+                                                                                .and_then(|state| { state.match_string("::") })
+                                                                                .and_then(|state| {
+                                                                                    state.repeat(|state| { self::r#trivia(state) })
+                                                                                })
+                                                                                .and_then(|state| { self::r#identifier(state) })
+                                                                        })
+                                                                })
+                                                        })
+                                                })
+                                        },
+                                    )
                             },
                         )
+                }
+                #[inline]
+                #[allow(non_snake_case, unused_variables)]
+                pub fn r#trivia(
+                    state: ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                ) -> ::pest::ParseResult<
+                    ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                > {
+                    let state = state.check_stack_limit()?;
+                    self::r#WHITESPACE(state).or_else(|state| { self::r#COMMENT(state) })
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2957,6 +2972,7 @@ impl ::pest::Parser<Rule> for Grammar {
                     Rule::r#truth => rules::r#truth(state),
                     Rule::r#falsity => rules::r#falsity(state),
                     Rule::r#name => rules::r#name(state),
+                    Rule::r#trivia => rules::r#trivia(state),
                     Rule::r#reserved => rules::r#reserved(state),
                     Rule::r#number => rules::r#number(state),
                     Rule::r#text => rules::r#text(state),

@@ -134,7 +134,13 @@ fn items(source: &Source) -> (Ast, Vec<Error>) {
             Err(error) => {
                 let mistake = message::sentence(source, at, &error);
                 let next = token::next_item(source.text(), at, mistake.span().start);
-                item::broken(&mut ast, Span::new(at, next));
+                let readable = &source.text()[at..mistake.span().start];
+                match Grammar::parse(Rule::next, readable) {
+                    Ok(pairs) => pairs
+                        .filter(|pair| pair.as_rule() == Rule::item)
+                        .for_each(|pair| item::build(&mut ast, pair, at, &mut mistakes)),
+                    Err(_) => item::broken(&mut ast, Span::new(at, next)),
+                }
                 mistakes.push(mistake);
                 next
             }

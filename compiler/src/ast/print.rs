@@ -155,14 +155,12 @@ fn wants_brackets(parent: &Node, ast: &Ast, id: NodeId, left: bool) -> bool {
             Node::Infix(Infix::Until | Infix::Then, ..),
             Node::Prefix(Prefix::Eventually | Prefix::Next, _),
         ) => left,
+        (Node::Infix(Infix::Until | Infix::Then, ..), Node::Infix(Infix::Compare(_), ..)) => true,
         (Node::Prefix(op, _), Node::Infix(..)) => *op != Prefix::Minus || inner < 9,
         (_, Node::Quantified { .. }) => true,
         (Node::Prefix(..), _) => inner < outer,
-        _ if left => inner < outer,
-        _ => {
-            inner < outer
-                || inner == outer && matches!(parent, Node::Infix(Infix::Calculate(_), ..))
-        }
+        (Node::Infix(Infix::Implies, ..), _) => inner < outer,
+        _ => inner < outer || inner == outer && !left,
     }
 }
 

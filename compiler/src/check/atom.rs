@@ -58,7 +58,7 @@ impl Checker<'_> {
             Names::Declared => {
                 let Place { steps, scalar } = self.place(id)?;
                 if scalar != Scalar::Bool {
-                    let text = self.ast.text(id);
+                    let text = self.ast.quote(id);
                     let message = format!(
                         "`{text}` is a number ({}), but a formula is needed here",
                         scalar.name()
@@ -220,7 +220,7 @@ impl Checker<'_> {
                     Some(all[1..].iter().fold(first, |left, right| self.and(left, *right)))
                 }
                 Atom::Task(_) => {
-                    let text = self.ast.text(id);
+                    let text = self.ast.quote(id);
                     let message =
                         format!("`{text}` is a task, and a predicate speaks of one state");
                     self.mistakes.push(

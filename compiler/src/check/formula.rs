@@ -215,7 +215,7 @@ impl Checker<'_> {
         let task = self.tasks[task.0 as usize].as_ref()?;
         let span = self.ast.span(id);
         if let (Some(by), Some(temporal)) = (negated, temporal(&task.spec)) {
-            let text = self.ast.text(id);
+            let text = self.ast.quote(id);
             let message = format!("the task `{text}` is negated, and it has a temporal operator");
             self.mistakes.push(
                 Error::new(Kind::NegatedTemporal, message, self.ast.entry(by).operator)

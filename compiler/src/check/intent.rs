@@ -12,7 +12,14 @@ pub(super) fn negated(ast: &Ast, id: NodeId, by: NodeId) -> Error {
         let text = bracketed(ast, id);
         format!("the left side of `=>` is negated, and `!{text}` is outside the language")
     } else {
-        format!("`!` cannot stand before `{symbol}`, directly or after rewriting")
+        let direct = matches!(ast.node(by), Node::Prefix(_, operand) if *operand == id);
+        let not = ast.source().slice(ast.entry(by).operator);
+        if direct {
+            format!("`{not}` cannot stand before `{symbol}`")
+        } else {
+            let text = bracketed(ast, id);
+            format!("this `{not}` reaches `{symbol}`, and `!{text}` is outside the language")
+        }
     };
     let negation = ast.entry(by).operator;
     let related = if hidden { "`φ => ψ` means `!φ || ψ`" } else { "this negation reaches it" };
@@ -56,13 +63,16 @@ fn advice(ast: &Ast, id: NodeId, error: Error) -> Error {
                 ))
                 .help(format!("to stay out of {text} until a goal is reached, write `!{text} U goal`"))
         }
-        Node::Infix(_, left, right) => {
-            let (left, right) = (ast.text(left), bracketed(ast, right));
+        Node::Infix(_, _, right) => {
+            let right = bracketed(ast, right);
             error
                 .help(format!(
-                    "it is \"never {left} and then {right} in that order\": no finite trajectory can ever establish it, for the next states may break it"
+                    "it would hold as long as {right} has not come: no finite trajectory can ever \
+                     establish it, for the next state may bring {right}"
                 ))
-                .help(format!("to stay out of {right} until a goal is reached, write `!{right} U goal`"))
+                .help(format!(
+                    "to stay out of {right} until a goal is reached, write `!{right} U goal`"
+                ))
         }
         _ => error,
     }
@@ -70,10 +80,10 @@ fn advice(ast: &Ast, id: NodeId, error: Error) -> Error {
 
 /// The text of an expression, in brackets if it has an operator.
 fn bracketed(ast: &Ast, id: NodeId) -> String {
-    let text = ast.text(id);
+    let text = ast.quote(id);
     match ast.node(id) {
         Node::Prefix(..) | Node::Infix(..) | Node::Quantified { .. } => format!("({text})"),
-        _ => text.to_owned(),
+        _ => text,
     }
 }
 
@@ -81,10 +91,10 @@ fn bracketed(ast: &Ast, id: NodeId) -> String {
 pub(super) fn warning(ast: &Ast, id: NodeId) -> Option<Error> {
     let Node::Infix(Infix::Then, left, right) = *ast.node(id) else { return None };
     let entry = ast.entry(left);
-    let right = ast.text(right);
+    let right = ast.quote(right);
     match *ast.node(left) {
         Node::Prefix(Prefix::Eventually, a) if !entry.is_bracketed() => {
-            let a = ast.text(a);
+            let a = ast.quote(a);
             let f = ast.source().slice(entry.operator);
             let message = format!(
                 "`{f} {a} T {right}` reads `({f} {a}) T {right}`, which does not order {a} before {right}"
@@ -95,7 +105,7 @@ pub(super) fn warning(ast: &Ast, id: NodeId) -> Option<Error> {
                 .help(format!("for {a} and later {right}, write `{a} T {right}`; to keep this meaning, write the brackets")))
         }
         Node::Infix(Infix::Then, a, b) => {
-            let (a, b) = (ast.text(a), ast.text(b));
+            let (a, b) = (ast.quote(a), ast.quote(b));
             let message = format!("`({a} T {b}) T {right}` does not order {b} before {right}");
             Some(
                 Error::new(Kind::Intent, message, entry.outer)

@@ -136,9 +136,22 @@ impl Checker<'_> {
 
     fn descend_comparison(&mut self, id: NodeId, roles: &mut Roles) {
         let Node::Infix(Infix::Compare(_), left, right) = *self.ast.node(id) else { return };
+        if let Some(truth) = [left, right].into_iter().find(|side| self.is_truth(*side)) {
+            return self.refuse(id, roles, self.compared_truth(truth));
+        }
         let chained = self.is_chained(left);
         roles.set(left, if chained { Role::Chain } else { Role::Number });
         roles.set(right, Role::Number);
+    }
+
+    fn is_truth(&self, id: NodeId) -> bool {
+        matches!(self.ast.node(id), Node::Truth(_))
+    }
+
+    fn compared_truth(&self, truth: NodeId) -> Error {
+        let message = "truth values are not compared";
+        Error::new(Kind::Type, message, self.ast.span(truth))
+            .help("for `p == true` write `p`, for `p == false` write `!p`")
     }
 
     /// Whether the left operand of a comparison is the part of a chain before it.
@@ -179,21 +192,17 @@ impl Checker<'_> {
     }
 
     fn not_a_formula(&self, id: NodeId) -> Error {
-        let text = self.ast.text(id);
+        let text = self.ast.quote(id);
         let message = format!("`{text}` is a number, but a formula is needed here");
         Error::new(Kind::Type, message, self.ast.entry(id).outer)
             .help(format!("compare it with something, such as `{text} < 1`"))
     }
 
     fn not_a_number(&self, id: NodeId) -> Error {
-        let text = self.ast.text(id);
+        let text = self.ast.quote(id);
         let message = format!("`{text}` is true or false, but a number is needed here");
-        let error = Error::new(Kind::Type, message, self.ast.entry(id).outer);
-        match self.ast.node(id) {
-            Node::Truth(true) => error.help("for `p == true` write `p`"),
-            Node::Truth(false) => error.help("for `p == false` write `!p`"),
-            _ => error.help("comparisons and arithmetic take numbers; `!`, `&&` and `F` give none"),
-        }
+        Error::new(Kind::Type, message, self.ast.entry(id).outer)
+            .help("comparisons and arithmetic take numbers; `!`, `&&` and `F` give none")
     }
 
     fn temporal_predicate(&self, id: NodeId) -> Error {

@@ -18,6 +18,8 @@ pub(super) struct Scope<'a> {
     /// Where the fields of the state are declared.
     fields: BTreeMap<&'a str, Span>,
     variants: HashMap<&'a str, u32>,
+    /// Whether an item of types could not be read.
+    incomplete: bool,
 }
 
 impl<'a> Scope<'a> {
@@ -30,6 +32,7 @@ impl<'a> Scope<'a> {
             state: None,
             fields: BTreeMap::new(),
             variants: HashMap::new(),
+            incomplete: false,
         };
         scope.declare(ast, mistakes);
         scope.declare_types(ast, mistakes);
@@ -53,6 +56,11 @@ impl<'a> Scope<'a> {
     /// The number that an enumeration gives to the value called `name`.
     pub(super) fn variant(&self, name: &str) -> Option<u32> {
         self.variants.get(name).copied()
+    }
+
+    /// Whether `name` is unknown only because its declaration has a mistake.
+    pub(super) fn is_broken(&self, name: &str) -> bool {
+        self.incomplete || self.fields.contains_key(name)
     }
 
     pub(super) fn has_state(&self) -> bool {
@@ -92,6 +100,7 @@ impl<'a> Scope<'a> {
         let mut first: BTreeMap<&str, Span> = BTreeMap::new();
         for (index, item) in ast.items().iter().enumerate() {
             let text = ast.source().slice(item.name);
+            self.incomplete |= is_broken_type(ast, item);
             if matches!(item.kind, ItemKind::Task(..)) {
                 let count = u32::try_from(self.tasks.len()).expect("fewer than 2^32 tasks");
                 self.tasks.insert(index, TaskId(count));
@@ -244,6 +253,11 @@ impl<'a> Scope<'a> {
             ),
         }
     }
+}
+
+fn is_broken_type(ast: &Ast, item: &Item) -> bool {
+    let text = ast.source().slice(item.span);
+    matches!(item.kind, ItemKind::Broken) && (text.contains("state") || text.contains("struct"))
 }
 
 fn is_value(kind: &ItemKind) -> bool {

@@ -2,6 +2,7 @@
 
 use super::Checker;
 use super::role::{Role, Roles};
+use crate::ast::quoted;
 use crate::ast::{Arithmetic, Infix, ItemKind, Node, NodeId, Prefix};
 use crate::error::{Error, Kind};
 use crate::predicate::{Function, Number, Scalar, Step, Term, TermId, Type};
@@ -73,7 +74,7 @@ impl Checker<'_> {
         let arena = &mut self.module.arena;
         match (arena.constant(left), arena.constant(right)) {
             (_, Some(0.0)) if op == Arithmetic::Divide => {
-                let message = format!("`{}` divides by zero", self.ast.text(id));
+                let message = format!("`{}` divides by zero", self.ast.quote(id));
                 self.mistakes.push(Error::new(Kind::Number, message, self.ast.span(id)));
                 None
             }
@@ -88,7 +89,7 @@ impl Checker<'_> {
             return Some(self.number(value));
         }
         let what = if value.is_nan() { "is not a number" } else { "is too large for a number" };
-        let message = format!("`{}` {what}", self.ast.text(id));
+        let message = format!("`{}` {what}", self.ast.quote(id));
         self.mistakes.push(Error::new(Kind::Number, message, self.ast.span(id)));
         None
     }
@@ -150,7 +151,7 @@ impl Checker<'_> {
             Names::Declared => {
                 let place = self.place(id)?;
                 if place.scalar == Scalar::Bool {
-                    let text = self.ast.text(id);
+                    let text = self.ast.quote(id);
                     let message = format!("`{text}` is true or false, but a number is needed here");
                     self.mistakes.push(
                         Error::new(Kind::Type, message, self.ast.span(id)).help(format!(
@@ -180,7 +181,7 @@ impl Checker<'_> {
             ItemKind::Task(..) => "task",
             _ => return None,
         };
-        let message = format!("`{}` is a {what}, but a number is needed here", self.ast.text(id));
+        let message = format!("`{}` is a {what}, but a number is needed here", self.ast.quote(id));
         let declared = self.ast.items()[item].name;
         self.mistakes.push(
             Error::new(Kind::Type, message, self.ast.span(id)).related(declared, "declared here"),
@@ -229,17 +230,17 @@ impl Checker<'_> {
                 Node::Name => return None,
                 Node::Field { base, .. } | Node::Index { base, .. } => at = *base,
                 Node::Call { callee, .. } => return Some(self.unknown_function(*callee)),
-                _ => return Some(rust_only(self.ast.text(at), span)),
+                _ => return Some(rust_only(&self.ast.quote(at), span)),
             }
         }
     }
 
     pub(super) fn unknown_function(&self, callee: NodeId) -> Error {
-        let text = self.ast.text(callee);
+        let text = self.ast.quote(callee);
         let message = format!("there is no function `{text}`");
         let error = Error::new(Kind::UnknownName, message, self.ast.span(callee));
         let names = Function::ALL.map(|(name, ..)| name);
-        match name::nearest(text, names) {
+        match name::nearest(&text, names) {
             Some(near) => error.help(format!("did you mean `{near}`?")),
             None => error.help(format!("the functions are {}", names.join(", "))),
         }
@@ -250,7 +251,11 @@ impl Checker<'_> {
         match self.find_place(id) {
             Ok(place) => Some(place),
             Err(error) => {
-                self.mistakes.push(error);
+                let told =
+                    error.kind() == Kind::UnknownName && self.scope.is_broken(self.ast.text(id));
+                if !told {
+                    self.mistakes.push(error);
+                }
                 None
             }
         }
@@ -264,7 +269,7 @@ impl Checker<'_> {
                 Node::Field { base, .. } | Node::Index { base, .. } => path.push(*base),
                 Node::Name => break,
                 Node::Call { callee, .. } => return Err(self.unknown_function(*callee)),
-                _ => return Err(rust_only(self.ast.text(last), self.ast.span(last))),
+                _ => return Err(rust_only(&self.ast.quote(last), self.ast.span(last))),
             }
         }
         let mut ty: Option<&Type> = None;
@@ -313,7 +318,7 @@ impl Checker<'_> {
     ) -> Result<(Step, &'t Type), Error> {
         let span = self.ast.span(index);
         let Some(Type::Array(element, length)) = ty else {
-            let message = format!("`{}` indexes what is not an array", self.ast.text(id));
+            let message = format!("`{}` indexes what is not an array", self.ast.quote(id));
             return Err(Error::new(Kind::Type, message, self.ast.span(id)));
         };
         let text = self.ast.text(index);
@@ -342,7 +347,7 @@ impl Checker<'_> {
     }
 
     fn not_a_scalar(&self, id: NodeId, ty: Option<&Type>) -> Error {
-        let text = self.ast.text(id);
+        let text = self.ast.quote(id);
         let (what, example) = match ty {
             Some(Type::Array(..)) => ("an array", format!("`{text}[0]`")),
             Some(Type::Enum(_)) => ("a value of an enumeration", "a `bool` field".to_owned()),
@@ -358,7 +363,11 @@ impl Checker<'_> {
 
     /// The error for a name that nothing declares.
     pub(super) fn unknown(&self, name: &str, span: Span) -> Error {
-        let error = Error::new(Kind::UnknownName, format!("nothing here is called `{name}`"), span);
+        let error = Error::new(
+            Kind::UnknownName,
+            format!("nothing here is called `{}`", quoted(name)),
+            span,
+        );
         if let Some(near) = name::nearest(name, self.scope.names()) {
             return error.help(format!("did you mean `{near}`?"));
         }

@@ -62,7 +62,7 @@ pub(super) fn report(error: &Error, source: &Source, style: Style) -> String {
         let equals = style.paint(BLUE, "=");
         let _ = writeln!(out, "{:gutter$} {equals} {} {lines}", "", style.paint(BOLD, "help:"));
     }
-    out
+    out.lines().map(|line| line.trim_end().to_owned() + "\n").collect()
 }
 
 fn gutter_width(error: &Error, source: &Source) -> usize {

@@ -334,7 +334,7 @@ fn bracket(open: Pending) -> (Span, char, char) {
 }
 
 /// The largest whole number up to which a double counts exactly.
-const EXACT: f64 = 9_007_199_254_740_992.0;
+const EXACT: u64 = 1 << 53;
 
 fn number(text: &str, span: Span) -> Result<f64, Error> {
     let digits = text.replace('_', "");
@@ -346,7 +346,7 @@ fn number(text: &str, span: Span) -> Result<f64, Error> {
             format!("`{}` is larger than any number that a computer calculates with", short(text));
         return Err(Error::new(Kind::Number, message, span).help("the largest is about 1.8e308"));
     }
-    if whole && value > EXACT {
+    if whole && digits[..suffix].parse::<u64>().map_or(true, |value| value > EXACT) {
         let message = format!("`{}` is too large to be exact", short(text));
         return Err(Error::new(Kind::Number, message, span)
             .help("whole numbers are exact up to 2^53 = 9007199254740992; write it with an exponent if a rounded value will do"));

@@ -65,7 +65,7 @@ pub(super) fn sentence(source: &Source, from: usize, error: &pest::error::Error<
     if let Some(error) = unsupported_here(&found) {
         return error;
     }
-    if expected.contains(&Rule::truth) {
+    if expected.contains(&Rule::truth) || expected.contains(&Rule::expression) {
         operand_missing(&found)
     } else if expected.contains(&Rule::until) {
         operator_missing(&found)
@@ -105,24 +105,26 @@ fn operand_missing(found: &Found<'_>) -> Error {
             found.gap().to(found.here_or_end()),
         ),
         (",", ")") => syntax("an argument is missing after the comma".into(), found.gap()),
-        (_, ">") if before == "<" => syntax(
-            "`<>` is \"eventually\" and stands before a formula".into(),
-            found.gap().to(found.here_or_end()),
-        )
-        .help("to say \"different\", write `!=`"),
+        (_, "<>") => {
+            syntax("`<>` is \"eventually\" and stands before a formula".into(), found.here_or_end())
+                .help("to say \"different\", write `!=`")
+        }
         (_, "{" | "\"") => syntax(format!("`{here}` cannot start a formula"), found.here_or_end()),
         _ if is_infix(here) && (before.is_empty() || matches!(before, "(" | "=" | "|")) => {
             let error = syntax(format!("`{here}` has nothing on its left"), found.here_or_end());
-            word_as_name(error, here)
+            rust_in_braces(word_as_name(error, here), here)
         }
         _ if is_infix(before) || is_prefix(before) => after_operator(found),
         ("=", _) => {
             syntax("nothing follows `=`".into(), found.gap()).label("a formula should stand here")
         }
-        _ if found.at_end() => syntax(format!("`{before}` is never finished"), found.gap())
+        _ if found.at_end() => syntax(format!("nothing follows `{before}`"), found.gap())
             .label("an operand is missing after this"),
-        _ => syntax(format!("`{here}` cannot stand here"), found.here_or_end())
-            .help("a name, a number, a comparison, `!`, `F`, `X` or `(` can"),
+        _ => rust_in_braces(
+            syntax(format!("`{here}` cannot stand here"), found.here_or_end())
+                .help("a name, a number, a comparison, `!`, `F`, `X` or `(` can"),
+            here,
+        ),
     }
 }
 
@@ -137,6 +139,14 @@ fn after_operator(found: &Found<'_>) -> Error {
         error.related(found.here_or_end(), format!("`{here}` cannot be its operand"))
     };
     if is_infix(here) { word_as_name(error, here) } else { word_as_name(error, before) }
+}
+
+/// Adds, for a symbol that Rust has before an operand, how to write Rust.
+fn rust_in_braces(error: Error, symbol: &str) -> Error {
+    if matches!(symbol, "&" | "*" | "|") {
+        return error.help("inside the macro, a Rust expression stands in braces: `{ f(&s) }`");
+    }
+    error
 }
 
 /// Adds, for an operator that is a word, that it cannot be a name.
@@ -188,6 +198,16 @@ fn equals(found: &Found<'_>) -> Error {
 
 fn other(found: &Found<'_>, expected: &[Rule]) -> Error {
     let here = found.word(found.here);
+    if here == ":" && expected.contains(&Rule::fields) {
+        let message = "the Rust type of the state needs a `;` after it";
+        return Error::new(Kind::Syntax, message, found.here_or_end());
+    }
+    if matches!(found.word(found.before), "{" | "," | "(") && here.starts_with(token::is_word_start)
+    {
+        let message = format!("the field `{here}` needs a type");
+        return Error::new(Kind::Syntax, message, found.here_or_end())
+            .help(format!("such as `{here}: f64`"));
+    }
     let mut names: Vec<_> = expected.iter().filter_map(|rule| rule_name(*rule)).collect();
     names.dedup();
     let expected = match names.split_last() {

@@ -1,0 +1,206 @@
+//! The front end: every diagnostic as its reader sees it, refusals of the corpus, deep inputs,
+//! and printing.
+
+use std::fmt::Write;
+
+use proptest::prelude::*;
+use tltl_compiler::ast::{Ast, ItemKind};
+use tltl_compiler::check;
+use tltl_compiler::error::{Errors, Style};
+use tltl_compiler::parse;
+use tltl_compiler::predicate::Module;
+use tltl_compiler::source::Source;
+
+fn checked(mode: &str, source: &Source) -> Result<Module, Errors> {
+    match mode {
+        "formula" => check::formula(source),
+        "file" => check::file(source),
+        "macro" => check::fragment(source),
+        other => panic!("no mode {other}"),
+    }
+}
+
+/// The errors of a source, or its warnings.
+fn report(mode: &str, source: &Source) -> String {
+    match checked(mode, source) {
+        Err(errors) => errors.render(source, Style::Plain),
+        Ok(module) => {
+            let warnings = module.warnings.iter();
+            warnings.map(|warning| warning.render(source, Style::Plain)).collect()
+        }
+    }
+}
+
+#[test]
+fn every_diagnostic() {
+    let cases = include_str!("../data/mistakes.txt").split("\n== ").skip(1);
+    let mut gallery = String::new();
+    for case in cases {
+        let (head, text) = case.split_once('\n').unwrap_or((case, ""));
+        let (name, mode) = head.split_once(' ').unwrap();
+        let place = if mode == "file" { "task.tltl" } else { "<formula>" };
+        let report = report(mode, &Source::new(place, text));
+        assert!(!report.is_empty(), "{name} is accepted without a word");
+        let _ = writeln!(gallery, "── {name} ──\n\n{}\n{report}", indented(text));
+    }
+    insta::assert_snapshot!("diagnostics", gallery);
+}
+
+fn indented(text: &str) -> String {
+    text.lines().fold(String::new(), |out, line| out + "    " + line + "\n")
+}
+
+#[test]
+fn colours_change_no_word() {
+    let source = Source::new("<formula>", "!F a");
+    let errors = check::formula(&source).unwrap_err();
+    let mut coloured = errors.render(&source, Style::Coloured);
+    for code in ["\x1b[1m", "\x1b[1;31m", "\x1b[1;34m", "\x1b[0m"] {
+        assert!(coloured.contains(code));
+        coloured = coloured.replace(code, "");
+    }
+    assert_eq!(coloured, errors.render(&source, Style::Plain));
+}
+
+#[test]
+fn refusals_of_the_corpus() {
+    for line in include_str!("../data/rejects.jsonl").lines() {
+        let row: serde_json::Value = serde_json::from_str(line).unwrap();
+        let formula = row["formula"].as_str().unwrap();
+        let found = match check::formula(&Source::new("<formula>", formula)) {
+            Ok(_) => "ok",
+            Err(errors) if errors.first().kind().name() == "negated-temporal" => "negated-temporal",
+            Err(_) => "syntax",
+        };
+        assert_eq!(found, row["expect"], "{formula}");
+    }
+}
+
+/// Inputs with `n` of something.
+fn deep(n: usize) -> Vec<String> {
+    vec![
+        "!".repeat(n) + "a",
+        "F ".repeat(n) + "a",
+        "a U ".repeat(n) + "b",
+        "(".repeat(n) + "a" + &")".repeat(n),
+        "!".repeat(n),
+        "(".repeat(n),
+        "X ".repeat(n) + "a",
+        "!F ".repeat(n) + "a",
+        "a T ".repeat(n) + "b",
+        "a => ".repeat(n) + "b",
+        "a && ".repeat(n),
+        "a && ".repeat(n) + "b",
+        "!(".repeat(n) + "a" + &")".repeat(n),
+        "(".repeat(n) + "a" + &" T b)".repeat(n),
+        "abs(".repeat(n) + "x" + &")".repeat(n) + " < 3",
+        "-".repeat(n) + "x < 3",
+        "x + ".repeat(n) + "1 < 3",
+        "1 < ".repeat(n) + "x",
+        "a.".repeat(n) + "b",
+        "a[".repeat(n),
+        "{".repeat(n),
+        "f(a, ".repeat(n),
+        "a".repeat(n),
+        "\u{25c7}".repeat(n) + "a",
+    ]
+}
+
+#[test]
+fn deep_inputs_get_an_answer() {
+    let check_all = || {
+        let deepest = deep(100_000).into_iter().take(4).map(|text| ("formula", text));
+        let deeper = deep(10_000).into_iter().map(|text| ("formula", text));
+        let items = deep(5_000).into_iter().map(|text| ("file", format!("task t = {text}")));
+        let tokens = deep(5_000).into_iter().map(|text| ("macro", text));
+        for (mode, text) in deepest.chain(deeper).chain(items).chain(tokens) {
+            let source = Source::new("<deep>", text);
+            if let Err(errors) = checked(mode, &source) {
+                assert!(errors.first().render(&source, Style::Plain).len() < 2_000);
+            }
+        }
+    };
+    std::thread::Builder::new().stack_size(2 << 20).spawn(check_all).unwrap().join().unwrap();
+}
+
+fn printed(ast: &Ast) -> String {
+    match ast.items()[0].kind {
+        ItemKind::Task(_, root) => ast.display(root).to_string(),
+        _ => unreachable!("a formula is a task"),
+    }
+}
+
+/// What a formula means, places aside.
+fn meaning(module: &Module) -> String {
+    let spec = &module.tasks[0].spec;
+    let formulas: Vec<_> = spec.formulas().collect();
+    format!("{:?} {:?} {formulas:?} {:?}", spec.propositions(), spec.root(), module.arena.terms())
+}
+
+fn number() -> impl Strategy<Value = String> {
+    let leaf = prop_oneof![
+        Just("x".to_owned()),
+        Just("pose.y".to_owned()),
+        Just("joints[2]".to_owned()),
+        (0..100_u32).prop_map(|n| n.to_string()),
+        Just("1.5e2".to_owned()),
+    ];
+    leaf.prop_recursive(4, 12, 2, |inner| {
+        let pair = (inner.clone(), prop::sample::select(vec!["+", "-", "*", "÷"]), inner.clone());
+        prop_oneof![
+            pair.prop_map(|(a, op, b)| format!("{a} {op} {b}")),
+            inner.clone().prop_map(|a| format!("({a})")),
+            inner.clone().prop_map(|a| format!("-{a}")),
+            (inner.clone(), inner).prop_map(|(a, b)| format!("hypot({a},{b})")),
+        ]
+    })
+}
+
+fn formula() -> impl Strategy<Value = String> {
+    let comparison =
+        (number(), prop::sample::select(vec!["<", "<=", ">", "≥", "==", "!="]), number());
+    let leaf = prop_oneof![
+        4 => prop::sample::select(vec!["a", "b", "true", "⊥", "InFridge"]).prop_map(str::to_owned),
+        1 => comparison.prop_map(|(a, op, b)| format!("{a} {op} {b}")),
+        1 => (number(), number(), number()).prop_map(|(a, b, c)| format!("{a} < {b} <= {c}")),
+    ];
+    leaf.prop_recursive(6, 40, 2, |inner| {
+        let infix = vec!["&&", "||", "=>", "U", "T", "∧", "or", "->"];
+        let prefix = vec!["!", "F ", "X ", "◇", "not "];
+        prop_oneof![
+            2 => (inner.clone(), prop::sample::select(infix), inner.clone())
+                .prop_map(|(a, op, b)| format!("{a} {op} {b}")),
+            1 => (prop::sample::select(prefix), inner.clone()).prop_map(|(op, a)| format!("{op}{a}")),
+            1 => inner.prop_map(|a| format!("( {a})")),
+        ]
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 1_000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn printing_keeps_the_meaning(text in formula()) {
+        let source = Source::new("<formula>", text);
+        let ast = parse::formula(&source).unwrap();
+        let once = printed(&ast);
+        let again = Source::new("<printed>", once.clone());
+        let reparsed = parse::formula(&again).unwrap();
+        prop_assert_eq!(&once, &printed(&reparsed));
+        match (check::formula(&source), check::formula(&again)) {
+            (Ok(a), Ok(b)) => prop_assert_eq!(meaning(&a), meaning(&b)),
+            (Err(a), Err(b)) => prop_assert_eq!(a.first().kind(), b.first().kind()),
+            (a, b) => prop_assert!(false, "{once}: {:?} {:?}", a.is_ok(), b.is_ok()),
+        }
+    }
+
+    #[test]
+    fn no_text_is_too_strange(text in "[ab1x.,;:{}()\\[\\]|&!<>=*/+'\"\n FXUTG◇∧-]{0,40}", item in "(state|task|predicate|const|struct|enum) [a-cF]? ?") {
+        for mode in ["formula", "file", "macro"] {
+            for text in [text.clone(), format!("{item}{text}"), format!("{text}\n{item}= {text}")] {
+                let source = Source::new("<text>", text);
+                let _ = report(mode, &source);
+            }
+        }
+    }
+}
