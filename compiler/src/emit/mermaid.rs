@@ -13,7 +13,7 @@ use crate::emit::sum::{Notation, quoted};
 #[must_use]
 pub fn automaton(title: &str, dfa: &Dfa) -> String {
     let mut text = format!("---\ntitle: {}\n---\nflowchart LR\n", quoted(title));
-    text.push_str("  start[ ]:::start --> q0\n");
+    text.push_str("  start[\" \"]:::start --> q0\n");
     for q in dfa.states() {
         let _ = writeln!(text, "  {}", node(dfa, q));
     }

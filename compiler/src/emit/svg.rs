@@ -5,14 +5,15 @@
 //! edge a smooth line with its guard standing on it. Guards are wrapped; those too long even so
 //! get a name and stand below the picture. Every shape carries its own attributes (no styles, no
 //! ids), so that a [`Drawing`] can be put into any other picture; colours print well in grey.
-//! Up to some 40 states the picture is meant to be read; larger ones are still correct.
+//! Up to some 40 states the picture is meant to be read; larger ones are still correct, and beyond
+//! [`MOST_STATES`] or [`MOST_EDGES`] the drawing only says how large the automaton is.
 
 mod curve;
 mod text;
 
 use std::fmt::Write as _;
 
-use crate::dfa::{Dfa, State};
+use crate::dfa::{Dfa, Size, State};
 use crate::emit::edge::{Edge, edges};
 use crate::emit::layout::{Graph, Layout, Link, Room, layout};
 use crate::emit::sum::Notation;
@@ -61,6 +62,11 @@ const ARROW: f64 = 26.0;
 /// How high a self-loop stands above its state.
 const LOOP: f64 = 17.0;
 
+/// The most states that are drawn.
+pub const MOST_STATES: usize = 1024;
+/// The most edges between different states that are drawn.
+pub const MOST_EDGES: usize = 4096;
+
 /// An automaton as an SVG document with a title.
 #[must_use]
 pub fn automaton(title: &str, dfa: &Dfa) -> String {
@@ -83,9 +89,20 @@ pub fn document(title: &str, drawing: &Drawing) -> String {
 /// An automaton as a drawing to be put into a larger one.
 #[must_use]
 pub fn drawing(dfa: &Dfa, options: &Options) -> Drawing {
+    let size = dfa.size();
+    if size.states > MOST_STATES || size.edges > MOST_EDGES {
+        return too_large(size);
+    }
     let picture = Picture::new(dfa, options);
     let layout = layout(&picture.graph());
     picture.draw(&layout)
+}
+
+fn too_large(size: Size) -> Drawing {
+    let message = format!("{} states and {} edges: too many to draw", size.states, size.edges);
+    let width = text::width(&message, text::STATE) + 2.0 * MARGIN;
+    let body = text::line(MARGIN, 24.0, &message, &text::STATE);
+    Drawing { width, height: 24.0 + 2.0 * MARGIN, body }
 }
 
 /// What is drawn: states by their place in the list, edges with their labels.
@@ -103,11 +120,11 @@ impl<'a> Picture<'a> {
     fn new(dfa: &'a Dfa, options: &'a Options<'a>) -> Self {
         let drawn = |q: State| options.trap || dfa.trap != Some(q) || q == 0;
         let states: Vec<_> = dfa.states().filter(|&q| drawn(q)).collect();
-        let mut legend = Legend::default();
+        let mut legend = Legend::new(options.notation);
         let mut loops = vec![None; states.len()];
         let mut links = Vec::new();
         for edge in edges(dfa).into_iter().filter(|edge| drawn(edge.to) && drawn(edge.from)) {
-            let label = legend.label(dfa, &edge, options.notation);
+            let label = legend.label(dfa, &edge);
             if edge.is_loop() {
                 let place = states.binary_search(&edge.from).unwrap_or(0);
                 loops[place] = Some(label);

@@ -58,17 +58,22 @@ impl Label {
 }
 
 /// The guards that are too long to stand on an edge, under their names.
-#[derive(Default)]
 pub(super) struct Legend {
     guards: Vec<Vec<String>>,
+    notation: Notation,
 }
 
 impl Legend {
+    /// No guard yet.
+    pub(super) fn new(notation: Notation) -> Self {
+        Self { guards: Vec::new(), notation }
+    }
+
     /// The label of an edge; a long one becomes a name, and equal ones the same name.
-    pub(super) fn label(&mut self, dfa: &Dfa, edge: &Edge, notation: Notation) -> Label {
-        let sum = Sum::new(&dfa.propositions, &edge.guard).notation(notation);
+    pub(super) fn label(&mut self, dfa: &Dfa, edge: &Edge) -> Label {
+        let sum = Sum::new(&dfa.propositions, &edge.guard).notation(self.notation);
         let products: Vec<String> = sum.products().collect();
-        let lines = wrap(&products, notation.or(), WRAP);
+        let lines = wrap(&products, self.notation.or(), WRAP);
         if lines.len() <= LINES && lines.iter().all(|line| width(line, SMALL) <= 2.0 * WRAP) {
             return Label::new(lines);
         }
@@ -90,7 +95,7 @@ impl Legend {
             let name = format!("g{} = ", subscript(i + 1));
             let indent = width(&name, SMALL) + 2.0;
             body.push_str(&line(x, y, &name, &SMALL));
-            for text in wrap(guard, " ∨ ", room.max(LEGEND) - 2.0 * x - indent) {
+            for text in wrap(guard, self.notation.or(), room.max(LEGEND) - 2.0 * x - indent) {
                 body.push_str(&line(x + indent, y, &text, &SMALL));
                 widest = widest.max(2.0 * x + indent + width(&text, SMALL));
                 y += LINE + 1.0;
