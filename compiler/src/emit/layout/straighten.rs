@@ -10,10 +10,16 @@ const NEAR: f64 = 6.0;
 pub(super) fn align(network: &Network, y: &mut [f64]) {
     let place = places(network);
     for chain in &network.chains {
-        let (first, last) = (chain[0], chain[chain.len() - 1]);
-        let (low, high) = room(network, &place, &[last], y);
-        if (y[first] - y[last]).abs() < NEAR && (low..=high).contains(&y[first]) {
-            y[last] = y[first];
+        let ends = (chain[0], chain[chain.len() - 1]);
+        if (y[ends.0] - y[ends.1]).abs() >= NEAR {
+            continue;
+        }
+        for (moved, fixed) in [(ends.1, ends.0), ends] {
+            let (low, high) = room(network, &place, &[moved], y);
+            if (low..=high).contains(&y[fixed]) {
+                y[moved] = y[fixed];
+                break;
+            }
         }
     }
 }
