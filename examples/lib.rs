@@ -1,1 +1,4 @@
-//! x
+//! The worlds of the examples, and the pictures that they draw.
+
+pub mod figure;
+pub mod grid;

@@ -272,9 +272,10 @@ impl<'a> Analysis<'a> {
 
     fn ties(&self, root: ConditionId) -> BTreeSet<Tie> {
         let tie = |id: ConditionId| match &self.atoms[id.0 as usize] {
-            Atom::Below(form, _) | Atom::Above(form, _) | Atom::At(form, _) | Atom::Off(form, _) => {
-                Some(Tie::Form(form.clone()))
-            }
+            Atom::Below(form, _)
+            | Atom::Above(form, _)
+            | Atom::At(form, _)
+            | Atom::Off(form, _) => Some(Tie::Form(form.clone())),
             Atom::Constant(_) => None,
             Atom::Opaque => self.is_opaque(id).then_some(Tie::Opaque(id)),
         };
@@ -429,7 +430,8 @@ impl<'a> Relation<'a> {
     /// or of a bounded type has no value in some cells.
     fn cells(&mut self) -> Guard {
         let mut all = Guard::TRUE;
-        let forms: Vec<_> = self.cuts.iter().map(|(form, cuts)| (form.clone(), cuts.clone())).collect();
+        let forms: Vec<_> =
+            self.cuts.iter().map(|(form, cuts)| (form.clone(), cuts.clone())).collect();
         for (form, cuts) in forms {
             let range = Range::of(self.analysis.module, &form);
             let cuts: Vec<_> = cuts.into_iter().collect();
@@ -572,7 +574,10 @@ impl Linear {
 
     /// The sum `self + factor × other`.
     fn plus(&self, factor: i128, other: &Self) -> Option<Self> {
-        let mut sum = Self { denominator: small(self.denominator.checked_mul(other.denominator)?)?, ..Self::default() };
+        let mut sum = Self {
+            denominator: small(self.denominator.checked_mul(other.denominator)?)?,
+            ..Self::default()
+        };
         let terms = self.coefficients.keys().chain(other.coefficients.keys());
         let combine = |a: i128, b: i128| -> Option<i128> {
             let a = a.checked_mul(other.denominator)?;

@@ -5,7 +5,7 @@ use crate::check;
 use crate::dfa::Dfa;
 use crate::error::{Error, Errors, Kind};
 use crate::minimize::minimize;
-use crate::predicate::{Module, State, Task};
+use crate::predicate::{Module, Task};
 use crate::source::Source;
 use crate::translate::{Budget, Exceeded, translate};
 
@@ -82,11 +82,12 @@ fn task_automata(
         dfa
     };
     judge_predicates(module, task, &mut possible, mistakes);
-    judge(module, task, &dfa, mistakes);
+    judge(task, &dfa, mistakes);
     Ok(Automata { propositional, dfa })
 }
 
-/// A predicate that never holds, or always does, is surely a mistake.
+/// A predicate that never holds, or always does, is surely a mistake; in a bare formula, which may
+/// be there to be explored, only a warning.
 fn judge_predicates(
     module: &Module,
     task: &Task,
@@ -110,7 +111,7 @@ fn judge_predicates(
             )
             .warning(),
         };
-        let mistake = if is_bare(module) { mistake.warning() } else { mistake };
+        let mistake = if task.name.is_none() { mistake.warning() } else { mistake };
         if !mistakes.contains(&mistake) {
             mistakes.push(mistake);
         }
@@ -118,16 +119,13 @@ fn judge_predicates(
 }
 
 /// So is a formula that no trajectory satisfies, or every one.
-fn judge(module: &Module, task: &Task, dfa: &Dfa, mistakes: &mut Vec<Error>) {
+fn judge(task: &Task, dfa: &Dfa, mistakes: &mut Vec<Error>) {
     let what = task.name.as_ref().map_or("the formula".to_owned(), |name| format!("task `{name}`"));
     if dfa.accepting.is_none() {
-        let mistake = Error::new(
-            Kind::Unsatisfiable,
-            format!("{what} can never be satisfied"),
-            task.span,
-        )
-        .label("no trajectory satisfies this");
-        mistakes.push(if is_bare(module) { mistake.warning() } else { mistake });
+        let mistake =
+            Error::new(Kind::Unsatisfiable, format!("{what} can never be satisfied"), task.span)
+                .label("no trajectory satisfies this");
+        mistakes.push(if task.name.is_none() { mistake.warning() } else { mistake });
     } else if dfa.accepting == Some(0) {
         mistakes.push(
             Error::new(Kind::Valid, format!("{what} is always satisfied"), task.span)
@@ -135,10 +133,6 @@ fn judge(module: &Module, task: &Task, dfa: &Dfa, mistakes: &mut Vec<Error>) {
                 .warning(),
         );
     }
-}
-
-fn is_bare(module: &Module) -> bool {
-    matches!(module.state, State::Free)
 }
 
 fn exceeds(task: &Task, exceeded: Exceeded) -> Error {

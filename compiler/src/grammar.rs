@@ -1,4 +1,4 @@
-// Generated from grammar.pest by tests/tests/grammar.rs; do not edit.
+// Generated from grammar.pest by tests/grammar.rs; do not edit.
 
 pub(crate) struct Grammar;
 /**The language: task files, bare formulas, and what stands inside `tltl!`.

@@ -4,8 +4,8 @@ use std::process::ExitCode;
 
 use tltl_compiler::compile::{self, Automata, Compiled};
 use tltl_compiler::dfa::Dfa;
-use tltl_compiler::error::{Error, Style};
 use tltl_compiler::emit::{dot, hoa, json, mermaid, rust, svg, text};
+use tltl_compiler::error::{Error, Style};
 use tltl_compiler::predicate::Task;
 use tltl_compiler::source::Source;
 use tltl_compiler::translate::Budget;
@@ -22,6 +22,8 @@ pub(super) fn run(arguments: &Automaton) -> Outcome {
     }
     let Some(path) = &arguments.file else { return Err("there is no formula and no file".into()) };
     match input::file(path)? {
+        // Rust is of the file as a whole.
+        Some(compiled) if arguments.format == Format::Rust => print(&rust::file(&compiled)),
         Some(compiled) => {
             let (task, automata) = choose(&compiled, arguments.task.as_deref())?;
             show(arguments, &compiled, task, automata)
@@ -67,8 +69,8 @@ fn one_of_many(arguments: &Automaton, formula: &str) -> Result<String, String> {
         Format::Json => json::failure(formula, error),
         _ => error.render(&source, Style::Plain),
     };
-    let compiled = compile::formula(&source, Budget::default())
-        .map_err(|errors| failure(errors.first()))?;
+    let compiled =
+        compile::formula(&source, Budget::default()).map_err(|errors| failure(errors.first()))?;
     let automata = compiled.automata.first().ok_or_else(String::new)?;
     let dfa = selected(arguments, automata);
     match (arguments.format, arguments.explicit) {
@@ -101,12 +103,7 @@ fn choose<'a>(
     }
 }
 
-fn show(
-    arguments: &Automaton,
-    compiled: &Compiled,
-    task: &Task,
-    automata: &Automata,
-) -> Outcome {
+fn show(arguments: &Automaton, compiled: &Compiled, task: &Task, automata: &Automata) -> Outcome {
     let dfa = selected(arguments, automata);
     let title = task.name.as_deref().unwrap_or(&task.text);
     let written = match arguments.format {

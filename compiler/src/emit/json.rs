@@ -11,7 +11,7 @@ use crate::dfa::{Dfa, State};
 use crate::emit::edge::edges;
 use crate::emit::sum::Notation;
 use crate::error::{Error, Kind};
-use crate::source::Span;
+use crate::source::{Source, Span};
 
 /// The most propositions of a table of all transitions: 65,536 letters a state.
 pub const MOST_PROPOSITIONS: usize = 16;
@@ -50,6 +50,25 @@ struct Mistake<'a> {
     kind: &'a str,
     message: &'a str,
     span: [usize; 2],
+}
+
+#[derive(Serialize)]
+struct Diagnostic<'a> {
+    file: &'a str,
+    severity: &'a str,
+    kind: &'a str,
+    message: &'a str,
+    span: [usize; 2],
+    line: usize,
+    column: usize,
+    related: Vec<Related<'a>>,
+    help: &'a [String],
+}
+
+#[derive(Serialize)]
+struct Related<'a> {
+    span: [usize; 2],
+    label: &'a str,
 }
 
 impl<'a> Automaton<'a> {
@@ -113,6 +132,28 @@ pub fn failure(formula: &str, error: &Error) -> String {
     let span = [error.span().start, error.span().end];
     let error = Mistake { kind: error.kind().name(), message: error.message(), span };
     line(&Failure { formula, error })
+}
+
+/// A mistake of a file as editors want it, on one line: the file's name, the severity, the kind,
+/// the message, the span in bytes, the line and the column of its start (both from 1), the other
+/// places with their labels, and the help lines.
+#[must_use]
+pub fn report(source: &Source, error: &Error) -> String {
+    let span = error.span();
+    let place = source.place(span.start);
+    let related =
+        error.places().iter().map(|(span, label)| Related { span: [span.start, span.end], label });
+    line(&Diagnostic {
+        file: source.name(),
+        severity: if error.is_warning() { "warning" } else { "error" },
+        kind: error.kind().name(),
+        message: error.message(),
+        span: [span.start, span.end],
+        line: place.line,
+        column: place.column,
+        related: related.collect(),
+        help: error.helps(),
+    })
 }
 
 fn line(value: &impl Serialize) -> String {

@@ -7,9 +7,13 @@ pub mod edge;
 pub mod hoa;
 #[cfg(feature = "cli")]
 pub mod json;
+mod layout;
 pub mod mermaid;
+#[cfg(feature = "cli")]
+pub mod policy;
 pub mod predicates;
 pub mod rust;
 pub mod sum;
+pub mod svg;
 pub mod tables;
 pub mod text;

@@ -52,7 +52,9 @@ pub fn rust(json: &str) -> Result<String, String> {
     }
     match value.get("version").and_then(Value::as_u64) {
         Some(VERSION) => {}
-        Some(other) => return Err(format!("policy version {other}; this compiler reads {VERSION}")),
+        Some(other) => {
+            return Err(format!("policy version {other}; this compiler reads {VERSION}"));
+        }
         None => return Err("the policy has no version".to_owned()),
     }
     let policy: Policy = serde_json::from_value(value).map_err(|error| error.to_string())?;
@@ -175,18 +177,14 @@ fn one_line(text: &str) -> String {
 fn length(field: &str, entries: &[u32], expected: Option<usize>) -> Result<(), String> {
     match expected {
         Some(expected) if entries.len() == expected => Ok(()),
-        Some(expected) => {
-            Err(format!("`{field}` has {} entries, not {expected}", entries.len()))
-        }
+        Some(expected) => Err(format!("`{field}` has {} entries, not {expected}", entries.len())),
         None => Err(format!("`{field}` would be too large")),
     }
 }
 
 fn below(field: &str, entries: &[u32], limit: usize) -> Result<(), String> {
     match entries.iter().position(|&entry| entry as usize >= limit) {
-        Some(at) => {
-            Err(format!("`{field}`, entry {at}: {} is not less than {limit}", entries[at]))
-        }
+        Some(at) => Err(format!("`{field}`, entry {at}: {} is not less than {limit}", entries[at])),
         None => Ok(()),
     }
 }
@@ -199,7 +197,8 @@ fn table(text: &mut String, name: &str, about: &str, entries: &[u32]) {
         0x100..=0xffff => "u16",
         _ => "u32",
     };
-    let _ = write!(text, "/// {about}\n#[rustfmt::skip]\nstatic {name}: [{ty}; {}] = [", entries.len());
+    let _ =
+        write!(text, "/// {about}\n#[rustfmt::skip]\nstatic {name}: [{ty}; {}] = [", entries.len());
     let per_row = 90 / (most.to_string().len() + 2);
     for (i, entry) in entries.iter().enumerate() {
         text.push_str(if i % per_row == 0 { "\n    " } else { " " });

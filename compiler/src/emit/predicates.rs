@@ -162,8 +162,7 @@ impl Writer<'_> {
         operator: &TokenStream,
     ) -> Written {
         let runtime = self.scope.runtime;
-        let ((a, deep_a), (b, deep_b)) =
-            (self.conditions[&a].clone(), self.conditions[&b].clone());
+        let ((a, deep_a), (b, deep_b)) = (self.conditions[&a].clone(), self.conditions[&b].clone());
         let code = if self.reading == Reading::Robustness {
             quote! { #runtime::private::#function(#a, #b) }
         } else {
@@ -194,7 +193,11 @@ impl Writer<'_> {
                 Comparison::Unequal => quote! { !#private::equal(#a, #b)? },
             }
         };
-        let code = if self.reading == Reading::Robustness { quote! { (#code) } } else { code };
+        let code = if self.reading == Reading::Robustness {
+            quote! { (#code) }
+        } else {
+            code
+        };
         (code, depth)
     }
 
@@ -309,7 +312,11 @@ fn number(value: f64) -> TokenStream {
         return quote! { ::core::primitive::f64::NAN };
     }
     let literal = Literal::f64_suffixed(value.abs());
-    if value.is_sign_negative() { quote! { (-#literal) } } else { quote! { #literal } }
+    if value.is_sign_negative() {
+        quote! { (-#literal) }
+    } else {
+        quote! { #literal }
+    }
 }
 
 /// A name of the source as a Rust identifier, raw if Rust has taken the word.

@@ -9,8 +9,8 @@ use quote::{format_ident, quote};
 
 use crate::compile::Compiled;
 use crate::dfa::Dfa;
-use crate::emit::predicates::{Reading, Scope};
 pub use crate::emit::predicates::ident as identifier;
+use crate::emit::predicates::{Reading, Scope};
 use crate::emit::tables;
 use crate::predicate::{Condition, Enum, PredicateId, State, Struct, Task, Type};
 use crate::source::Span;
@@ -34,8 +34,7 @@ pub fn expression(compiled: &Compiled, options: &Options<'_>) -> TokenStream {
     let emitter = Emitter::new(compiled, options);
     let runtime = &options.runtime;
     let values = task.predicates.iter().map(|&predicate| emitter.value(predicate));
-    let types: Vec<Ident> =
-        (0..task.predicates.len()).map(|i| format_ident!("P{}", i)).collect();
+    let types: Vec<Ident> = (0..task.predicates.len()).map(|i| format_ident!("P{}", i)).collect();
     let robustness = (0..types.len()).map(|i| {
         let place = Literal::usize_unsuffixed(i);
         quote! { #place => #runtime::Predicate::robustness(&self.#place, s) }
@@ -97,11 +96,7 @@ pub fn file(compiled: &Compiled) -> String {
     let host = |_: Span| TokenStream::new();
     let options = Options { runtime: quote! { ::tltl }, state: None, host: &host };
     let bare = compiled.module.tasks.iter().all(|task| task.name.is_none());
-    let tokens = if bare {
-        statics(compiled, &options)
-    } else {
-        items(compiled, &options)
-    };
+    let tokens = if bare { statics(compiled, &options) } else { items(compiled, &options) };
     match syn::parse2(tokens.clone()) {
         Ok(file) => prettyplease::unparse(&file),
         Err(_) => tokens.to_string(),
@@ -290,7 +285,7 @@ impl<'a> Emitter<'a> {
         task: &Task,
     ) -> TokenStream {
         let runtime = self.runtime;
-        let s = if generics.is_empty() { self.scope().state() } else {identifier("s") };
+        let s = if generics.is_empty() { self.scope().state() } else { identifier("s") };
         let operators = Literal::usize_unsuffixed(tables::operator_count(&task.spec));
         quote! {
             #[allow(unused_variables, clippy::all)]
@@ -357,7 +352,7 @@ impl<'a> Emitter<'a> {
     fn enumeration(&self, declared: &Enum) -> TokenStream {
         let name = identifier(&declared.name);
         let docs = documentation(&declared.docs, &[]);
-        let variants = declared.variants.iter().map(|variant|identifier(variant));
+        let variants = declared.variants.iter().map(|variant| identifier(variant));
         quote! {
             #docs
             #[allow(missing_docs, non_camel_case_types)]
@@ -392,7 +387,8 @@ impl<'a> Emitter<'a> {
 /// Doc attributes: the author's lines, then the tool's, each a paragraph.
 fn documentation(lines: &[String], paragraphs: &[String]) -> TokenStream {
     let author = lines.iter().map(|line| format!(" {}", line.trim()));
-    let lines = author.chain(paragraphs.iter().flat_map(|text| [String::new(), format!(" {text}")]));
+    let lines =
+        author.chain(paragraphs.iter().flat_map(|text| [String::new(), format!(" {text}")]));
     let lines = lines.skip_while(String::is_empty);
     quote! { #(#[doc = #lines])* }
 }
@@ -400,5 +396,8 @@ fn documentation(lines: &[String], paragraphs: &[String]) -> TokenStream {
 fn sizes(dfa: &Dfa) -> String {
     let size = dfa.size();
     let trap = if size.trap { ", one of them the trap" } else { "" };
-    format!("Minimal automaton: {} states{trap}, {} edges and {} self-loops.", size.states, size.edges, size.self_loops)
+    format!(
+        "Minimal automaton: {} states{trap}, {} edges and {} self-loops.",
+        size.states, size.edges, size.self_loops
+    )
 }

@@ -92,7 +92,8 @@ fn transitions(text: &mut String, dfa: &Dfa, path: &str) {
         ),
         None => {
             let node = format!("{path}::automaton::Node");
-            let _ = write!(text, "transitions: {path}::automaton::Transitions::Diagram {{ nodes: &[");
+            let _ =
+                write!(text, "transitions: {path}::automaton::Transitions::Diagram {{ nodes: &[");
             for asked in dfa.diagram.nodes() {
                 let (low, high) = (reference(asked.low), reference(asked.high));
                 let proposition = asked.proposition;
@@ -162,7 +163,8 @@ fn guard(cubes: &[Cube]) -> String {
     let literal = |&(proposition, value): &(u32, bool)| {
         format!("{}{}", if value { "" } else { "-" }, proposition + 1)
     };
-    let cube = |cube: &Cube| format!("&[{}]", cube.iter().map(literal).collect::<Vec<_>>().join(", "));
+    let cube =
+        |cube: &Cube| format!("&[{}]", cube.iter().map(literal).collect::<Vec<_>>().join(", "));
     format!("&[{}]", cubes.iter().map(cube).collect::<Vec<_>>().join(", "))
 }
 

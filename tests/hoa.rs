@@ -70,7 +70,7 @@ fn formulas_survive_the_round_trip() {
 
 #[test]
 fn the_corpus_survives_as_tables() {
-    let rows = include_str!("../data/corpus.jsonl").lines();
+    let rows = include_str!("data/corpus.jsonl").lines();
     let mut checked = 0;
     for row in rows.map(|line| serde_json::from_str::<Value>(line).unwrap()) {
         let Some(table) = row["transitions"].as_array() else { continue };

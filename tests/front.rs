@@ -33,7 +33,7 @@ fn report(mode: &str, source: &Source) -> String {
 
 #[test]
 fn every_diagnostic() {
-    let cases = include_str!("../data/mistakes.txt").split("\n== ").skip(1);
+    let cases = include_str!("data/mistakes.txt").split("\n== ").skip(1);
     let mut gallery = String::new();
     for case in cases {
         let (head, text) = case.split_once('\n').unwrap_or((case, ""));
@@ -64,7 +64,7 @@ fn colours_change_no_word() {
 
 #[test]
 fn refusals_of_the_corpus() {
-    for line in include_str!("../data/rejects.jsonl").lines() {
+    for line in include_str!("data/rejects.jsonl").lines() {
         let row: serde_json::Value = serde_json::from_str(line).unwrap();
         let formula = row["formula"].as_str().unwrap();
         let found = match check::formula(&Source::new("<formula>", formula)) {

@@ -1,13 +1,13 @@
 //! `compiler/src/grammar.rs` is what pest generates from `grammar.pest`.
 //!
 //! It is committed, so that users of the macro do not build the generator. After a change of the
-//! grammar, `UPDATE_GRAMMAR=1 cargo test -p tltl-tests --test grammar` writes it anew.
+//! grammar, `UPDATE_GRAMMAR=1 cargo test -p tltl-tests grammar` writes it anew.
 
 use std::path::Path;
 
 use quote::quote;
 
-const HEADER: &str = "// Generated from grammar.pest by tests/tests/grammar.rs; do not edit.\n\n";
+const HEADER: &str = "// Generated from grammar.pest by tests/grammar.rs; do not edit.\n\n";
 
 #[test]
 fn the_committed_parser_is_fresh() {
