@@ -1,0 +1,36 @@
+//! Any bytes as a formula, as a file and as the macro's input: an answer, never a crash; a report
+//! that can be shown; a formula that means the same when it is printed.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use tltl_compiler::ast::ItemKind;
+use tltl_compiler::error::Style;
+use tltl_compiler::source::Source;
+use tltl_compiler::{check, parse};
+
+fuzz_target!(|text: &str| {
+    let source = Source::new("<fuzz>", text);
+    for checked in [check::formula(&source), check::file(&source), check::fragment(&source)] {
+        match checked {
+            Ok(module) => module.warnings.iter().for_each(|warning| {
+                assert!(!warning.render(&source, Style::Plain).is_empty());
+            }),
+            Err(errors) => assert!(!errors.render(&source, Style::Coloured).is_empty()),
+        }
+    }
+    printed(&source);
+});
+
+fn printed(source: &Source) {
+    let Ok(ast) = parse::formula(source) else { return };
+    let ItemKind::Task(_, root) = ast.items()[0].kind else { return };
+    let once = ast.display(root).to_string();
+    let again = Source::new("<printed>", once.as_str());
+    match parse::formula(&again) {
+        Ok(ast) => match ast.items()[0].kind {
+            ItemKind::Task(_, root) => assert_eq!(ast.display(root).to_string(), once),
+            _ => panic!("`{once}` is no formula"),
+        },
+        Err(errors) => panic!("{}", errors.render(&again, Style::Plain)),
+    }
+}

@@ -1,0 +1,26 @@
+//! Any text as an automaton: an answer, never a crash; what is read is written and read back.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use tltl_compiler::emit;
+use tltl_compiler::error::Style;
+use tltl_compiler::hoa::read;
+use tltl_compiler::source::Source;
+
+fuzz_target!(|text: &str| {
+    let source = Source::new("<fuzz>", text);
+    match read(&source) {
+        Err(error) => assert!(!error.render(&source, Style::Plain).is_empty()),
+        Ok(automaton) => {
+            if automaton.dfa.len() > 1_000 {
+                return;
+            }
+            let written = emit::hoa::automaton("", &automaton.dfa);
+            let again = Source::new("<written>", written.as_str());
+            match read(&again) {
+                Ok(read) => assert_eq!(emit::hoa::automaton("", &read.dfa), written),
+                Err(error) => panic!("{}\n{written}", error.render(&again, Style::Plain)),
+            }
+        }
+    }
+});
