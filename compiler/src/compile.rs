@@ -6,7 +6,8 @@ use crate::dfa::Dfa;
 use crate::error::{Error, Errors, Kind};
 use crate::minimize::minimize;
 use crate::predicate::{Module, Task};
-use crate::source::Source;
+use crate::source::{Source, Span};
+use crate::spec::Spec;
 use crate::translate::{Budget, Exceeded, translate};
 
 /// A source and everything that it means.
@@ -59,7 +60,7 @@ fn automata(mut module: Module, budget: Budget) -> Result<Compiled, Errors> {
     for task in &module.tasks {
         match task_automata(&module, task, budget, &mut mistakes) {
             Ok(pair) => automata.push(pair),
-            Err(exceeded) => mistakes.push(exceeds(task, exceeded)),
+            Err(exceeded) => mistakes.push(exceeds(task, budget, exceeded)),
         }
     }
     let warnings = Errors::split(mistakes)?;
@@ -81,6 +82,7 @@ fn task_automata(
         possible.attach(&mut dfa);
         dfa
     };
+    check_edges(&dfa, budget)?;
     judge_predicates(module, task, &mut possible, mistakes);
     judge(task, &dfa, mistakes);
     Ok(Automata { propositional, dfa })
@@ -135,10 +137,43 @@ fn judge(task: &Task, dfa: &Dfa, mistakes: &mut Vec<Error>) {
     }
 }
 
-fn exceeds(task: &Task, exceeded: Exceeded) -> Error {
+/// Counts edges, but not far beyond the limit.
+fn check_edges(dfa: &Dfa, budget: Budget) -> Result<(), Exceeded> {
+    let limit = budget.edges;
+    if dfa.len().saturating_mul(dfa.len()) <= limit {
+        return Ok(());
+    }
+    let mut edges = 0;
+    for &target in &dfa.transitions {
+        edges += dfa.leaves(target).len();
+        if edges > limit {
+            return Err(Exceeded { what: "edges", limit });
+        }
+    }
+    Ok(())
+}
+
+fn exceeds(task: &Task, budget: Budget, exceeded: Exceeded) -> Error {
     let Exceeded { what, limit } = exceeded;
     let name = task.name.as_ref().map_or("the formula".to_owned(), |name| format!("task `{name}`"));
-    Error::new(Kind::Budget, format!("{name} needs more than {limit} {what}"), task.span)
-        .label("the automaton of this is too large")
-        .help("split the task into parts that are watched side by side")
+    let span = if what == "edges" { task.span } else { culprit(&task.spec, budget) };
+    Error::new(Kind::Budget, format!("the automaton of {name} needs more than {limit} {what}"), span)
+        .label("this is what grows")
+        .help("split the task into smaller ones and watch them side by side: n unordered goals are 2^n states as one task, and 2n as n tasks")
+}
+
+/// Where the smallest subformula stands whose own automaton is too large.
+fn culprit(spec: &Spec, budget: Budget) -> Span {
+    let mut spec = spec.clone();
+    loop {
+        let whole = spec.root();
+        let guilty = spec.formula(whole).operands().find(|&part| {
+            spec.set_root(part);
+            translate(&spec, budget).is_err()
+        });
+        match guilty {
+            Some(part) => spec.set_root(part),
+            None => return spec.span(whole),
+        }
+    }
 }

@@ -35,7 +35,7 @@ pub(super) fn run(arguments: &Automaton) -> Outcome {
 /// One formula, in any form.
 fn single(arguments: &Automaton, formula: &str) -> Outcome {
     let source = Source::new("formula", formula);
-    let result = compile::formula(&source, Budget::default());
+    let result = compile::formula(&source, Budget::SHOWN);
     if let (Format::Json, Err(errors)) = (arguments.format, &result) {
         print(&json::failure(formula, errors.first()))?;
         return Ok(ExitCode::from(1));
@@ -70,7 +70,7 @@ fn one_of_many(arguments: &Automaton, formula: &str) -> Result<String, String> {
         _ => error.render(&source, Style::Plain),
     };
     let compiled =
-        compile::formula(&source, Budget::default()).map_err(|errors| failure(errors.first()))?;
+        compile::formula(&source, Budget::SHOWN).map_err(|errors| failure(errors.first()))?;
     let automata = compiled.automata.first().ok_or_else(String::new)?;
     let dfa = selected(arguments, automata);
     match (arguments.format, arguments.explicit) {
