@@ -11,6 +11,7 @@ pub mod error;
 pub mod explain;
 pub mod guard;
 pub mod hoa;
+pub mod linear;
 pub mod minimize;
 pub mod parse;
 pub mod predicate;

@@ -1,0 +1,299 @@
+//! Comparisons as cuts of linear forms, in exact rational arithmetic.
+
+use std::collections::BTreeMap;
+
+use crate::ast::{Arithmetic, Comparison};
+use crate::linear::{Inequality, gcd};
+use crate::predicate::{Module, Scalar, Term, TermId};
+
+/// A linear form: integer coefficients without a common divisor, the first of them positive, of
+/// variables, which are terms that are not linear combinations of others.
+pub(super) type Form = Vec<(TermId, i128)>;
+
+/// A rational number; the denominator is positive.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rational {
+    numerator: i128,
+    denominator: i128,
+}
+
+impl PartialEq for Rational {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Rational {}
+
+impl PartialOrd for Rational {
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Rational {
+    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
+        let left = self.numerator.div_euclid(self.denominator);
+        let right = other.numerator.div_euclid(other.denominator);
+        left.cmp(&right).then_with(|| {
+            // The remainders are below their denominators, which are below 2^63.
+            let left = self.numerator.rem_euclid(self.denominator) * other.denominator;
+            left.cmp(&(other.numerator.rem_euclid(other.denominator) * self.denominator))
+        })
+    }
+}
+
+/// A cut of the number line: `(c, false)` is `form < c`, `(c, true)` is `form <= c`.
+pub(super) type Cut = (Rational, bool);
+
+/// A comparison as a condition on cuts.
+#[derive(Clone, Debug)]
+pub(super) enum Atom {
+    /// Below the cut.
+    Below(Form, Cut),
+    /// Not below it.
+    Above(Form, Cut),
+    /// Exactly there.
+    At(Form, Rational),
+    /// Anywhere else.
+    Off(Form, Rational),
+    /// Always, or never.
+    Constant(bool),
+    /// Nothing is known but its name.
+    Opaque,
+}
+
+/// The values that a form can take.
+pub(super) struct Range {
+    integer: bool,
+    least: Option<i128>,
+    greatest: Option<i128>,
+}
+
+impl Range {
+    pub(super) fn of(module: &Module, form: &Form) -> Self {
+        let scalar = |term: &TermId| match module.arena.term(*term) {
+            Term::Place { scalar: Scalar::Number(name), .. } => integer_range(name),
+            _ => None,
+        };
+        let integer = form.iter().all(|(term, _)| scalar(term).is_some());
+        match form.as_slice() {
+            [(term, 1)] if integer => {
+                let (least, greatest) = scalar(term).unwrap_or((i128::MIN, i128::MAX));
+                Self { integer, least: Some(least), greatest: Some(greatest) }
+            }
+            _ => Self { integer, least: None, greatest: None },
+        }
+    }
+
+    /// Whether there is a value not below `after` and below `until`.
+    pub(super) fn is_inhabited(&self, after: Option<Cut>, until: Option<Cut>) -> bool {
+        if !self.integer {
+            return true;
+        }
+        // The least integer not below a cut.
+        let first = |(at, inclusive): Cut| {
+            let floor = at.numerator.div_euclid(at.denominator);
+            let whole = floor * at.denominator == at.numerator;
+            if whole && !inclusive { floor } else { floor + 1 }
+        };
+        let least = after.map(first).into_iter().chain(self.least).max();
+        let end = until.map(first).into_iter().chain(self.greatest.map(|last| last + 1)).min();
+        least.zip(end).is_none_or(|(least, end)| least < end)
+    }
+}
+
+/// What a cell says of its form: not below `after`, and below `until`.
+pub(super) fn inequalities(form: &Form, after: Option<Cut>, until: Option<Cut>) -> Vec<Inequality> {
+    let row = |(at, inclusive): Cut, sign: i128| Inequality {
+        coefficients: form.iter().map(|&(term, c)| (term, sign * c * at.denominator)).collect(),
+        bound: sign * at.numerator,
+        // Below `<= c` includes c; not below it excludes c.
+        strict: inclusive != (sign > 0),
+    };
+    let above = after.map(|cut| row(cut, -1));
+    above.into_iter().chain(until.map(|cut| row(cut, 1))).collect()
+}
+
+/// What the types of a form's variables say of them.
+pub(super) fn bounds(module: &Module, form: &Form) -> Vec<Inequality> {
+    let bound = |&(term, _): &(TermId, i128)| {
+        match module.arena.term(term) {
+            Term::Place { scalar: Scalar::Number(name), .. } => integer_range(name),
+            _ => None,
+        }
+        .map(|(least, greatest)| {
+            let row = |sign, bound| Inequality {
+                coefficients: BTreeMap::from([(term, sign)]),
+                bound,
+                strict: false,
+            };
+            [row(-1, -least), row(1, greatest)]
+        })
+    };
+    form.iter().filter_map(bound).flatten().collect()
+}
+
+fn integer_range(name: &str) -> Option<(i128, i128)> {
+    Some(match name {
+        "i8" => (i8::MIN.into(), i8::MAX.into()),
+        "i16" => (i16::MIN.into(), i16::MAX.into()),
+        "i32" => (i32::MIN.into(), i32::MAX.into()),
+        "i64" => (i64::MIN.into(), i64::MAX.into()),
+        "u8" => (0, u8::MAX.into()),
+        "u16" => (0, u16::MAX.into()),
+        "u32" => (0, u32::MAX.into()),
+        "u64" => (0, u64::MAX.into()),
+        _ => return None,
+    })
+}
+
+/// A sum of variables with coefficients, and a constant; all over one denominator.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Linear {
+    coefficients: BTreeMap<TermId, i128>,
+    constant: i128,
+    /// A power of two.
+    denominator: i128,
+}
+
+/// Coefficients stay below this, so that products of two fit.
+const SMALL: i128 = 1 << 62;
+
+impl Linear {
+    fn number(value: f64) -> Option<Self> {
+        let mut denominator = 1_i128;
+        let mut scaled = value;
+        while scaled.fract() != 0.0 {
+            scaled *= 2.0;
+            denominator *= 2;
+            if denominator >= SMALL {
+                return None;
+            }
+        }
+        // 2^62 is exact in both types.
+        (scaled.abs() < SMALL as f64).then(|| Self {
+            coefficients: BTreeMap::new(),
+            constant: scaled as i128,
+            denominator,
+        })
+    }
+
+    fn variable(term: TermId) -> Self {
+        Self { coefficients: BTreeMap::from([(term, 1)]), constant: 0, denominator: 1 }
+    }
+
+    /// The sum `self + factor × other`.
+    fn plus(&self, factor: i128, other: &Self) -> Option<Self> {
+        let mut sum = Self {
+            denominator: small(self.denominator.checked_mul(other.denominator)?)?,
+            ..Self::default()
+        };
+        let terms = self.coefficients.keys().chain(other.coefficients.keys());
+        let combine = |a: i128, b: i128| -> Option<i128> {
+            let a = a.checked_mul(other.denominator)?;
+            small(a.checked_add(factor.checked_mul(b)?.checked_mul(self.denominator)?)?)
+        };
+        for &term in terms {
+            let of = |linear: &Self| linear.coefficients.get(&term).copied().unwrap_or(0);
+            let coefficient = combine(of(self), of(other))?;
+            if coefficient != 0 {
+                sum.coefficients.insert(term, coefficient);
+            }
+        }
+        sum.constant = combine(self.constant, other.constant)?;
+        Some(sum)
+    }
+
+    /// The product, if one of the two is a number.
+    fn times(&self, other: &Self) -> Option<Self> {
+        let (linear, factor) = match (self.coefficients.is_empty(), other.coefficients.is_empty()) {
+            (_, true) => (self, other),
+            (true, _) => (other, self),
+            _ => return None,
+        };
+        let scale = |value: i128| small(value.checked_mul(factor.constant)?);
+        let mut product = Self {
+            coefficients: BTreeMap::new(),
+            constant: scale(linear.constant)?,
+            denominator: small(linear.denominator.checked_mul(factor.denominator)?)?,
+        };
+        for (&term, &coefficient) in &linear.coefficients {
+            let coefficient = scale(coefficient)?;
+            if coefficient != 0 {
+                product.coefficients.insert(term, coefficient);
+            }
+        }
+        Some(product)
+    }
+
+    /// The quotient by a number.
+    fn over(&self, other: &Self) -> Option<Self> {
+        if !other.coefficients.is_empty() || other.constant == 0 {
+            return None;
+        }
+        let sign = other.constant.signum();
+        let inverse = Self {
+            coefficients: BTreeMap::new(),
+            constant: sign * other.denominator,
+            denominator: other.constant.abs(),
+        };
+        self.times(&inverse)
+    }
+}
+
+fn small(value: i128) -> Option<i128> {
+    (value.abs() < SMALL).then_some(value)
+}
+
+/// Every term as a linear combination of terms that are none.
+pub(super) fn linear_terms(module: &Module) -> Vec<Linear> {
+    let mut linear: Vec<Linear> = Vec::with_capacity(module.arena.terms().len());
+    for (index, term) in module.arena.terms().iter().enumerate() {
+        let of = |id: &TermId| &linear[id.0 as usize];
+        let combined = match term {
+            Term::Number(number) => Linear::number(number.0),
+            Term::Negate(a) => Linear::number(0.0).and_then(|zero| zero.plus(-1, of(a))),
+            Term::Calculate(Arithmetic::Add, a, b) => of(a).plus(1, of(b)),
+            Term::Calculate(Arithmetic::Subtract, a, b) => of(a).plus(-1, of(b)),
+            Term::Calculate(Arithmetic::Multiply, a, b) => of(a).times(of(b)),
+            Term::Calculate(Arithmetic::Divide, a, b) => of(a).over(of(b)),
+            _ => None,
+        };
+        linear.push(combined.unwrap_or_else(|| Linear::variable(TermId(index as u32))));
+    }
+    linear
+}
+
+/// A comparison of two linear terms; `None` if its numbers are too large for exact arithmetic.
+pub(super) fn atom(
+    module: &Module,
+    comparison: Comparison,
+    a: &Linear,
+    b: &Linear,
+) -> Option<Atom> {
+    let difference = a.plus(-1, b)?;
+    if difference.coefficients.is_empty() {
+        return Some(Atom::Constant(comparison.holds(difference.constant as f64, 0.0)));
+    }
+    if difference.coefficients.keys().any(|term| module.arena.constant(*term).is_some()) {
+        // A number too large or too fine for exact arithmetic.
+        return None;
+    }
+    let divisor = difference.coefficients.values().fold(0, |a, &b| gcd(a, b.abs()));
+    let first = *difference.coefficients.values().next()?;
+    let divisor = divisor * first.signum();
+    let form: Form =
+        difference.coefficients.iter().map(|(&term, &c)| (term, c / divisor)).collect();
+    let sign = divisor.signum();
+    let at = Rational { numerator: -difference.constant * sign, denominator: divisor.abs() };
+    let comparison = if sign < 0 { comparison.mirrored() } else { comparison };
+    Some(match comparison {
+        Comparison::Less => Atom::Below(form, (at, false)),
+        Comparison::AtMost => Atom::Below(form, (at, true)),
+        Comparison::Greater => Atom::Above(form, (at, true)),
+        Comparison::AtLeast => Atom::Above(form, (at, false)),
+        Comparison::Equal => Atom::At(form, at),
+        Comparison::Unequal => Atom::Off(form, at),
+    })
+}
