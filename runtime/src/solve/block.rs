@@ -3,15 +3,29 @@
 use alloc::vec::Vec;
 
 use super::graph::{self, Order};
+use super::settle::{Estimate, Known, settle};
 use super::{Problem, TOLERANCE};
 use crate::augmented::{End, Payment};
-use crate::q::largest;
+use crate::q::{QTable, largest};
 
 /// Components of at most this many pairs may be solved by elimination.
 const ELIMINATE: usize = 1024;
 
 /// Sweeps after which a policy's values are found by elimination instead, where that is possible.
 const PATIENCE: usize = 200;
+
+/// Over-relaxed sweeps in which the largest change must halve.
+const PATIENCE_OVER: usize = 48;
+
+/// How far the window of over-relaxed sweeps advances at each, in units of the square root of the
+/// number of pairs: about one step from the exits in a plane.
+const ADVANCE: usize = 2;
+
+/// How often the window sweeps each pair.
+const OVERLAP: usize = 32;
+
+/// Changes below this, relative to the largest value, are not carried on by over-relaxed sweeps.
+const RELAXED: f64 = 1e-13;
 
 /// The most sweeps; reached only where probabilities of leaving are below about 1e-6.
 const SWEEPS: usize = 1_000_000;
@@ -57,15 +71,28 @@ impl Backup<'_> {
     }
 }
 
+/// What over-relaxed sweeps change.
+struct Relaxed<'a> {
+    values: &'a mut [f64],
+    arrivals: &'a mut [f64],
+    /// The pairs of which a successor has changed.
+    stale: Vec<bool>,
+    gathered: Vec<f64>,
+    /// The largest value so far.
+    top: f64,
+}
+
 /// A component: its members, and the order of its pairs.
 pub(super) struct Block<'a> {
-    problem: &'a Problem<'a>,
-    members: Vec<u32>,
+    pub(super) problem: &'a Problem<'a>,
+    pub(super) members: Vec<u32>,
     payment: &'a Payment,
     discount: f64,
     /// The automaton does not move: sub-policy values.
     fixed: bool,
     order: Order,
+    /// How far to over-relax each pair of the order, once they are settled.
+    over: Vec<f32>,
 }
 
 impl<'a> Block<'a> {
@@ -77,7 +104,15 @@ impl<'a> Block<'a> {
         discount: f64,
     ) -> Self {
         let order = Self::order(problem, members, |_, _, _| true);
-        Self { problem, members: members.to_vec(), payment, discount, fixed: false, order }
+        Self {
+            problem,
+            members: members.to_vec(),
+            payment,
+            discount,
+            fixed: false,
+            order,
+            over: Vec::new(),
+        }
     }
 
     /// The component of `members` under a policy, undiscounted.
@@ -94,7 +129,7 @@ impl<'a> Block<'a> {
             problem.dynamics.matrix(from)[action * successors.len() + column] > 0.0
         });
         let members = members.to_vec();
-        Self { problem, members, payment, discount: 1.0, fixed: false, order }
+        Self { problem, members, payment, discount: 1.0, fixed: false, order, over: Vec::new() }
     }
 
     /// One automaton state that never moves.
@@ -128,6 +163,8 @@ impl<'a> Block<'a> {
         self.order.pairs.truncate(self.order.reached);
         let (problem, members) = (self.problem, &self.members);
         let pair = |k: u32, s: u32| problem.labelled.pair(members[k as usize], s as usize);
+        let seeds = &self.order.pairs[..self.order.seeds];
+        self.order.seeds = seeds.iter().filter(|&&(k, s)| keep(pair(k, s))).count();
         self.order.pairs.retain(|&(k, s)| keep(pair(k, s)));
         self.order.reached = self.order.pairs.len();
         self
@@ -160,31 +197,53 @@ impl<'a> Block<'a> {
         sure
     }
 
-    /// Starts each pair at `weight` times (`base` + twice its distance from the exits).
-    pub(super) fn climb(&self, values: &mut [f64], base: f64, weight: &[f64]) {
+    /// Gives the pairs that can reach an exit first values, and the order of their sweeps; see
+    /// [`settle`].
+    pub(super) fn settled(
+        mut self,
+        values: &mut [f64],
+        key: impl Fn(usize, f64) -> f64,
+        estimate: impl Fn(usize, &Known<'_>) -> Estimate,
+    ) -> Self {
+        let settled = settle(&self, values, key, estimate);
+        self.order.pairs[..settled.pairs.len()].copy_from_slice(&settled.pairs);
+        self.over = settled.over;
+        self
+    }
+
+    /// Starts from the largest action values of `table`.
+    pub(super) fn start(&self, values: &mut [f64], table: &QTable) {
         for &(k, s) in &self.order.pairs {
-            let pair = self.pair(k, s);
-            let level = self.order.level[k as usize * self.states() + s as usize];
-            values[pair] = weight[pair] * (base + 2.0 * f64::from(level));
+            values[self.pair(k, s)] = table.max(self.members[k as usize], s as usize);
         }
     }
 
-    fn states(&self) -> usize {
+    /// The pairs from which an exit can be reached.
+    pub(super) fn reached_pairs(&self) -> &[(u32, u32)] {
+        &self.order.pairs[..self.order.reached]
+    }
+
+    /// Those of them from which it can be reached in one step, unless they are settled.
+    pub(super) fn seeds(&self) -> &[(u32, u32)] {
+        &self.order.pairs[..self.order.seeds]
+    }
+
+    pub(super) fn states(&self) -> usize {
         self.problem.labelled.states()
     }
 
     #[inline]
-    fn pair(&self, k: u32, s: u32) -> usize {
+    pub(super) fn pair(&self, k: u32, s: u32) -> usize {
         self.problem.labelled.pair(self.members[k as usize], s as usize)
     }
 
     #[inline]
-    fn next(&self, q: u32, s: usize) -> u32 {
+    pub(super) fn next(&self, q: u32, s: usize) -> u32 {
         if self.fixed { q } else { self.problem.labelled.next(q, s) }
     }
 
     /// What arriving in each state is worth to each member: payment plus discounted value.
-    fn arrivals(&self, values: &[f64]) -> Vec<f64> {
+    pub(super) fn arrivals(&self, values: &[f64]) -> Vec<f64> {
         let labelled = self.problem.labelled;
         let mut arrivals = Vec::with_capacity(self.members.len() * self.states());
         for &q in &self.members {
@@ -216,17 +275,105 @@ impl<'a> Block<'a> {
         backup: impl Fn(usize, &Backup<'_>) -> f64,
     ) -> bool {
         let count = if all { self.order.pairs.len() } else { self.order.reached };
+        let pairs = &self.order.pairs[..count];
         let mut arrivals = self.arrivals(values);
+        if !self.over.is_empty() {
+            self.relax(pairs, values, &mut arrivals, &backup);
+        }
         let mut before = f64::INFINITY;
         for _ in 0..limit {
-            let (change, top) =
-                self.sweep_once(&self.order.pairs[..count], values, &mut arrivals, &backup);
+            let (change, top) = self.sweep_once(pairs, values, &mut arrivals, &backup);
             if self.is_done(change, before, top) {
                 return true;
             }
             before = change;
         }
         false
+    }
+
+    /// Over-relaxed sweeps of the pairs of which a successor has changed: first in a window that
+    /// advances from the exits outwards, then everywhere, while that helps. What they leave, plain
+    /// sweeps mend, for over-relaxation alone need not converge.
+    fn relax(
+        &self,
+        pairs: &[(u32, u32)],
+        values: &mut [f64],
+        arrivals: &mut [f64],
+        backup: &impl Fn(usize, &Backup<'_>) -> f64,
+    ) {
+        let stale = alloc::vec![true; self.members.len() * self.states()];
+        let mut relaxed = Relaxed { values, arrivals, stale, gathered: Vec::new(), top: 1.0 };
+        let step = (ADVANCE * pairs.len().isqrt()).max(1);
+        for end in (step..pairs.len()).step_by(step) {
+            let start = end.saturating_sub(OVERLAP * step);
+            self.relax_once(pairs, start..end, &mut relaxed, backup);
+        }
+        let (mut least, mut idle) = (f64::INFINITY, 0);
+        while idle < PATIENCE_OVER {
+            let change = self.relax_once(pairs, 0..pairs.len(), &mut relaxed, backup);
+            if change <= RELAXED * relaxed.top {
+                return;
+            }
+            idle = if change < 0.5 * least { 0 } else { idle + 1 };
+            least = if idle == 0 { change } else { least };
+        }
+    }
+
+    /// One such sweep over a range of the pairs; the largest difference of a backup.
+    fn relax_once(
+        &self,
+        pairs: &[(u32, u32)],
+        range: core::ops::Range<usize>,
+        relaxed: &mut Relaxed<'_>,
+        backup: &impl Fn(usize, &Backup<'_>) -> f64,
+    ) -> f64 {
+        let Relaxed { values, arrivals, stale, gathered, top } = relaxed;
+        let (mut change, small): (f64, f64) = (0.0, RELAXED * *top);
+        for i in range {
+            let (k, s) = pairs[i];
+            if !core::mem::take(&mut stale[k as usize * self.states() + s as usize]) {
+                continue;
+            }
+            let pair = self.pair(k, s);
+            let difference = self.back_up((k, s), arrivals, gathered, backup) - values[pair];
+            let over = self.over.get(i).map_or(1.0, |&over| f64::from(over));
+            values[pair] += over * difference;
+            change = change.max(difference.abs());
+            *top = top.max(values[pair].abs());
+            self.arrive(self.members[k as usize], s as usize, values[pair], |at, worth| {
+                arrivals[at] = worth;
+                if difference.abs() > small {
+                    self.spread(at, stale);
+                }
+            });
+        }
+        change
+    }
+
+    /// Marks the pairs that lead to the arrival `at`.
+    #[inline]
+    fn spread(&self, at: usize, stale: &mut [bool]) {
+        let (first, list) = &self.problem.predecessors;
+        let (layer, s) = (at / self.states() * self.states(), at % self.states());
+        for &from in &list[first[s] as usize..first[s + 1] as usize] {
+            stale[layer + from as usize] = true;
+        }
+    }
+
+    /// The new value of a pair.
+    #[inline]
+    fn back_up(
+        &self,
+        (k, s): (u32, u32),
+        arrivals: &[f64],
+        gathered: &mut Vec<f64>,
+        backup: &impl Fn(usize, &Backup<'_>) -> f64,
+    ) -> f64 {
+        let dynamics = self.problem.dynamics;
+        let layer = &arrivals[k as usize * self.states()..];
+        gathered.clear();
+        gathered.extend(dynamics.successors(s as usize).iter().map(|&to| layer[to as usize]));
+        backup(self.pair(k, s), &Backup { matrix: dynamics.matrix(s as usize), arrivals: gathered })
     }
 
     /// Whether the error is small enough (absolute for values up to 1, relative above), given the largest change of this sweep and the last.
@@ -246,31 +393,28 @@ impl<'a> Block<'a> {
         arrivals: &mut [f64],
         backup: &impl Fn(usize, &Backup<'_>) -> f64,
     ) -> (f64, f64) {
-        let dynamics = self.problem.dynamics;
         let mut gathered = Vec::new();
         let (mut change, mut top): (f64, f64) = (0.0, 0.0);
         for &(k, s) in pairs {
-            let layer = &arrivals[k as usize * self.states()..];
-            gathered.clear();
-            gathered.extend(dynamics.successors(s as usize).iter().map(|&to| layer[to as usize]));
-            let seen = Backup { matrix: dynamics.matrix(s as usize), arrivals: &gathered };
+            let value = self.back_up((k, s), arrivals, &mut gathered, backup);
             let pair = self.pair(k, s);
-            let value = backup(pair, &seen);
             change = change.max((value - values[pair]).abs());
             top = top.max(value.abs());
             values[pair] = value;
-            self.arrive(self.members[k as usize], s as usize, value, arrivals);
+            let entered = self.members[k as usize];
+            self.arrive(entered, s as usize, value, |at, worth| arrivals[at] = worth);
         }
         (change, top)
     }
 
-    /// Tells every member that enters `q` by reading `s` that this is now worth `value`.
+    /// Tells where, among the arrivals, reading `s` enters `q`, and what that is worth now that `q`
+    /// at `s` is worth `value`.
     #[inline]
-    fn arrive(&self, q: u32, s: usize, value: f64, arrivals: &mut [f64]) {
+    pub(super) fn arrive(&self, q: u32, s: usize, value: f64, mut tell: impl FnMut(usize, f64)) {
         for (j, &member) in self.members.iter().enumerate() {
             if self.next(member, s) == q {
                 let paid = self.problem.paid(self.payment, member, s);
-                arrivals[j * self.states() + s] = paid + self.discount * value;
+                tell(j * self.states() + s, paid + self.discount * value);
             }
         }
     }

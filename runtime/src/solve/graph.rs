@@ -83,13 +83,14 @@ impl Search<'_> {
     }
 }
 
-/// Pairs (member, s) in the order of their distance from the exits, and that distance.
+/// Pairs (member, s) in the order of their distance from the exits.
 #[derive(Clone, Debug)]
 pub(super) struct Order {
     pub(super) pairs: Vec<(u32, u32)>,
-    pub(super) level: Vec<u32>,
     /// How many pairs can reach an exit; the others follow in index order.
     pub(super) reached: usize,
+    /// How many pairs can reach one in one step.
+    pub(super) seeds: usize,
 }
 
 /// Searches backwards from the exits of `members`: pairs that read a state on which they go to an
@@ -103,32 +104,33 @@ pub(super) fn order(
     next: impl Fn(u32, usize) -> u32,
     uses: impl Fn(usize, usize, usize) -> bool,
 ) -> Order {
-    let mut level = alloc::vec![u32::MAX; members.len() * states];
-    let mut pairs = Vec::with_capacity(level.len());
+    let mut seen = alloc::vec![false; members.len() * states];
+    let (mut pairs, mut seeds) = (Vec::with_capacity(seen.len()), 0);
     let mut queue = VecDeque::new();
     for k in 0..members.len() {
         for s in 0..states {
             let to = next(members[k], s);
             if members.binary_search(&to).is_err() && !is_trap(to) {
-                queue.push_back((k, s, 0));
+                queue.push_back((k, s, true));
             }
         }
     }
-    while let Some((k, s, distance)) = queue.pop_front() {
+    while let Some((k, s, exit)) = queue.pop_front() {
         for &from in &list[first[s] as usize..first[s + 1] as usize] {
             let at = k * states + from as usize;
-            if level[at] == u32::MAX && uses(k, from as usize, s) {
-                level[at] = distance + 1;
+            if !seen[at] && uses(k, from as usize, s) {
+                seen[at] = true;
+                seeds += usize::from(exit);
                 pairs.push((k as u32, from));
                 let enters = |&j: &usize| next(members[j], from as usize) == members[k];
                 (0..members.len()).filter(enters).for_each(|j| {
-                    queue.push_back((j, from as usize, distance + 1));
+                    queue.push_back((j, from as usize, false));
                 });
             }
         }
     }
     let reached = pairs.len();
-    let missing = (0..level.len()).filter(|&at| level[at] == u32::MAX);
+    let missing = (0..seen.len()).filter(|&at| !seen[at]);
     pairs.extend(missing.map(|at| ((at / states) as u32, (at % states) as u32)));
-    Order { pairs, level, reached }
+    Order { pairs, reached, seeds }
 }

@@ -2,9 +2,10 @@
 //!
 //! A [`Problem`] is a world's [`Dynamics`] under a [`Labelled`] task. Automaton states are solved
 //! one strongly connected component after the other, those that the others lead to first; within
-//! a component, pairs (q, s) are swept Gauss-Seidel fashion, nearest to its exits first, so that a
-//! sweep carries values over the whole world. Measured on the paper's grid: some 25 sweeps to
-//! 1e-11 where value iteration in index order needs hundreds.
+//! a component, pairs (q, s) are swept Gauss-Seidel fashion, over-relaxed, along the flow of the
+//! optimal policy and in a window that moves away from the exits; the stop is that of plain sweeps.
+//! Measured with 8 automaton states: 0.3 ms on the paper's grid; on 1000 × 1000 cells 20 s for Q*,
+//! and as much for E\[steps\], in 1.2 times the memory of the table.
 //!
 //! - *Flat* values bootstrap at q' ([`Problem::optimal_q`], the augmented MDP); *sub-policy* values
 //!   at a fixed q ([`Problem::sub_policy_q`], the paper's Eq. 3A6). They are different.
@@ -14,8 +15,10 @@
 //!   P. Weak point: in a world that mixes slowly, an undiscounted sweep gains little; components
 //!   of up to 1024 pairs are then solved by elimination, larger ones are swept on.
 
+mod actions;
 mod block;
 mod graph;
+mod settle;
 
 use alloc::vec::Vec;
 
@@ -25,7 +28,9 @@ use serde::{Deserialize, Serialize};
 use crate::augmented::{End, Labelled, Payment, Rewards};
 use crate::model::Dynamics;
 use crate::q::QTable;
+pub use actions::Actions;
 use block::{Backup, Block, dot};
+use settle::{Estimate, Known};
 
 /// The largest error of values, relative to them where they exceed 1.
 const TOLERANCE: f64 = 1e-11;
@@ -116,7 +121,8 @@ impl<'a> Problem<'a> {
     #[must_use]
     pub fn optimal_q_of(&self, payment: &Payment, gamma: f64, start: Option<&QTable>) -> QTable {
         let best = |_: usize, row: &Backup<'_>| row.max();
-        let values = self.discounted(payment, gamma, start, best);
+        let estimate = |_: usize, known: &Known<'_>| known.best(gamma);
+        let values = self.discounted(payment, gamma, start, estimate, best);
         self.action_values(payment, gamma, &values)
     }
 
@@ -128,7 +134,8 @@ impl<'a> Problem<'a> {
     pub fn policy_q(&self, payment: &Payment, gamma: f64, policy: &[u32]) -> QTable {
         assert_eq!(policy.len(), self.labelled.pairs(), "a policy has an action for each (q, s)");
         let follow = |pair: usize, row: &Backup<'_>| row.of(policy[pair]);
-        let values = self.discounted(payment, gamma, None, follow);
+        let known = |pair: usize, known: &Known<'_>| known.discounted(policy[pair] as usize, gamma);
+        let values = self.discounted(payment, gamma, None, known, follow);
         self.action_values(payment, gamma, &values)
     }
 
@@ -157,20 +164,26 @@ impl<'a> Problem<'a> {
     pub fn best(&self) -> Outcome {
         let accept = self.acceptance();
         let satisfied = self.reach(&accept);
-        let safe = self.action_values(&accept, 1.0, &satisfied);
-        let shortest = |pair: usize, row: &Backup<'_>| {
-            let (q, s) = self.split(pair);
-            let worth = satisfied[pair];
-            worth + row.min_where(|a| safe.row(q, s)[a] >= worth - 1e-9)
-        };
-        let weighted = self.fewest_steps(&satisfied, shortest);
-        let cost = self.action_values(&self.nothing(), 1.0, &weighted);
-        let choose = |pair: usize| {
-            let (q, s) = self.split(pair);
-            cheapest(cost.row(q, s), safe.row(q, s), satisfied[pair])
-        };
-        let policy = (0..satisfied.len()).map(choose).collect();
+        let safe = self.safe(&accept, &satisfied);
+        let weighted = self.fewest_steps(&satisfied, &safe);
+        let policy = self.fewest(&weighted, &safe);
         self.outcome(policy, satisfied, &weighted)
+    }
+
+    /// The actions with which the largest possible P(satisfied) can still be reached, within 1e-9.
+    #[must_use]
+    pub fn safe_actions(&self) -> Actions {
+        let accept = self.acceptance();
+        self.safe(&accept, &self.reach(&accept))
+    }
+
+    /// The largest possible P(satisfied) of each pair, to 1e-10, indexed `q * states + s`: 1 at the
+    /// accepting state, 0 at the trap.
+    #[must_use]
+    pub fn largest_p(&self) -> Vec<f64> {
+        let mut satisfied = self.reach(&self.acceptance());
+        self.accepted(&mut satisfied, 1.0);
+        satisfied
     }
 
     /// P(satisfied) and E\[steps\] of a policy, indexed `q * states + s`, whatever it does: where
@@ -261,11 +274,6 @@ impl<'a> Problem<'a> {
         pairs.map(|pair| best.satisfied[pair] - own.satisfied[pair]).fold(0.0, f64::max)
     }
 
-    /// The pair's (q, s).
-    fn split(&self, pair: usize) -> (u32, usize) {
-        ((pair / self.labelled.states()) as u32, pair % self.labelled.states())
-    }
-
     fn paid(&self, payment: &Payment, q: u32, s: usize) -> f64 {
         payment.get(q, s, self.labelled.class()[s])
     }
@@ -286,23 +294,24 @@ impl<'a> Problem<'a> {
         alloc::vec![0.0; self.labelled.pairs()]
     }
 
+    /// Values by sweeps, from `start` or from estimates.
     fn discounted(
         &self,
         payment: &Payment,
         gamma: f64,
         start: Option<&QTable>,
+        estimate: impl Fn(usize, &Known<'_>) -> Estimate,
         backup: impl Fn(usize, &Backup<'_>) -> f64,
     ) -> Vec<f64> {
         assert!((0.0..1.0).contains(&gamma), "a discount factor is at least 0 and less than 1");
         let mut values = self.zeros();
-        if let Some(table) = start {
-            for q in self.labelled.live() {
-                (0..table.states())
-                    .for_each(|s| values[self.labelled.pair(q, s)] = table.max(q, s));
-            }
-        }
         for members in &self.components {
-            Block::new(self, members, payment, gamma).sweep(&mut values, true, &backup);
+            let block = Block::new(self, members, payment, gamma);
+            let block = block.settled(&mut values, |_, value| -value, &estimate);
+            if let Some(table) = start {
+                block.start(&mut values, table);
+            }
+            block.sweep(&mut values, true, &backup);
         }
         values
     }
@@ -319,24 +328,74 @@ impl<'a> Problem<'a> {
         values
     }
 
-    /// Least Σ steps · 1(success), swept from above: a component's pairs start at twice their
-    /// distance from its exits (from 0, values of far pairs would climb by one a sweep).
-    fn fewest_steps(
-        &self,
-        satisfied: &[f64],
-        backup: impl Fn(usize, &Backup<'_>) -> f64,
-    ) -> Vec<f64> {
+    /// Least Σ steps · 1(success) with the actions that are `safe`.
+    fn fewest_steps(&self, satisfied: &[f64], safe: &Actions) -> Vec<f64> {
         let (mut values, nothing) = (self.zeros(), self.nothing());
-        let mut highest: f64 = 0.0;
         for members in &self.components {
             let block = Block::new(self, members, &nothing, 1.0);
-            let block = block.only(|pair| satisfied[pair] > 0.0);
-            block.climb(&mut values, highest, satisfied);
-            block.sweep(&mut values, false, &backup);
-            let top = block.pairs().map(|pair| values[pair]).fold(0.0, f64::max);
-            highest = highest.max(top);
+            let block = block.only(|pair| satisfied[pair] > 0.0).settled(
+                &mut values,
+                |pair, value| value / satisfied[pair],
+                |pair, known| known.least(satisfied[pair], |a| safe.contains(pair, a)),
+            );
+            block.sweep(&mut values, false, |pair, row| {
+                satisfied[pair] + row.min_where(|a| safe.contains(pair, a))
+            });
         }
         values
+    }
+
+    /// For each pair the safe action of the least cost.
+    fn fewest(&self, cost: &[f64], safe: &Actions) -> Vec<u32> {
+        let mut policy = alloc::vec![0; self.labelled.pairs()];
+        self.backups(cost, |pair, actions| {
+            let allowed = (0..actions.len()).filter(|&a| safe.contains(pair, a));
+            let best = allowed.reduce(|best, a| if actions[a] < actions[best] { a } else { best });
+            policy[pair] = best.unwrap_or(0) as u32;
+        });
+        policy
+    }
+
+    /// The actions within 1e-9 of the largest P.
+    fn safe(&self, accept: &Payment, satisfied: &[f64]) -> Actions {
+        let mut safe = Actions::none(self.labelled.pairs(), self.dynamics.actions());
+        self.backups_of(accept, 1.0, satisfied, |pair, actions| {
+            for (a, &p) in actions.iter().enumerate() {
+                if p >= satisfied[pair] - 1e-9 {
+                    safe.insert(pair, a);
+                }
+            }
+        });
+        safe
+    }
+
+    /// Undiscounted backups of every action at every live pair, nothing paid.
+    fn backups(&self, values: &[f64], visit: impl FnMut(usize, &[f64])) {
+        self.backups_of(&self.nothing(), 1.0, values, visit);
+    }
+
+    /// Backups of every action at every live pair, one automaton state at a time.
+    fn backups_of(
+        &self,
+        payment: &Payment,
+        discount: f64,
+        values: &[f64],
+        mut visit: impl FnMut(usize, &[f64]),
+    ) {
+        let mut arrivals = alloc::vec![0.0; self.dynamics.states()];
+        let mut actions = alloc::vec![0.0; self.dynamics.actions()];
+        for q in self.labelled.live() {
+            for (s, arrival) in arrivals.iter_mut().enumerate() {
+                let to = self.labelled.pair(self.labelled.next(q, s), s);
+                *arrival = self.paid(payment, q, s) + discount * values[to];
+            }
+            for s in 0..self.dynamics.states() {
+                let successors = self.dynamics.successors(s);
+                let rows = self.dynamics.matrix(s).chunks(successors.len());
+                actions.iter_mut().zip(rows).for_each(|(v, p)| *v = dot(p, successors, &arrivals));
+                visit(self.labelled.pair(q, s), &actions);
+            }
+        }
     }
 
     /// One backup of every action.
@@ -369,24 +428,21 @@ impl<'a> Problem<'a> {
     fn outcome(&self, policy: Vec<u32>, mut satisfied: Vec<f64>, weighted: &[f64]) -> Outcome {
         let steps = |(&w, &p): (&f64, &f64)| if p > 0.0 { w / p } else { f64::NAN };
         let mut steps: Vec<f64> = weighted.iter().zip(&satisfied).map(steps).collect();
+        self.accepted(&mut satisfied, 1.0);
+        self.accepted(&mut steps, 0.0);
+        Outcome { policy, satisfied, steps }
+    }
+
+    /// Sets the values of the accepting state.
+    fn accepted(&self, values: &mut [f64], value: f64) {
         for q in 0..self.labelled.automaton_states() {
             if self.labelled.end(q) == Some(End::Accepted) {
-                let layer = self.labelled.pair(q, 0)..self.labelled.pair(q + 1, 0);
-                satisfied[layer.clone()].fill(1.0);
-                steps[layer].fill(0.0);
+                values[self.labelled.pair(q, 0)..self.labelled.pair(q + 1, 0)].fill(value);
             }
         }
-        Outcome { policy, satisfied, steps }
     }
 }
 
 fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
-}
-
-/// The action of the fewest steps among those of the largest P.
-fn cheapest(cost: &[f64], safe: &[f64], satisfied: f64) -> u32 {
-    let allowed = (0..cost.len()).filter(|&a| safe[a] >= satisfied - 1e-9);
-    let best = allowed.reduce(|best, a| if cost[a] < cost[best] { a } else { best });
-    best.unwrap_or(0) as u32
 }

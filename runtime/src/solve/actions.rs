@@ -1,0 +1,39 @@
+//! Sets of actions, one for each pair.
+
+use alloc::vec::Vec;
+
+/// For each pair (q, s) a set of actions, as bits.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Actions {
+    bits: Vec<u64>,
+    actions: usize,
+}
+
+impl Actions {
+    /// No action anywhere.
+    pub(crate) fn none(pairs: usize, actions: usize) -> Self {
+        Self { bits: alloc::vec![0; (pairs * actions).div_ceil(64)], actions }
+    }
+
+    /// Adds action `a` to the set of `pair`.
+    pub(crate) fn insert(&mut self, pair: usize, a: usize) {
+        let at = pair * self.actions + a;
+        self.bits[at / 64] |= 1 << (at % 64);
+    }
+
+    /// Whether action `a` is in the set of `pair`, which is `q * states + s`.
+    ///
+    /// # Panics
+    /// If there is no such pair.
+    #[inline]
+    #[must_use]
+    pub fn contains(&self, pair: usize, a: usize) -> bool {
+        let at = pair * self.actions + a;
+        self.bits[at / 64] >> (at % 64) & 1 == 1
+    }
+
+    /// The actions in the set of `pair`, ascending.
+    pub fn of(&self, pair: usize) -> impl Iterator<Item = usize> {
+        (0..self.actions).filter(move |&a| self.contains(pair, a))
+    }
+}
