@@ -99,11 +99,11 @@ impl Possible {
 
     /// The state before the first letter counts as accepting if every possible letter accepts.
     fn settle_initial(&self, dfa: &mut Dfa) {
-        if let Some(accepting) = dfa.accepting {
-            if dfa.transitions[0] == Target::to_state(accepting) {
-                dfa.transitions[0] = Target::to_state(0);
-                dfa.accepting = Some(0);
-            }
+        if let Some(accepting) = dfa.accepting
+            && dfa.transitions[0] == Target::to_state(accepting)
+        {
+            dfa.transitions[0] = Target::to_state(0);
+            dfa.accepting = Some(0);
         }
     }
 

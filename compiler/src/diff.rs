@@ -35,7 +35,7 @@ impl fmt::Display for Difference {
         let Self::Trace { trace, first, second } = self else {
             return f.write_str("equal: every trajectory has the same verdict\n");
         };
-        writeln!(f, "different: {} instant(s) tell them apart\n", trace.letters.len())?;
+        writeln!(f, "different: this trajectory tells them apart\n")?;
         for (t, letter) in trace.letters.iter().enumerate() {
             let one =
                 Trace { propositions: trace.propositions.clone(), letters: vec![letter.clone()] };

@@ -8,7 +8,11 @@ pub mod dfa;
 pub mod diff;
 pub mod emit;
 pub mod error;
+#[cfg(feature = "cli")]
+pub mod evaluate;
 pub mod explain;
+#[cfg(feature = "cli")]
+pub mod format;
 pub mod guard;
 pub mod hoa;
 pub mod linear;

@@ -106,10 +106,9 @@ fn runtime_path(input: TokenStream) -> (TokenStream, TokenStream) {
         let inner: Vec<TokenTree> = group.stream().into_iter().collect();
         if let (('#', '!'), [TokenTree::Ident(name), TokenTree::Punct(_), path @ ..]) =
             ((hash.as_char(), bang.as_char()), inner.as_slice())
+            && name == "crate"
         {
-            if name == "crate" {
-                return (path.iter().cloned().collect(), rest.iter().cloned().collect());
-            }
+            return (path.iter().cloned().collect(), rest.iter().cloned().collect());
         }
     }
     (quote! { ::tltl }, input)

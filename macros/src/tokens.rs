@@ -21,11 +21,11 @@ impl Flat {
     /// Flattens what stands in the macro's brackets: a formula, or one string literal that holds it.
     pub(crate) fn new(input: TokenStream) -> Self {
         let mut trees: Vec<TokenTree> = input.clone().into_iter().collect();
-        if let [TokenTree::Literal(literal)] = trees.as_slice() {
-            if let Some(text) = unquote(&literal.to_string()) {
-                let whole = (0, text.len().max(1), trees.remove(0));
-                return Self { text, places: vec![whole], literal: true };
-            }
+        if let [TokenTree::Literal(literal)] = trees.as_slice()
+            && let Some(text) = unquote(&literal.to_string())
+        {
+            let whole = (0, text.len().max(1), trees.remove(0));
+            return Self { text, places: vec![whole], literal: true };
         }
         let mut flat = Self { text: String::new(), places: Vec::new(), literal: false };
         flat.stream(input);
@@ -75,17 +75,17 @@ impl Flat {
         });
         let mut touched = touched.map(|(.., tree)| tree.span());
         let first = touched.next().or_else(|| self.bracket(span)).unwrap_or_else(Span::call_site);
-        (first, touched.last().unwrap_or(first))
+        (first, touched.next_back().unwrap_or(first))
     }
 
     /// The bracket or, past the end, the last token at a place.
     fn bracket(&self, span: source::Span) -> Option<Span> {
-        let around = self.places.iter().filter_map(|(start, end, tree)| match tree {
+        let mut around = self.places.iter().filter_map(|(start, end, tree)| match tree {
             TokenTree::Group(group) if *start == span.start => Some(group.span_open()),
             TokenTree::Group(group) if *end == span.end => Some(group.span_close()),
             _ => None,
         });
-        around.last().or_else(|| self.places.last().map(|(.., tree)| tree.span()))
+        around.next_back().or_else(|| self.places.last().map(|(.., tree)| tree.span()))
     }
 
     /// The tokens of a part of the text.

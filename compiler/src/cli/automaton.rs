@@ -10,7 +10,8 @@ use tltl_compiler::predicate::Task;
 use tltl_compiler::source::Source;
 use tltl_compiler::translate::Budget;
 
-use super::{Automaton, Format, Outcome, Report, input, print};
+use super::subject::choose;
+use super::{Automaton, Format, MISTAKEN, Outcome, Report, input, print};
 
 /// Shows what the arguments ask for.
 pub(super) fn run(arguments: &Automaton) -> Outcome {
@@ -28,7 +29,7 @@ pub(super) fn run(arguments: &Automaton) -> Outcome {
             let (task, automata) = choose(&compiled, arguments.task.as_deref())?;
             show(arguments, &compiled, task, automata)
         }
-        None => Ok(ExitCode::from(1)),
+        None => Ok(ExitCode::from(MISTAKEN)),
     }
 }
 
@@ -38,14 +39,14 @@ fn single(arguments: &Automaton, formula: &str) -> Outcome {
     let result = compile::formula(&source, Budget::SHOWN);
     if let (Format::Json, Err(errors)) = (arguments.format, &result) {
         print(&json::failure(formula, errors.first()))?;
-        return Ok(ExitCode::from(1));
+        return Ok(ExitCode::from(MISTAKEN));
     }
-    match input::reported(&source, result, Report::Human) {
+    match input::reported(&source, result, Report::Human)? {
         Some(compiled) => {
             let (task, automata) = choose(&compiled, None)?;
             show(arguments, &compiled, task, automata)
         }
-        None => Ok(ExitCode::from(1)),
+        None => Ok(ExitCode::from(MISTAKEN)),
     }
 }
 
@@ -60,7 +61,7 @@ fn formulas(arguments: &Automaton, list: &str) -> Outcome {
         all_well &= shown.is_ok();
         print(&shown.unwrap_or_else(|failure| failure))?;
     }
-    Ok(if all_well { ExitCode::SUCCESS } else { ExitCode::from(1) })
+    Ok(if all_well { ExitCode::SUCCESS } else { ExitCode::from(MISTAKEN) })
 }
 
 fn one_of_many(arguments: &Automaton, formula: &str) -> Result<String, String> {
@@ -82,25 +83,6 @@ fn one_of_many(arguments: &Automaton, formula: &str) -> Result<String, String> {
 
 fn selected<'a>(arguments: &Automaton, automata: &'a Automata) -> &'a Dfa {
     if arguments.propositional { &automata.propositional } else { &automata.dfa }
-}
-
-/// The task of that name; the only one if no name is given.
-fn choose<'a>(
-    compiled: &'a Compiled,
-    name: Option<&str>,
-) -> Result<(&'a Task, &'a Automata), String> {
-    let tasks = &compiled.module.tasks;
-    let names: Vec<&str> = tasks.iter().filter_map(|task| task.name.as_deref()).collect();
-    let names = names.join(", ");
-    let mut pairs = tasks.iter().zip(&compiled.automata);
-    match (name, tasks.len()) {
-        (None, 1) => pairs.next().ok_or_else(|| "there is no task".to_owned()),
-        (None, 0) => Err("the file has no task".to_owned()),
-        (None, _) => Err(format!("the file has several tasks; choose one with --task: {names}")),
-        (Some(name), _) => pairs
-            .find(|(task, _)| task.name.as_deref() == Some(name))
-            .ok_or_else(|| format!("the file has no task `{name}`; it has: {names}")),
-    }
 }
 
 fn show(arguments: &Automaton, compiled: &Compiled, task: &Task, automata: &Automata) -> Outcome {

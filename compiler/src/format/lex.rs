@@ -1,0 +1,166 @@
+//! A task file as tokens for layout: comments are tokens too, Rust code is one token.
+
+/// What a token is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// A name, a keyword or a number.
+    Word,
+    /// An operator or a bracket.
+    Symbol,
+    /// A comment.
+    Comment,
+    /// A doc comment.
+    Doc,
+    /// A Rust expression in braces, or a Rust type.
+    Rust,
+}
+
+/// A token and the line breaks before it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Token<'a> {
+    pub(super) text: &'a str,
+    pub(super) kind: Kind,
+    pub(super) newlines: usize,
+}
+
+impl Token<'_> {
+    /// Whether a `-` after it is between two operands, and a bracket a call.
+    pub(super) fn ends_operand(&self) -> bool {
+        match self.kind {
+            Kind::Word => !self.is_operator_word(),
+            Kind::Symbol => matches!(self.text, ")" | "]" | "⊤" | "⊥"),
+            Kind::Rust => true,
+            Kind::Comment | Kind::Doc => false,
+        }
+    }
+
+    pub(super) fn is_operator_word(&self) -> bool {
+        self.kind == Kind::Word
+            && matches!(self.text, "F" | "X" | "U" | "T" | "not" | "and" | "or" | "in")
+    }
+}
+
+const SYMBOLS: [&str; 12] =
+    ["<=>", "<->", "=>", "->", "&&", "||", "==", "!=", "<=", ">=", "<>", "::"];
+
+/// The tokens of a task file.
+pub(super) fn lex(text: &str) -> Vec<Token<'_>> {
+    let mut tokens: Vec<Token<'_>> = Vec::new();
+    let mut rest = text;
+    loop {
+        let trimmed = rest.trim_start_matches(|c: char| c.is_whitespace() || c == '\u{feff}');
+        let newlines = rest[..rest.len() - trimmed.len()].matches('\n').count();
+        rest = trimmed;
+        let Some(first) = rest.chars().next() else { return tokens };
+        let (kind, length) = one(rest, first, &tokens);
+        let token = rest[..length].trim_end();
+        tokens.push(Token { text: token, kind, newlines });
+        rest = &rest[token.len()..];
+    }
+}
+
+/// The kind and the length of the token that `rest` starts with.
+fn one(rest: &str, first: char, before: &[Token<'_>]) -> (Kind, usize) {
+    let line = rest.find('\n').unwrap_or(rest.len());
+    let doc = rest.starts_with("///") && !rest.starts_with("////") || rest.starts_with("//!");
+    if doc {
+        (Kind::Doc, line)
+    } else if rest.starts_with("//") {
+        (Kind::Comment, line)
+    } else if rest.starts_with("/*") {
+        (Kind::Comment, rest.find("*/").map_or(rest.len(), |end| end + 2))
+    } else if host_type_follows(before) {
+        (Kind::Rust, rest.find([';', '\n', '=', '{']).unwrap_or(rest.len()).max(1))
+    } else if first == '{' && !declares(before) {
+        (Kind::Rust, braces(rest))
+    } else if first.is_ascii_digit() || first == '.' && starts_fraction(rest, before) {
+        (Kind::Word, number(rest, before))
+    } else if first.is_alphabetic() || first == '_' {
+        let name = |c: char| !c.is_alphanumeric() && c != '_';
+        let raw = if rest.starts_with("r#") { 2 } else { 0 };
+        (Kind::Word, raw + rest[raw..].find(name).unwrap_or(rest.len() - raw))
+    } else if first == '"' {
+        (Kind::Word, quoted(rest, '"'))
+    } else {
+        let symbol = SYMBOLS.iter().find(|symbol| rest.starts_with(**symbol));
+        (Kind::Symbol, symbol.map_or(first.len_utf8(), |symbol| symbol.len()))
+    }
+}
+
+/// Whether a Rust type comes next: after `state name :`.
+fn host_type_follows(before: &[Token<'_>]) -> bool {
+    let mut last = before.iter().rev().filter(|token| token.kind != Kind::Comment);
+    let text = [last.next(), last.next(), last.next()].map(|token| token.map(|token| token.text));
+    text[0] == Some(":") && text[2] == Some("state")
+}
+
+/// Whether a brace opens the fields of a declaration: after `state Name` and its like.
+fn declares(before: &[Token<'_>]) -> bool {
+    let mut last = before.iter().rev().filter(|token| token.kind != Kind::Comment);
+    let (name, word) = (last.next(), last.next());
+    name.is_some_and(|name| name.kind == Kind::Word)
+        && word.is_some_and(|word| matches!(word.text, "state" | "struct" | "enum"))
+}
+
+/// Whether a dot starts a number and not a field.
+fn starts_fraction(rest: &str, before: &[Token<'_>]) -> bool {
+    rest[1..].starts_with(|c: char| c.is_ascii_digit())
+        && before.last().is_none_or(|token| !token.ends_operand())
+}
+
+/// The length of a number; after a dot it is the position of a field.
+fn number(rest: &str, before: &[Token<'_>]) -> usize {
+    let position = before.last().is_some_and(|token| token.text == ".");
+    let mut length = 0;
+    let mut last = ' ';
+    for c in rest.chars() {
+        let sign = matches!(c, '+' | '-') && matches!(last, 'e' | 'E') && length > 1;
+        let dot = c == '.' && !position && !rest[length + 1..].starts_with('.');
+        let method = dot && rest[length + 1..].starts_with(|c: char| c.is_alphabetic() || c == '_');
+        if !(c.is_alphanumeric() || c == '_' || sign || dot && !method) {
+            break;
+        }
+        length += c.len_utf8();
+        last = c;
+    }
+    length
+}
+
+/// The length of a Rust expression in braces.
+fn braces(rest: &str) -> usize {
+    let mut depth = 0;
+    let mut at = 0;
+    while let Some(c) = rest[at..].chars().next() {
+        at += match c {
+            '"' => quoted(&rest[at..], '"'),
+            '\'' => character(&rest[at..]),
+            c => c.len_utf8(),
+        };
+        depth += i32::from(c == '{') - i32::from(c == '}');
+        if depth == 0 {
+            break;
+        }
+    }
+    at
+}
+
+/// The length of a character literal; of the quote alone if it is a lifetime.
+fn character(rest: &str) -> usize {
+    let mut chars = rest.chars().skip(1);
+    match (chars.next(), chars.next()) {
+        (Some('\\'), _) => quoted(rest, '\''),
+        (Some(c), Some('\'')) => 2 + c.len_utf8(),
+        _ => 1,
+    }
+}
+
+fn quoted(rest: &str, quote: char) -> usize {
+    let mut escaped = false;
+    for (at, c) in rest.char_indices().skip(1) {
+        if c == quote && !escaped {
+            return at + 1;
+        }
+        escaped = c == '\\' && !escaped;
+    }
+    rest.len()
+}
