@@ -13,6 +13,7 @@ pub mod evaluate;
 pub mod explain;
 #[cfg(feature = "cli")]
 pub mod format;
+pub mod factor;
 pub mod guard;
 pub mod hoa;
 pub mod linear;

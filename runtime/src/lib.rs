@@ -9,10 +9,17 @@ extern crate std;
 #[cfg(feature = "alloc")]
 pub mod augmented;
 pub mod automaton;
+#[cfg(feature = "std")]
+pub mod checkpoint;
 #[cfg(feature = "alloc")]
 pub mod compose;
 #[cfg(feature = "alloc")]
+pub mod controller;
+#[cfg(feature = "alloc")]
 pub mod env;
+#[cfg(feature = "std")]
+pub mod estimate;
+pub mod factored;
 #[cfg(feature = "alloc")]
 pub mod learn;
 #[cfg(feature = "alloc")]
@@ -27,6 +34,8 @@ pub mod product;
 pub mod q;
 pub mod robustness;
 #[cfg(feature = "alloc")]
+pub mod shield;
+#[cfg(feature = "alloc")]
 pub mod solve;
 pub mod task;
 
@@ -35,6 +44,7 @@ pub mod task;
 pub use rand;
 
 pub use automaton::Automaton;
+pub use factored::Factored;
 pub use robustness::{Boolean, Predicate};
 pub use task::{Formula, Monitor, Task};
 #[cfg(feature = "macros")]

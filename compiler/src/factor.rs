@@ -1,0 +1,179 @@
+//! A conjunction as parts that run side by side.
+//!
+//! Conjuncts that share a proposition belong together, for they can be lost together while each
+//! could still go on alone; their joint automaton is built if it stays within [`PART`], and then
+//! its trap holds those dead ends. Conjuncts of a group that does not stay within it run
+//! apart, and the task is marked: its joint dead ends were not searched.
+
+use std::collections::BTreeSet;
+
+use crate::spec::{Formula, FormulaId, Spec};
+use crate::translate::{Budget, Exceeded, translate};
+
+/// What the joint automaton of conjuncts that share propositions may need.
+pub const PART: Budget = Budget { states: 256, nodes: 1 << 16, edges: 1 << 12 };
+
+/// One part: its formula, and the propositions of the whole that its own ones are.
+#[derive(Clone, Debug)]
+pub struct Factor {
+    /// The formula.
+    pub spec: Spec,
+    /// The place in the whole's propositions of each of the part's.
+    pub propositions: Vec<u32>,
+}
+
+/// The parts of a conjunction.
+#[derive(Clone, Debug)]
+pub struct Factors {
+    /// The parts, in the order in which the formula says them first.
+    pub parts: Vec<Factor>,
+    /// Whether every group of conjuncts that share propositions is one part.
+    pub joint: bool,
+}
+
+/// Takes a conjunction apart; any other formula is one part.
+///
+/// # Errors
+/// If the automaton of a single conjunct needs more than `budget`.
+pub fn factors(spec: &Spec, budget: Budget) -> Result<Factors, Exceeded> {
+    let mut factors = Factors { parts: Vec::new(), joint: true };
+    for group in groups(spec) {
+        let whole = extract(spec, &group);
+        if group.len() > 1 && translate(&whole.spec, PART).is_err() {
+            factors.joint = false;
+            factors.parts.extend(group.iter().map(|&conjunct| extract(spec, &[conjunct])));
+        } else {
+            factors.parts.push(whole);
+        }
+    }
+    factors.parts.iter().try_for_each(|part| translate(&part.spec, budget).map(drop))?;
+    Ok(factors)
+}
+
+/// The conjuncts, those together that share propositions, in source order.
+fn groups(spec: &Spec) -> Vec<Vec<FormulaId>> {
+    let mut groups: Vec<(BTreeSet<u32>, Vec<FormulaId>)> = Vec::new();
+    for conjunct in conjuncts(spec) {
+        let mut merged = (propositions(spec, conjunct), vec![conjunct]);
+        let mut apart = Vec::new();
+        let mut place = groups.len();
+        for (i, (known, conjuncts)) in groups.into_iter().enumerate() {
+            if known.is_disjoint(&merged.0) {
+                apart.push((known, conjuncts));
+            } else {
+                place = place.min(i);
+                merged.0.extend(known);
+                merged.1.splice(0..0, conjuncts);
+            }
+        }
+        merged.1.sort_unstable_by_key(|&id| (spec.span(id), id));
+        apart.insert(place.min(apart.len()), merged);
+        groups = apart;
+    }
+    groups.into_iter().map(|(_, conjuncts)| conjuncts).collect()
+}
+
+fn conjuncts(spec: &Spec) -> Vec<FormulaId> {
+    let mut conjuncts = Vec::new();
+    let mut seen = BTreeSet::new();
+    let mut stack = vec![spec.root()];
+    while let Some(id) = stack.pop() {
+        match spec.formula(id) {
+            _ if !seen.insert(id) => {}
+            Formula::And(a, b) => stack.extend([b, a]),
+            _ => conjuncts.push(id),
+        }
+    }
+    conjuncts
+}
+
+/// Everything that some formulas are made of, operands first.
+fn parts(spec: &Spec, roots: &[FormulaId]) -> BTreeSet<FormulaId> {
+    let mut seen = BTreeSet::new();
+    let mut stack = roots.to_vec();
+    while let Some(id) = stack.pop() {
+        if seen.insert(id) {
+            stack.extend(spec.formula(id).operands());
+        }
+    }
+    seen
+}
+
+fn propositions(spec: &Spec, root: FormulaId) -> BTreeSet<u32> {
+    let literal = |id: FormulaId| match spec.formula(id) {
+        Formula::Literal { proposition, .. } => Some(proposition),
+        _ => None,
+    };
+    parts(spec, &[root]).into_iter().filter_map(literal).collect()
+}
+
+/// The conjunction of some subformulas, over the propositions that they mention.
+fn extract(spec: &Spec, roots: &[FormulaId]) -> Factor {
+    let chosen: BTreeSet<u32> = roots.iter().flat_map(|&root| propositions(spec, root)).collect();
+    let chosen: Vec<u32> = chosen.into_iter().collect();
+    let names = chosen.iter().map(|&p| spec.propositions()[p as usize].clone()).collect();
+    let mut part = Spec::new(names);
+    let mut copies = std::collections::BTreeMap::new();
+    for id in parts(spec, roots) {
+        let span = spec.span(id);
+        let of = |operand: FormulaId| copies[&operand];
+        let copy = match spec.formula(id) {
+            Formula::True => part.truth(true, span),
+            Formula::False => part.truth(false, span),
+            Formula::Literal { proposition, negated } => {
+                let place = chosen.binary_search(&proposition).unwrap_or_default();
+                part.literal(place as u32, negated, span)
+            }
+            Formula::And(a, b) => part.and(of(a), of(b), span),
+            Formula::Or(a, b) => part.or(of(a), of(b), span),
+            Formula::Next(a) => part.next(of(a), span),
+            Formula::Eventually(a) => part.eventually(of(a), span),
+            Formula::Until(a, b) => part.until(of(a), of(b), span),
+            Formula::Then(a, b) => part.then(of(a), of(b), span),
+        };
+        copies.insert(id, copy);
+    }
+    let span = roots.first().map_or_else(Default::default, |&root| spec.span(root));
+    let mut root = part.truth(true, span);
+    for conjunct in roots {
+        root = part.and(root, copies[conjunct], span);
+    }
+    part.set_root(root);
+    Factor { spec: part, propositions: chosen }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compile;
+    use crate::source::Source;
+
+    /// Formulas, the number of states of each part, and whether joint dead ends were searched.
+    #[test]
+    fn conjunctions_fall_apart_where_they_share_nothing() {
+        let thirty: Vec<String> = (0..30).map(|i| format!("F g{i}")).collect();
+        let hazard: Vec<String> = (0..12).map(|i| format!("(!h U g{i})")).collect();
+        let cases: [(String, Vec<usize>, bool); 5] = [
+            ("F a".into(), vec![2], true),
+            ("F a && F b && (c U a)".into(), vec![3, 2], true),
+            ("!b U a && !a U b".into(), vec![3], true),
+            (thirty.join(" && "), vec![2; 30], true),
+            (hazard.join(" && "), vec![3; 12], false),
+        ];
+        for (formula, states, joint) in cases {
+            let source = Source::new("formula", formula.as_str());
+            let module = crate::check::formula(&source).unwrap();
+            let factors = factors(&module.tasks[0].spec, Budget::EMITTED).unwrap();
+            let sizes: Vec<usize> = factors
+                .parts
+                .iter()
+                .map(|part| {
+                    let raw = translate(&part.spec, Budget::EMITTED).unwrap();
+                    crate::minimize::minimize(&raw).len()
+                })
+                .collect();
+            assert_eq!((sizes, factors.joint), (states, joint), "{formula}");
+        }
+        assert!(compile::formula(&Source::new("f", thirty.join(" && ")), Budget::EMITTED).is_err());
+    }
+}
