@@ -298,6 +298,7 @@ impl Labelled {
     }
 
     /// The number of states of the world.
+    #[inline]
     #[must_use]
     pub fn states(&self) -> usize {
         self.class.len()
@@ -310,18 +311,21 @@ impl Labelled {
     }
 
     /// The number of classes.
+    #[inline]
     #[must_use]
     pub fn classes(&self) -> usize {
         self.classes
     }
 
     /// The class of each state of the world.
+    #[inline]
     #[must_use]
     pub fn class(&self) -> &[u32] {
         &self.class
     }
 
     /// The next automaton state, indexed `q * classes + class`.
+    #[inline]
     #[must_use]
     pub fn table(&self) -> &[u32] {
         &self.next
@@ -355,6 +359,7 @@ impl Labelled {
     }
 
     /// The number of pairs (q, s).
+    #[inline]
     #[must_use]
     pub fn pairs(&self) -> usize {
         self.ends.of.len() * self.class.len()

@@ -61,6 +61,21 @@ pub trait FiniteEnv: Env {
 
     /// The number of the state that the environment is in.
     fn state_index(&self) -> usize;
+
+    /// [`Env::reset`], giving the state's number only: what tabular learners read. To override
+    /// where states are costly to make.
+    #[inline]
+    fn reset_index<R: Rng + ?Sized>(&mut self, rng: &mut R) -> usize {
+        self.reset(rng);
+        self.state_index()
+    }
+
+    /// [`Env::step`], giving the state's number only.
+    #[inline]
+    fn step_index<R: Rng + ?Sized>(&mut self, action: usize, rng: &mut R) -> Step<usize> {
+        let Step { reward, terminated, truncated, .. } = self.step(action, rng);
+        Step { state: self.state_index(), reward, terminated, truncated }
+    }
 }
 
 /// An environment whose episodes are truncated after a number of steps.
@@ -113,6 +128,17 @@ impl<E: FiniteEnv> FiniteEnv for TimeLimit<E> {
     fn state_index(&self) -> usize {
         self.env.state_index()
     }
+
+    fn reset_index<R: Rng + ?Sized>(&mut self, rng: &mut R) -> usize {
+        self.elapsed = 0;
+        self.env.reset_index(rng)
+    }
+
+    fn step_index<R: Rng + ?Sized>(&mut self, action: usize, rng: &mut R) -> Step<usize> {
+        self.elapsed += 1;
+        let step = self.env.step_index(action, rng);
+        Step { truncated: step.truncated || self.elapsed >= self.horizon, ..step }
+    }
 }
 
 /// A number in `0..n`, uniform up to a relative error of `n / 2^32`.
@@ -160,6 +186,57 @@ fn alias_table(probabilities: &[f64]) -> Vec<Column> {
     columns
 }
 
+/// One column of an alias table with the states themselves: `state` below the threshold, else
+/// `alias`.
+#[derive(Clone, Copy, Debug)]
+struct Outcome {
+    threshold: u32,
+    state: u32,
+    alias: u32,
+}
+
+/// The alias tables of all actions in all states, so that a step is a single look-up.
+#[derive(Clone, Debug)]
+struct Outcomes {
+    /// `width` columns for each `s * actions + a`.
+    columns: Vec<Outcome>,
+    width: usize,
+}
+
+impl Outcomes {
+    /// At most this many columns are laid out: 48 MiB.
+    const MOST: usize = 1 << 22;
+
+    /// The columns of `dynamics`; none if they are too many.
+    fn new(dynamics: &Dynamics, compact: &[Column]) -> Self {
+        let (states, actions) = (dynamics.states(), dynamics.actions());
+        let width = (0..states).map(|s| dynamics.successors(s).len()).max().unwrap_or(1);
+        if states.saturating_mul(actions).saturating_mul(width) > Self::MOST {
+            return Self { columns: Vec::new(), width };
+        }
+        let mut columns = Vec::with_capacity(states * actions * width);
+        for s in 0..states {
+            let successors = dynamics.successors(s);
+            let offset = dynamics.matrix_offset(s);
+            let all = &compact[offset..offset + actions * successors.len()];
+            let uniform = successors.len() == width;
+            for (row, p) in
+                all.chunks(successors.len()).zip(dynamics.matrix(s).chunks(successors.len()))
+            {
+                let mut padded = p.to_vec();
+                padded.resize(width, 0.0);
+                let table = if uniform { row.to_vec() } else { alias_table(&padded) };
+                columns.extend(table.iter().enumerate().map(|(i, column)| Outcome {
+                    threshold: column.threshold,
+                    state: successors.get(i).copied().unwrap_or(successors[0]),
+                    alias: successors.get(column.alias as usize).copied().unwrap_or(successors[0]),
+                }));
+            }
+        }
+        Self { columns, width }
+    }
+}
+
 /// A [`FiniteModel`] as an environment.
 ///
 /// ```
@@ -186,6 +263,7 @@ fn alias_table(probabilities: &[f64]) -> Vec<Column> {
 pub struct ModelEnv<M> {
     model: M,
     dynamics: Dynamics,
+    outcomes: Outcomes,
     /// Alias tables, parallel to the probabilities of `dynamics`.
     columns: Vec<Column>,
     starts: Vec<Column>,
@@ -202,7 +280,8 @@ impl<M: FiniteModel> ModelEnv<M> {
         let dynamics = Dynamics::new(&model)?;
         let columns = columns(&dynamics);
         let starts = alias_table(dynamics.starts());
-        Ok(Self { model, dynamics, columns, starts, state: 0, steps: 0 })
+        let outcomes = Outcomes::new(&dynamics, &columns);
+        Ok(Self { model, dynamics, outcomes, columns, starts, state: 0, steps: 0 })
     }
 
     /// The model.
@@ -213,6 +292,34 @@ impl<M: FiniteModel> ModelEnv<M> {
     /// The model's tables, as solvers take them.
     pub const fn dynamics(&self) -> &Dynamics {
         &self.dynamics
+    }
+
+    /// Takes an action; the number of the new state.
+    #[inline]
+    fn move_on<R: Rng + ?Sized>(&mut self, action: usize, rng: &mut R) -> usize {
+        let Outcomes { columns, width } = &self.outcomes;
+        let word = rng.next_u64();
+        let at = (((word >> 32) * *width as u64) >> 32) as usize;
+        self.steps += 1;
+        self.state = if columns.is_empty() {
+            self.compact(action, word)
+        } else {
+            assert!(action < self.dynamics.actions(), "an action of the model");
+            let row = (self.state * self.dynamics.actions() + action) * width;
+            let Outcome { threshold, state, alias } = columns[row + at];
+            let (state, alias) = (state as usize, alias as usize);
+            core::hint::select_unpredictable((word as u32) < threshold, state, alias)
+        };
+        self.state
+    }
+
+    /// The same from the shared tables.
+    #[cold]
+    fn compact(&self, action: usize, word: u64) -> usize {
+        let successors = self.dynamics.successors(self.state);
+        let row = self.dynamics.matrix_offset(self.state) + action * successors.len();
+        let columns = &self.columns[row..row + successors.len()];
+        successors[sample(columns, word)] as usize
     }
 
     /// How many steps have been taken in this environment, over all episodes.
@@ -252,12 +359,8 @@ impl<M: FiniteModel> Env for ModelEnv<M> {
 
     #[inline]
     fn step<R: Rng + ?Sized>(&mut self, action: usize, rng: &mut R) -> Step<M::State> {
-        let successors = self.dynamics.successors(self.state);
-        let row = self.dynamics.matrix_offset(self.state) + action * successors.len();
-        let columns = &self.columns[row..row + successors.len()];
-        self.state = successors[sample(columns, rng.next_u64())] as usize;
-        self.steps += 1;
-        Step::to(self.model.state(self.state))
+        let s = self.move_on(action, rng);
+        Step::to(self.model.state(s))
     }
 
     fn action_name(&self, a: usize) -> String {
@@ -277,5 +380,16 @@ impl<M: FiniteModel> FiniteEnv for ModelEnv<M> {
     #[inline]
     fn state_index(&self) -> usize {
         self.state
+    }
+
+    #[inline]
+    fn reset_index<R: Rng + ?Sized>(&mut self, rng: &mut R) -> usize {
+        self.state = sample(&self.starts, rng.next_u64());
+        self.state
+    }
+
+    #[inline]
+    fn step_index<R: Rng + ?Sized>(&mut self, action: usize, rng: &mut R) -> Step<usize> {
+        Step::to(self.move_on(action, rng))
     }
 }

@@ -144,12 +144,14 @@ impl Dynamics {
     }
 
     /// The number of states.
+    #[inline]
     #[must_use]
     pub fn states(&self) -> usize {
         self.matrix.len()
     }
 
     /// The number of actions.
+    #[inline]
     #[must_use]
     pub fn actions(&self) -> usize {
         self.actions

@@ -33,6 +33,7 @@
 //!   } | null,
 //!   "seed": 7 | null,
 //!   "certificate": {                   null where the world has no model
+//!     "kind": "exact",
 //!     "satisfied": 1.0,                P(satisfied), mean over the starts with s_0 read
 //!     "steps": 12.2003,                E[steps] given success; null: never succeeds
 //!     "optimal_satisfied": 1.0,
@@ -41,7 +42,8 @@
 //!     "regret_steps": 0.00001,          null where one of the two is
 //!     "worst_regret_satisfied": 0.0,
 //!     "fraction_optimal": 0.97
-//!   } | null
+//!   } | null,
+//!   "estimate": { ... }                optional: estimate::Estimate, where it was tried instead
 //! }
 //! ```
 //! An episode in state number s: `q = next[initial * C + class[s]]` on reset; then, until q is
@@ -89,7 +91,7 @@ pub struct Training {
 impl Training {
     /// What `learner` has done so far.
     #[must_use]
-    pub fn of<R: rand::Rng>(learner: &Learner<R>) -> Self {
+    pub fn of<R: rand::Rng + Clone>(learner: &Learner<R>) -> Self {
         Self { settings: *learner.settings(), steps: learner.steps(), episodes: learner.episodes() }
     }
 }
@@ -130,6 +132,10 @@ pub struct Document {
     pub seed: Option<u64>,
     /// What it is worth.
     pub certificate: Option<Certificate>,
+    /// What it was seen to be worth, in a world without a model.
+    #[cfg(feature = "std")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub estimate: Option<crate::estimate::Estimate>,
 }
 
 /// Why a document is not a policy.
@@ -308,6 +314,8 @@ impl Policy {
             training: None,
             seed: None,
             certificate: None,
+            #[cfg(feature = "std")]
+            estimate: None,
         };
         Self::try_from(document)
     }
@@ -323,6 +331,14 @@ impl Policy {
     #[must_use]
     pub fn certified(mut self, certificate: Certificate) -> Self {
         self.0.certificate = Some(certificate);
+        self
+    }
+
+    /// The same policy, saying what it was seen to be worth.
+    #[cfg(feature = "std")]
+    #[must_use]
+    pub fn estimated(mut self, estimate: crate::estimate::Estimate) -> Self {
+        self.0.estimate = Some(estimate);
         self
     }
 

@@ -39,12 +39,14 @@ impl QTable {
     }
 
     /// The number of states of the world.
+    #[inline]
     #[must_use]
     pub const fn states(&self) -> usize {
         self.states
     }
 
     /// The number of actions.
+    #[inline]
     #[must_use]
     pub const fn actions(&self) -> usize {
         self.actions
@@ -57,6 +59,7 @@ impl QTable {
     }
 
     /// All values, in the order of the index.
+    #[inline]
     #[must_use]
     pub fn values(&self) -> &[f64] {
         &self.values
@@ -126,9 +129,24 @@ impl QTable {
     }
 }
 
-/// The largest of some values.
+/// The largest of some values. Lengths that many worlds have are unrolled, for this is the inner loop
+/// of learning; one after the other, for vector loads would wait for the scalar store of the last
+/// update.
 #[inline]
 pub(crate) fn largest(values: &[f64]) -> f64 {
+    match values {
+        &[a, b, c, d] => more(more(more(a, b), c), d),
+        &[a, b, c, d, e] => more(more(more(more(a, b), c), d), e),
+        _ => largest_of(values),
+    }
+}
+
+#[inline]
+fn more(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+fn largest_of(values: &[f64]) -> f64 {
     values.iter().fold(f64::NEG_INFINITY, |best, &v| if v > best { v } else { best })
 }
 

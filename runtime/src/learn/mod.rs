@@ -13,6 +13,9 @@
 //! that values converge instead of rattling at the width of α.
 
 mod experience;
+#[cfg(feature = "std")]
+mod seeds;
+mod whole;
 
 use alloc::vec::Vec;
 
@@ -22,9 +25,12 @@ use rand::{Rng, SeedableRng};
 use serde::{Deserialize, Serialize};
 
 pub use experience::Experience;
+#[cfg(feature = "std")]
+pub use seeds::seeds;
+pub use whole::{Terminal, WholeLearner};
 
-use crate::augmented::{Labelled, Payment, Rewards};
-use crate::env::{FiniteEnv, below, unit};
+use crate::augmented::{Labelled, Rewards};
+use crate::env::{FiniteEnv, Step, below, unit};
 use crate::model::{Dynamics, ModelError};
 use crate::q::QTable;
 use crate::solve::Problem;
@@ -142,7 +148,7 @@ impl Learner {
     }
 }
 
-impl<R: Rng> Learner<R> {
+impl<R: Rng + Clone> Learner<R> {
     /// A learner with a random generator of the user's.
     #[must_use]
     pub fn with_rng(task: &Labelled, actions: usize, settings: Settings, rng: R) -> Self {
@@ -175,35 +181,35 @@ impl<R: Rng> Learner<R> {
             "a learner stays with its world and its task"
         );
         let updates = Updates::new(task, &self.settings);
-        let mut idle = 0;
+        // A generator of its own stays in registers.
+        let (mut rng, mut idle) = (self.rng.clone(), 0);
         while self.steps < total && idle < IDLE {
             let before = self.steps;
-            self.episode(env, &updates);
+            self.episode(env, &updates, &mut rng);
             idle = if self.steps == before { idle + 1 } else { 0 };
         }
+        self.rng = rng;
     }
 
-    fn episode<E: FiniteEnv>(&mut self, env: &mut E, updates: &Updates<'_>) {
-        env.reset(&mut self.rng);
+    fn episode<E: FiniteEnv>(&mut self, env: &mut E, updates: &Updates<'_>, rng: &mut R) {
+        let mut s = env.reset_index(rng);
         self.episodes += 1;
-        let task = updates.task;
-        let mut s = env.state_index();
-        let mut q = task.start(s);
+        let mut q = updates.task.start(s);
         if self.settings.remember {
             self.experience.start(s);
         }
         for _ in 0..self.settings.horizon {
-            if task.end(q).is_some() {
+            if updates.ends[q as usize] {
                 break;
             }
-            let a = self.act(q, s);
-            let step = env.step(a, &mut self.rng);
-            let to = env.state_index();
+            let a = self.act(q, s, rng);
+            let step = env.step_index(a, rng);
+            let Step { state: to, terminated, truncated, .. } = step;
             self.steps += 1;
             let paid = self.settings.rewards.environment * step.reward;
-            self.learn(updates, q, &Seen { s, a, to, paid, terminated: step.terminated });
-            (q, s) = (task.next(q, to), to);
-            if step.terminated || step.truncated {
+            q = self.learn(updates, q, &Seen { s, a, to, paid, terminated });
+            s = to;
+            if terminated || truncated {
                 break;
             }
         }
@@ -211,28 +217,38 @@ impl<R: Rng> Learner<R> {
 
     /// ε-greedy.
     #[inline]
-    fn act(&mut self, q: u32, s: usize) -> usize {
-        let epsilon = self.settings.epsilon.at(self.steps);
-        if epsilon >= 1.0 || unit(&mut self.rng) < epsilon {
-            below(self.q.actions(), &mut self.rng)
+    fn act(&self, q: u32, s: usize, rng: &mut R) -> usize {
+        let epsilon = match self.settings.epsilon {
+            Schedule::Constant(epsilon) => epsilon,
+            schedule => schedule.at(self.steps),
+        };
+        if epsilon >= 1.0 || unit(rng) < epsilon {
+            below(self.q.actions(), rng)
         } else {
             self.q.greedy(q, s) as usize
         }
     }
 
-    #[inline]
-    fn learn(&mut self, updates: &Updates<'_>, q: u32, seen: &Seen) {
+    /// Updates the table by one step; the automaton state that follows.
+    #[inline(always)]
+    fn learn(&mut self, updates: &Updates<'_>, q: u32, seen: &Seen) -> u32 {
         if self.settings.remember {
             self.experience.push(seen.s, seen.a, seen.to);
         }
         let layer = if self.settings.counterfactual { 0 } else { q as usize * self.q.states() };
-        let visits = &mut self.visits[(layer + seen.s) * self.q.actions() + seen.a];
-        let alpha = self.settings.alpha.at(u64::from(*visits));
-        *visits = visits.saturating_add(1);
+        let alpha = match self.settings.alpha {
+            Schedule::Constant(alpha) => alpha,
+            schedule => {
+                let visits = &mut self.visits[(layer + seen.s) * self.q.actions() + seen.a];
+                *visits = visits.saturating_add(1);
+                schedule.at(u64::from(*visits - 1))
+            }
+        };
         if self.settings.counterfactual {
-            updates.live.iter().for_each(|&q| updates.apply(&mut self.q, q, seen, alpha));
+            updates.live.iter().for_each(|&q| drop(updates.apply(&mut self.q, q, seen, alpha)));
+            updates.task.next(q, seen.to)
         } else {
-            updates.apply(&mut self.q, q, seen, alpha);
+            updates.apply(&mut self.q, q, seen, alpha)
         }
     }
 
@@ -293,25 +309,40 @@ struct Seen {
 /// What an update needs and learning does not change.
 struct Updates<'a> {
     task: &'a Labelled,
-    payment: Payment,
     live: Vec<u32>,
+    /// Whether each automaton state is terminal.
+    ends: Vec<bool>,
+    /// Where each (q, s') leads and what it pays, indexed `q * states + s'`.
+    moves: Vec<Move>,
     gamma: f64,
+}
+
+#[derive(Clone, Copy)]
+struct Move {
+    to: u32,
+    paid: f64,
 }
 
 impl<'a> Updates<'a> {
     fn new(task: &'a Labelled, settings: &Settings) -> Self {
         let payment = task.payment(&settings.rewards, settings.gamma);
-        Self { task, payment, live: task.live().collect(), gamma: settings.gamma }
+        let ends = (0..task.automaton_states()).map(|q| task.end(q).is_some()).collect();
+        let moves = (0..task.pairs()).map(|pair| {
+            let (q, s) = ((pair / task.states()) as u32, pair % task.states());
+            Move { to: task.next(q, s), paid: payment.get(q, s, task.class()[s]) }
+        });
+        let (moves, live) = (moves.collect(), task.live().collect());
+        Self { task, live, ends, moves, gamma: settings.gamma }
     }
 
-    /// Q ← Q + α (r + γ max Q' − Q); the rows of terminal automaton states are 0.
-    #[inline]
-    fn apply(&self, table: &mut QTable, q: u32, seen: &Seen, alpha: f64) {
-        let to = self.task.next(q, seen.to);
+    /// Q ← Q + α (r + γ max Q' − Q), and q'; the rows of terminal automaton states are 0.
+    #[inline(always)]
+    fn apply(&self, table: &mut QTable, q: u32, seen: &Seen, alpha: f64) -> u32 {
+        let Move { to, paid } = self.moves[self.task.pair(q, seen.to)];
         let rest = if seen.terminated { 0.0 } else { self.gamma * table.max(to, seen.to) };
-        let class = self.task.class()[seen.to];
-        let target = self.payment.get(q, seen.to, class) + seen.paid + rest;
+        let target = paid + seen.paid + rest;
         let value = &mut table.row_mut(q, seen.s)[seen.a];
         *value += alpha * (target - *value);
+        to
     }
 }

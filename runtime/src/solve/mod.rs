@@ -17,19 +17,18 @@
 
 mod actions;
 mod block;
+mod certificate;
 mod graph;
 mod settle;
 
 use alloc::vec::Vec;
-
-#[cfg(feature = "serde")]
-use serde::{Deserialize, Serialize};
 
 use crate::augmented::{End, Labelled, Payment, Rewards};
 use crate::model::Dynamics;
 use crate::q::QTable;
 pub use actions::Actions;
 use block::{Backup, Block, dot};
+pub use certificate::{Certificate, Kind, Mistake, Start};
 use settle::{Estimate, Known};
 
 /// The largest error of values, relative to them where they exceed 1.
@@ -54,30 +53,6 @@ pub struct Outcome {
     pub satisfied: Vec<f64>,
     /// The expected steps to satisfaction, given that it comes; NaN where it never does.
     pub steps: Vec<f64>,
-}
-
-/// What a policy is worth against the best possible: means over the starts, `s_0` read.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
-pub struct Certificate {
-    /// P(satisfied) of the policy.
-    pub satisfied: f64,
-    /// E\[steps\] of the policy, given success; `None` if it never succeeds.
-    pub steps: Option<f64>,
-    /// The largest possible P(satisfied).
-    pub optimal_satisfied: f64,
-    /// The smallest possible E\[steps\] among the policies of that P; `None` if that is 0.
-    pub optimal_steps: Option<f64>,
-    /// `optimal_satisfied - satisfied`.
-    pub regret_satisfied: f64,
-    /// `steps / optimal_steps - 1`; it can be negative where P is smaller than possible.
-    pub regret_steps: Option<f64>,
-    /// The smallest P(satisfied) over the starts that can succeed at all, less what is possible
-    /// there: 0 if the policy is as safe as can be from everywhere.
-    pub worst_regret_satisfied: f64,
-    /// The fraction of pairs of a live q and a state in which the policy's action is optimal for
-    /// the reward it was trained on, within 1e-6.
-    pub fraction_optimal: f64,
 }
 
 impl<'a> Problem<'a> {
@@ -182,7 +157,7 @@ impl<'a> Problem<'a> {
     #[must_use]
     pub fn largest_p(&self) -> Vec<f64> {
         let mut satisfied = self.reach(&self.acceptance());
-        self.accepted(&mut satisfied, 1.0);
+        self.set_end(End::Accepted, &mut satisfied, 1.0);
         satisfied
     }
 
@@ -204,74 +179,46 @@ impl<'a> Problem<'a> {
         self.outcome(policy.to_vec(), satisfied, &weighted)
     }
 
-    /// What `policy` is worth; `q_star` are the optimal values for the reward it was trained on.
+    /// P(the trap is ever entered) under a policy, for each pair; 1 at the trap.
     ///
     /// # Panics
-    /// If the policy or the values are not of this problem.
+    /// If the policy is not one of this problem.
     #[must_use]
-    pub fn certify(&self, policy: &[u32], q_star: &QTable) -> Certificate {
-        let (own, best) = (self.evaluate(policy), self.best());
-        let (satisfied, steps) = self.mean(&own);
-        let (optimal_satisfied, optimal_steps) = self.mean(&best);
-        Certificate {
-            satisfied,
-            steps: finite(steps),
-            optimal_satisfied,
-            optimal_steps: finite(optimal_steps),
-            regret_satisfied: optimal_satisfied - satisfied,
-            regret_steps: finite(if steps > 0.0 { steps / optimal_steps - 1.0 } else { 0.0 }),
-            worst_regret_satisfied: self.worst_regret(&own, &best),
-            fraction_optimal: self.fraction_optimal(policy, q_star, 1e-6),
-        }
+    pub fn lost(&self, policy: &[u32]) -> Vec<f64> {
+        let trapped = self.entering(End::Lost);
+        let mut lost = self.lost_by(&trapped, |pair, row| row.of(policy[pair]));
+        self.set_end(End::Lost, &mut lost, 1.0);
+        lost
     }
 
-    /// Means over the starts, `s_0` read: P(satisfied), and E\[steps\] given success (infinite if
-    /// that is impossible).
+    /// The smallest possible P(the trap is ever entered), for each pair; 1 at the trap.
     #[must_use]
-    pub fn mean(&self, outcome: &Outcome) -> (f64, f64) {
-        let (mut satisfied, mut weighted) = (0.0, 0.0);
-        for (s, &weight) in self.dynamics.starts().iter().enumerate() {
-            let pair = self.labelled.pair(self.labelled.start(s), s);
-            let p = weight * outcome.satisfied[pair];
-            if p > 0.0 {
-                satisfied += p;
-                weighted += p * outcome.steps[pair];
+    pub fn smallest_lost(&self) -> Vec<f64> {
+        let mut lost = self.lost_by(&self.entering(End::Lost), |_, row| row.min_where(|_| true));
+        self.set_end(End::Lost, &mut lost, 1.0);
+        lost
+    }
+
+    /// The actions with which P(the trap is ever entered) can stay `lost`, within 1e-9.
+    pub(crate) fn avoiding(&self, lost: &[f64]) -> Actions {
+        let mut avoiding = Actions::none(self.labelled.pairs(), self.dynamics.actions());
+        self.backups(lost, |pair, actions| {
+            for (a, &p) in actions.iter().enumerate() {
+                if p <= lost[pair] + 1e-9 {
+                    avoiding.insert(pair, a);
+                }
             }
+        });
+        avoiding
+    }
+
+    /// Sweeps from 0, which is below: the least fixed point.
+    fn lost_by(&self, trapped: &Payment, backup: impl Fn(usize, &Backup<'_>) -> f64) -> Vec<f64> {
+        let mut values = self.zeros();
+        for members in &self.components {
+            Block::new(self, members, trapped, 1.0).sweep(&mut values, true, &backup);
         }
-        (satisfied, if satisfied > 0.0 { weighted / satisfied } else { f64::INFINITY })
-    }
-
-    /// The fraction of pairs of a live q and a state in which the action of `policy` is within
-    /// `tolerance` of the best value.
-    #[must_use]
-    pub fn fraction_optimal(&self, policy: &[u32], q_star: &QTable, tolerance: f64) -> f64 {
-        let live: Vec<u32> = self.labelled.live().collect();
-        self.fraction_optimal_at(&live, policy, q_star, tolerance)
-    }
-
-    /// The same over the automaton states `at`; 1 if there are none.
-    #[must_use]
-    pub fn fraction_optimal_at(
-        &self,
-        at: &[u32],
-        policy: &[u32],
-        q_star: &QTable,
-        tolerance: f64,
-    ) -> f64 {
-        let (states, mut optimal) = (self.labelled.states(), 0);
-        for &q in at {
-            for s in 0..states {
-                let chosen = q_star.row(q, s)[policy[self.labelled.pair(q, s)] as usize];
-                optimal += usize::from(chosen >= q_star.max(q, s) - tolerance);
-            }
-        }
-        if at.is_empty() { 1.0 } else { optimal as f64 / (at.len() * states) as f64 }
-    }
-
-    fn worst_regret(&self, own: &Outcome, best: &Outcome) -> f64 {
-        let starts = self.dynamics.starts().iter().enumerate().filter(|&(_, &w)| w > 0.0);
-        let pairs = starts.map(|(s, _)| self.labelled.pair(self.labelled.start(s), s));
-        pairs.map(|pair| best.satisfied[pair] - own.satisfied[pair]).fold(0.0, f64::max)
+        values
     }
 
     fn paid(&self, payment: &Payment, q: u32, s: usize) -> f64 {
@@ -280,9 +227,14 @@ impl<'a> Problem<'a> {
 
     /// Pays 1 for entering the accepting state: its undiscounted value is P(satisfied).
     fn acceptance(&self) -> Payment {
-        let accepted = |q| self.labelled.end(q) == Some(End::Accepted);
-        let entered = |q, to| self.labelled.end(q).is_none() && accepted(to);
-        self.labelled.payment_by(|q, to| f64::from(u8::from(entered(q, to))))
+        self.entering(End::Accepted)
+    }
+
+    /// Pays 1 for entering an end.
+    fn entering(&self, end: End) -> Payment {
+        let of = |q| self.labelled.end(q);
+        self.labelled
+            .payment_by(|q, to| f64::from(u8::from(of(q).is_none() && of(to) == Some(end))))
     }
 
     fn nothing(&self) -> Payment {
@@ -428,21 +380,17 @@ impl<'a> Problem<'a> {
     fn outcome(&self, policy: Vec<u32>, mut satisfied: Vec<f64>, weighted: &[f64]) -> Outcome {
         let steps = |(&w, &p): (&f64, &f64)| if p > 0.0 { w / p } else { f64::NAN };
         let mut steps: Vec<f64> = weighted.iter().zip(&satisfied).map(steps).collect();
-        self.accepted(&mut satisfied, 1.0);
-        self.accepted(&mut steps, 0.0);
+        self.set_end(End::Accepted, &mut satisfied, 1.0);
+        self.set_end(End::Accepted, &mut steps, 0.0);
         Outcome { policy, satisfied, steps }
     }
 
-    /// Sets the values of the accepting state.
-    fn accepted(&self, values: &mut [f64], value: f64) {
+    /// Sets the values at an end.
+    fn set_end(&self, end: End, values: &mut [f64], value: f64) {
         for q in 0..self.labelled.automaton_states() {
-            if self.labelled.end(q) == Some(End::Accepted) {
+            if self.labelled.end(q) == Some(end) {
                 values[self.labelled.pair(q, 0)..self.labelled.pair(q + 1, 0)].fill(value);
             }
         }
     }
-}
-
-fn finite(value: f64) -> Option<f64> {
-    value.is_finite().then_some(value)
 }

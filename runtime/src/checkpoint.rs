@@ -1,0 +1,155 @@
+//! Files that are whole or not there: checkpoints of learners and studies.
+//!
+//! [`write`] puts a file down beside its place, flushes it to the disk and renames it, so that a
+//! process killed at any point leaves the old file or the new one. [`read`] refuses what is cut
+//! short, changed, or another kind of file. The content is bytes: serialise with whatever you like
+//! (serde_json reads floats back exactly with its feature `float_roundtrip`).
+//!
+//! The format is one line, `tltl-checkpoint 1 KIND LENGTH CHECKSUM`, then the content. The checksum
+//! is 64-bit FNV-1a over the content: against accidents, not against forgery.
+
+use core::fmt;
+use std::fs::{self, File};
+use std::io::{self, Write as _};
+use std::path::{Path, PathBuf};
+use std::string::{String, ToString};
+use std::vec::Vec;
+
+const MAGIC: &str = "tltl-checkpoint";
+const VERSION: &str = "1";
+
+/// Why a checkpoint cannot be read.
+#[derive(Debug)]
+pub enum Error {
+    /// The file cannot be opened or read.
+    Io(PathBuf, io::Error),
+    /// It is not a checkpoint.
+    Foreign(PathBuf),
+    /// It is of another version of the format.
+    Version(PathBuf, String),
+    /// It is a checkpoint of something else.
+    Kind {
+        /// The file.
+        path: PathBuf,
+        /// What it holds.
+        found: String,
+        /// What was asked for.
+        expected: String,
+    },
+    /// It is shorter or longer than it says.
+    Length {
+        /// The file.
+        path: PathBuf,
+        /// The bytes of content that are there.
+        found: usize,
+        /// The bytes that should be.
+        expected: usize,
+    },
+    /// Its content has changed since it was written.
+    Corrupt(PathBuf),
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Io(path, error) => write!(f, "{}: {error}", path.display()),
+            Self::Foreign(path) => write!(f, "{}: not a checkpoint", path.display()),
+            Self::Version(path, found) => write!(
+                f,
+                "{}: a checkpoint of version {found}; this library reads {VERSION}",
+                path.display()
+            ),
+            Self::Kind { path, found, expected } => {
+                write!(f, "{}: a checkpoint of `{found}`, not of `{expected}`", path.display())
+            }
+            Self::Length { path, found, expected } => write!(
+                f,
+                "{}: cut short or added to: {found} bytes of content, not {expected}",
+                path.display()
+            ),
+            Self::Corrupt(path) => {
+                write!(f, "{}: corrupt: the checksum does not fit", path.display())
+            }
+        }
+    }
+}
+
+impl std::error::Error for Error {}
+
+/// 64-bit FNV-1a.
+fn checksum(bytes: &[u8]) -> u64 {
+    let step = |hash: u64, &byte: &u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, step)
+}
+
+/// Writes `content` to `path` so that the file is whole whenever it is there; `kind`, one word,
+/// says what it is.
+///
+/// # Errors
+/// If the file cannot be written; what was there before is then still there.
+///
+/// # Panics
+/// If `kind` is empty or has white space in it.
+pub fn write(path: &Path, kind: &str, content: &[u8]) -> Result<(), Error> {
+    assert!(!kind.is_empty() && !kind.contains(char::is_whitespace), "a kind is one word");
+    let header =
+        std::format!("{MAGIC} {VERSION} {kind} {} {:016x}\n", content.len(), checksum(content));
+    let put = || {
+        let beside = beside(path);
+        let mut file = File::create(&beside)?;
+        file.write_all(header.as_bytes())?;
+        file.write_all(content)?;
+        file.sync_all()?;
+        fs::rename(&beside, path)?;
+        sync_folder(path)
+    };
+    put().map_err(|error| Error::Io(path.to_path_buf(), error))
+}
+
+/// The name under which a file is written before it is renamed; each process has its own.
+fn beside(path: &Path) -> PathBuf {
+    let mut name = path.file_name().unwrap_or_default().to_os_string();
+    name.push(std::format!(".{}.tmp", std::process::id()));
+    path.with_file_name(name)
+}
+
+/// Makes the renaming last; only Unix lets a folder be opened for that.
+fn sync_folder(path: &Path) -> io::Result<()> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    if cfg!(unix) { File::open(folder.unwrap_or(Path::new(".")))?.sync_all() } else { Ok(()) }
+}
+
+/// The content of the checkpoint at `path`, if it is one of `kind` and whole; `None` if there is no
+/// such file.
+///
+/// # Errors
+/// If the file cannot be read, or is not what it should be.
+pub fn read(path: &Path, kind: &str) -> Result<Option<Vec<u8>>, Error> {
+    match fs::read(path) {
+        Ok(bytes) => check(path, kind, &bytes).map(|content| Some(content.to_vec())),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(Error::Io(path.to_path_buf(), error)),
+    }
+}
+
+fn check<'a>(path: &Path, kind: &str, bytes: &'a [u8]) -> Result<&'a [u8], Error> {
+    let foreign = || Error::Foreign(path.to_path_buf());
+    let end = bytes.iter().position(|&byte| byte == b'\n').ok_or_else(foreign)?;
+    let header = core::str::from_utf8(&bytes[..end]).map_err(|_| foreign())?;
+    let words: Vec<&str> = header.split(' ').collect();
+    let [MAGIC, version, found, length, sum] = words[..] else { return Err(foreign()) };
+    if version != VERSION {
+        return Err(Error::Version(path.to_path_buf(), version.to_string()));
+    }
+    if found != kind {
+        let (found, expected) = (found.to_string(), kind.to_string());
+        return Err(Error::Kind { path: path.to_path_buf(), found, expected });
+    }
+    let content = &bytes[end + 1..];
+    let expected: usize = length.parse().map_err(|_| foreign())?;
+    if content.len() != expected {
+        return Err(Error::Length { path: path.to_path_buf(), found: content.len(), expected });
+    }
+    let whole = u64::from_str_radix(sum, 16) == Ok(checksum(content));
+    if whole { Ok(content) } else { Err(Error::Corrupt(path.to_path_buf())) }
+}

@@ -1,0 +1,177 @@
+//! Speed of tabular training, against flat-array loops written by hand for the very problem, and
+//! against rurel.
+//!
+//! `cargo bench -p tltl-tests --bench learn`: φ₁ = ◇a ∧ ◇b on the paper's grid by the paper's recipe,
+//! the automaton included. The best of some repetitions counts; every rival must learn the task.
+
+#[path = "../../runtime/tests/world/mod.rs"]
+mod world;
+
+use std::collections::HashMap;
+use std::hint::black_box;
+use std::time::Instant;
+
+use tltl::augmented::Labelled;
+use tltl::env::{FiniteEnv, ModelEnv};
+use tltl::learn::{Learner, Settings};
+use tltl::policy::Policy;
+use tltl::rand::{Rng, SeedableRng, rngs::Xoshiro256PlusPlus};
+use world::{A, B, Grid, PAPER, both, on_paper};
+
+const STEPS: u64 = 5_000_000;
+const REPETITIONS: u64 = 7;
+const ALPHA: f64 = 0.1;
+const GAMMA: f64 = 0.95;
+
+fn below(n: u64, rng: &mut Xoshiro256PlusPlus) -> usize {
+    ((u64::from(rng.next_u32()) * n) >> 32) as usize
+}
+
+/// The label of each cell: 1 at a, 2 at b.
+fn labels() -> [u32; 80] {
+    core::array::from_fn(|s| u32::from(s == 18) + 2 * u32::from(s == 45))
+}
+
+fn best(row: &[f64]) -> f64 {
+    row.iter().fold(f64::NEG_INFINITY, |best, &v| if v > best { v } else { best })
+}
+
+/// The learning loop by hand, on any `step` of the world.
+fn by_hand(
+    rng: &mut Xoshiro256PlusPlus,
+    mut reset: impl FnMut(&mut Xoshiro256PlusPlus) -> usize,
+    mut step: impl FnMut(usize, usize, &mut Xoshiro256PlusPlus) -> usize,
+) -> Vec<f64> {
+    let (label, mut q, mut steps) = (labels(), vec![0.0f64; 4 * 80 * 5], 0);
+    while steps < STEPS {
+        let mut s = reset(rng);
+        let mut done = label[s];
+        for _ in 0..200 {
+            let action = below(5, rng);
+            let next = step(s, action, rng);
+            let reached = done | label[next];
+            let reward = if reached == done { 0.0 } else { 1.0 };
+            let at = (reached as usize * 80 + next) * 5;
+            let target = reward + GAMMA * best(&q[at..at + 5]);
+            let value = &mut q[(done as usize * 80 + s) * 5 + action];
+            *value += ALPHA * (target - *value);
+            (s, done, steps) = (next, reached, steps + 1);
+            if done == 3 {
+                break;
+            }
+        }
+    }
+    q
+}
+
+/// By hand, the world too: a table of moves, and slips from one random word.
+fn all_by_hand(seed: u64) -> Vec<f64> {
+    let moves = [(0, 1), (0, -1), (-1, 0), (1, 0), (0, 0)];
+    let mut to = [0usize; 400];
+    for (at, to) in to.iter_mut().enumerate() {
+        let (dx, dy) = moves[at % 5];
+        let (x, y) = ((at / 5 % 8) as i32 + dx, (at / 40) as i32 + dy);
+        let inside = (0..8).contains(&x) && (0..10).contains(&y);
+        *to = if inside { (y * 8 + x) as usize } else { at / 5 };
+    }
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
+    let step = |s: usize, action: usize, rng: &mut Xoshiro256PlusPlus| {
+        let word = rng.next_u64();
+        let random = ((u64::from(word as u32) * 5) >> 32) as usize;
+        let slips = (word >> 32) < 858_993_459;
+        to[s * 5 + if slips { random } else { action }]
+    };
+    by_hand(&mut rng, |rng| below(80, rng), step)
+}
+
+/// The loop by hand, in the library's environment.
+fn loop_by_hand(seed: u64) -> Vec<f64> {
+    let env = core::cell::RefCell::new(ModelEnv::new(PAPER).unwrap());
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
+    let reset = |rng: &mut Xoshiro256PlusPlus| env.borrow_mut().reset_index(rng);
+    by_hand(&mut rng, reset, |_, action, rng| env.borrow_mut().step_index(action, rng).state)
+}
+
+fn library(task: &Labelled, settings: Settings, seed: u64) -> Vec<f64> {
+    let mut env = ModelEnv::new(PAPER).unwrap();
+    let mut learner = Learner::new(task, 5, settings, seed);
+    learner.train(&mut env, task, STEPS);
+    learner.q().values().to_vec()
+}
+
+/// What rurel does, on the least that it can be given: states and actions in hash maps. The crate
+/// itself is slower by its boxes and its own random numbers.
+fn hashed(seed: u64) -> Vec<f64> {
+    let mut table: HashMap<(u32, usize), HashMap<usize, f64>> = HashMap::new();
+    let mut env = ModelEnv::new(PAPER).unwrap();
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
+    let (label, mut steps) = (labels(), 0);
+    while steps < STEPS / 10 {
+        let mut s = env.reset_index(&mut rng);
+        let mut done = label[s];
+        for _ in 0..200 {
+            let action = below(5, &mut rng);
+            let next = env.step_index(action, &mut rng).state;
+            let reached = done | label[next];
+            let reward = if reached == done { 0.0 } else { 1.0 };
+            let rest = table.get(&(reached, next)).map(|row| row.values().copied().fold(0.0, f64::max));
+            let value = table.entry((done, s)).or_default().entry(action).or_insert(0.0);
+            *value += ALPHA * (reward + GAMMA * rest.unwrap_or(0.0) - *value);
+            (s, done, steps) = (next, reached, steps + 1);
+            if done == 3 {
+                break;
+            }
+        }
+    }
+    table[&(0, 0)].values().copied().collect()
+}
+
+/// Millions of steps a second, the best of the repetitions; the value of the first pair must be
+/// that of the task.
+fn rate(what: &str, steps: u64, run: impl Fn(u64) -> Vec<f64>) -> f64 {
+    let mut least = f64::INFINITY;
+    for seed in 0..REPETITIONS {
+        let start = Instant::now();
+        let q = black_box(run(seed));
+        least = least.min(start.elapsed().as_secs_f64());
+        let value = best(&q[..5]);
+        assert!((1.2..1.6).contains(&value), "{what} did not learn: V = {value}, not near 1.376");
+    }
+    let rate = steps as f64 / least / 1e6;
+    println!("{what:34} {rate:7.1} M steps/s");
+    rate
+}
+
+/// Nanoseconds of `Policy::act` and `Policy::next` together.
+fn act(task: &Labelled) {
+    let q = library(task, Settings::default(), 1);
+    let actions = q.chunks(5).map(|row| (0..5).max_by(|&i, &j| row[i].total_cmp(&row[j])).unwrap() as u32);
+    let names = (0..5).map(|a| tltl::model::FiniteModel::action_name(&PAPER, a)).collect();
+    let policy = Policy::new("both", "F a && F b", task, actions.collect(), names).unwrap();
+    let (start, mut sum, rounds) = (Instant::now(), 0u64, 20_000_000);
+    for i in 0..rounds {
+        let s = black_box(i % 80);
+        let q = policy.next(0, s);
+        sum += u64::from(policy.act(q, s));
+    }
+    assert!(black_box(sum) > 0);
+    let each = start.elapsed().as_secs_f64() * 1e9 / rounds as f64;
+    println!("{:34} {each:7.2} ns", "policy: next and act");
+}
+
+fn main() {
+    let Grid { width: 8, height: 10 } = PAPER else { panic!("the paper's grid") };
+    let task = on_paper(&both(A, B));
+    let all = rate("all by hand", STEPS, all_by_hand);
+    let hand = rate("loop by hand, library's world", STEPS, loop_by_hand);
+    let paper = rate("library, the paper's recipe", STEPS, |seed| library(&task, Settings::paper(), seed));
+    rate("library, default settings", STEPS, |seed| library(&task, Settings::default(), seed));
+    let hashed = rate("hash maps, as rurel", STEPS / 10, hashed);
+    println!(
+        "library: {:.2} of the loop by hand, {:.2} of all by hand, {:.1} times hash maps",
+        paper / hand,
+        paper / all,
+        paper / hashed
+    );
+    act(&task);
+}
