@@ -6,10 +6,13 @@ use std::fmt::Write;
 use proptest::prelude::*;
 use tltl_compiler::ast::{Ast, ItemKind};
 use tltl_compiler::check;
+use tltl_compiler::compile;
+use tltl_compiler::diff::{Difference, diff};
 use tltl_compiler::error::{Errors, Style};
 use tltl_compiler::parse;
 use tltl_compiler::predicate::Module;
 use tltl_compiler::source::Source;
+use tltl_compiler::translate::Budget;
 
 fn checked(mode: &str, source: &Source) -> Result<Module, Errors> {
     match mode {
@@ -191,6 +194,18 @@ proptest! {
             (Ok(a), Ok(b)) => prop_assert_eq!(meaning(&a), meaning(&b)),
             (Err(a), Err(b)) => prop_assert_eq!(a.first().kind(), b.first().kind()),
             (a, b) => prop_assert!(false, "{once}: {:?} {:?}", a.is_ok(), b.is_ok()),
+        }
+    }
+
+    #[test]
+    fn a_spec_prints_as_what_it_means(text in formula()) {
+        let budget = Budget { states: 200, ..Budget::default() };
+        let read = |text: String| compile::formula(&Source::new("<formula>", text), budget);
+        if let Ok(written) = read(text) {
+            let printed = written.module.tasks[0].spec.to_string();
+            let again = read(printed.clone()).unwrap();
+            let difference = diff(&written.automata[0].propositional, &again.automata[0].propositional);
+            prop_assert!(matches!(difference, Difference::None), "{printed}: {difference}");
         }
     }
 

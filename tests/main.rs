@@ -5,6 +5,7 @@ mod forms;
 mod front;
 mod grammar;
 mod hoa;
+mod language;
 mod semantics;
 #[rustfmt::skip]
 mod static_corpus;

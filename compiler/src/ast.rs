@@ -118,6 +118,13 @@ pub enum Node {
     Prefix(Prefix, NodeId),
     /// `left op right`. A chain `a < b < c` is `(a < b) < c` whose left operand has no brackets.
     Infix(Infix, NodeId, NodeId),
+    /// A value of an enumeration, which stands for a bound name.
+    Variant {
+        /// Which enumeration, counted in source order.
+        of: u32,
+        /// Which of its values.
+        number: u32,
+    },
     /// `for all name in set: body`, or `for some`
     Quantified {
         /// Whether for all.
@@ -126,6 +133,8 @@ pub enum Node {
         name: Span,
         /// What it ranges over.
         set: Span,
+        /// The elements, if the set lists them: a range of [`Ast::arguments`].
+        elements: Range<u32>,
         /// The formula.
         body: NodeId,
     },
@@ -157,6 +166,8 @@ impl Entry {
 pub struct FieldType {
     /// The name of the element type.
     pub name: Span,
+    /// Whether `?` follows it: there may be no value.
+    pub optional: bool,
     /// The lengths, innermost first: numbers, or names of constants or enumerations.
     pub lengths: Vec<Span>,
     /// All of it.
@@ -291,7 +302,11 @@ impl Ast {
             Node::Field { base, .. } => vec![*base],
             Node::Index { base, index } => vec![*base, *index],
             Node::Call { callee, arguments } => [&[*callee], self.arguments(arguments)].concat(),
-            Node::Prefix(_, a) | Node::Quantified { body: a, .. } => vec![*a],
+            Node::Variant { .. } => vec![],
+            Node::Prefix(_, a) => vec![*a],
+            Node::Quantified { elements, body, .. } => {
+                [self.arguments(elements), &[*body]].concat()
+            }
             Node::Infix(_, a, b) => vec![*a, *b],
         }
     }

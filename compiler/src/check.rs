@@ -6,7 +6,9 @@
 //! [`Spec`](crate::spec::Spec). All are loops over the arena. A mistake is noted once, where it is
 //! made, and what depends on it is left alone.
 
+mod apply;
 mod atom;
+mod expand;
 mod formula;
 mod intent;
 mod name;
@@ -14,6 +16,7 @@ mod order;
 mod role;
 mod scope;
 mod term;
+mod value;
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
@@ -21,9 +24,10 @@ use crate::ast::{Ast, ItemKind, NodeId};
 use crate::error::{Error, Errors, Kind};
 use crate::parse;
 use crate::predicate::{
-    Arena, ConditionId, Constant, Module, Predicate, PredicateId, State, Task, TaskId,
+    Arena, ConditionId, Constant, Module, Parameter, Predicate, PredicateId, State, Task, TaskId,
 };
 use crate::source::{Source, Span};
+use expand::{Environment, Expanded};
 use scope::Scope;
 
 /// What a name may be that the source does not declare.
@@ -74,7 +78,10 @@ pub fn fragment(source: &Source) -> Result<Module, Errors> {
 
 fn finish(ast: &Ast, names: Names, mistakes: Vec<Error>) -> Result<Module, Errors> {
     let broken = !mistakes.is_empty();
-    let mut checker = Checker::new(ast, names, mistakes);
+    let mut mistakes = mistakes;
+    let scope = Scope::new(ast, names, &mut mistakes);
+    let expanded = expand::expand(ast, &scope, &mut mistakes);
+    let mut checker = Checker::new(ast, &expanded, scope, names, mistakes);
     checker.items();
     if !broken {
         checker.warn_unused();
@@ -87,7 +94,14 @@ fn finish(ast: &Ast, names: Names, mistakes: Vec<Error>) -> Result<Module, Error
 
 /// The state of checking one source.
 struct Checker<'a> {
+    /// The source as it was written.
+    written: &'a Ast,
+    /// The source without quantifiers.
     ast: &'a Ast,
+    /// What the names bound by quantifiers stand for around an expression.
+    bound: &'a HashMap<NodeId, Environment>,
+    /// The parameters of the item that is being checked.
+    parameters: Vec<Parameter>,
     names: Names,
     scope: Scope<'a>,
     module: Module,
@@ -109,8 +123,14 @@ struct Checker<'a> {
 }
 
 impl<'a> Checker<'a> {
-    fn new(ast: &'a Ast, names: Names, mut mistakes: Vec<Error>) -> Self {
-        let scope = Scope::new(ast, &mut mistakes);
+    fn new(
+        written: &'a Ast,
+        expanded: &'a Expanded,
+        scope: Scope<'a>,
+        names: Names,
+        mistakes: Vec<Error>,
+    ) -> Self {
+        let ast = expanded.ast.as_ref().unwrap_or(written);
         let module = Module {
             docs: ast.docs().to_vec(),
             state: scope.state(ast, names),
@@ -124,7 +144,10 @@ impl<'a> Checker<'a> {
         };
         let tasks = vec![None; scope.task_count()];
         Self {
+            written,
             ast,
+            bound: &expanded.bound,
+            parameters: Vec::new(),
             names,
             scope,
             module,
@@ -143,24 +166,11 @@ impl<'a> Checker<'a> {
     fn items(&mut self) {
         let order = order::order(self.ast, &self.scope, &mut self.mistakes);
         for item in order {
-            match &self.ast.items()[item].kind {
-                ItemKind::Constant(root) => self.constant(item, *root),
-                ItemKind::Predicate(parameters, root) if parameters.is_empty() => {
-                    self.predicate(item, *root);
-                }
-                ItemKind::Task(parameters, root) if parameters.is_empty() => {
-                    self.task(item, *root);
-                }
-                ItemKind::Predicate(parameters, _) | ItemKind::Task(parameters, _) => {
-                    self.mistakes.push(
-                        Error::new(
-                            Kind::Syntax,
-                            "parameters are not supported yet",
-                            parameters[0].name,
-                        )
-                        .help("write one item for each value"),
-                    );
-                }
+            self.parameters = self.scope.parameters(item).to_vec();
+            match self.ast.items()[item].kind {
+                ItemKind::Constant(root) => self.constant(item, root),
+                ItemKind::Predicate(_, root) => self.predicate(item, root),
+                ItemKind::Task(_, root) => self.task(item, root),
                 _ => {}
             }
         }
@@ -185,6 +195,7 @@ impl<'a> Checker<'a> {
         let id = self.add_predicate(Predicate {
             name: self.ast.source().slice(entry.name).to_owned(),
             declared: true,
+            parameters: self.parameters.clone(),
             docs: entry.docs.clone(),
             span: entry.name,
             condition,

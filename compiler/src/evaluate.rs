@@ -23,12 +23,15 @@ pub struct Input {
     pub name: String,
     /// What it is.
     pub kind: InputKind,
+    /// The names of the values, in order, if it is one of an enumeration.
+    pub values: Vec<String>,
 }
 
 /// What an input is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InputKind {
-    /// A place of the declared state, of this type; a truth value is 1 or 0.
+    /// A place of the declared state, of this type; a truth value is 1 or 0, a value of an
+    /// enumeration its number, from 0, and -1 if there is none.
     Place(Scalar),
     /// A variable of a bare formula: any real number.
     Variable,
@@ -36,21 +39,39 @@ pub enum InputKind {
     Proposition,
 }
 
-/// A part of a predicate that is Rust code, which cannot be read here.
+/// A part of a predicate that cannot be read here.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct RustCode(pub String);
+pub enum Unreadable {
+    /// It is Rust code.
+    Rust(String),
+    /// It is a parameter of the task, which has no value.
+    Parameter(String),
+    /// It is an element of an array whose index depends on the state.
+    Element(String),
+}
 
 /// A predicate whose value is not a number: its proposition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NotANumber(pub u32);
 
-impl fmt::Display for RustCode {
+impl fmt::Display for Unreadable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "`{}` is Rust code, which only a Rust program can run", self.0)
+        match self {
+            Self::Rust(text) => {
+                write!(f, "`{text}` is Rust code, which only a Rust program can run")
+            }
+            Self::Parameter(name) => write!(
+                f,
+                "the task takes `{name}`: declare one with a value for it, such as `task t = …(…)`"
+            ),
+            Self::Element(text) => {
+                write!(f, "the index in `{text}` is a field, which only a Rust program can follow")
+            }
+        }
     }
 }
 
-impl std::error::Error for RustCode {}
+impl std::error::Error for Unreadable {}
 
 /// What the predicates of a task say of one state, by proposition.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -96,7 +117,7 @@ impl<'a> Evaluator<'a> {
     ///
     /// # Errors
     /// If one of them is Rust code.
-    pub fn new(module: &'a Module, task: &Task) -> Result<Self, RustCode> {
+    pub fn new(module: &'a Module, task: &Task) -> Result<Self, Unreadable> {
         let root = |id: &crate::predicate::PredicateId| module.predicates[id.0 as usize].condition;
         let mut evaluator = Self {
             module,
@@ -135,7 +156,7 @@ impl<'a> Evaluator<'a> {
         let mut needed = BTreeSet::new();
         while let Some(id) = terms.pop() {
             if needed.insert(id) {
-                terms.extend(parts(arena.term(id)).into_iter().flatten());
+                terms.extend(arena.term(id).operands());
             }
         }
         self.conditions = conditions.into_iter().collect();
@@ -146,6 +167,7 @@ impl<'a> Evaluator<'a> {
         match *condition {
             Condition::Not(a) => ([Some(a), None], [None; 2]),
             Condition::And(a, b) | Condition::Or(a, b) => ([Some(a), Some(b)], [None; 2]),
+            Condition::Apply { meaning, .. } => ([Some(meaning), None], [None; 2]),
             Condition::Is(id) => {
                 ([Some(self.module.predicates[id.0 as usize].condition), None], [None; 2])
             }
@@ -157,19 +179,24 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    fn find_inputs(&mut self) -> Result<(), RustCode> {
+    fn find_inputs(&mut self) -> Result<(), Unreadable> {
         for at in 0..self.terms.len() {
             let id = self.terms[at];
             let (name, kind) = match self.module.arena.term(id) {
-                Term::Place { steps, scalar } => {
-                    let name: String = steps.iter().map(ToString::to_string).collect();
-                    (name.trim_start_matches('.').to_owned(), InputKind::Place(*scalar))
+                Term::Place { scalar, .. } if self.is_fixed(id) => {
+                    (self.module.display_term(id).to_string(), InputKind::Place(*scalar))
+                }
+                Term::Place { .. } => {
+                    let text = self.module.display_term(id).to_string();
+                    return Err(Unreadable::Element(text));
                 }
                 Term::Variable(name) => (name.clone(), InputKind::Variable),
-                Term::Host { text, .. } => return Err(RustCode(text.clone())),
+                Term::Host { text, .. } => return Err(Unreadable::Rust(text.clone())),
+                Term::Parameter { name, .. } => return Err(Unreadable::Parameter(name.clone())),
                 _ => continue,
             };
-            let input = self.input(Input { name, kind });
+            let values = self.values_of(kind);
+            let input = self.input(Input { name, kind, values });
             self.read_terms.push((id, input));
         }
         for at in 0..self.conditions.len() {
@@ -177,14 +204,34 @@ impl<'a> Evaluator<'a> {
             match self.module.arena.condition(id) {
                 Condition::Free(name) => {
                     let name = name.clone();
-                    let input = self.input(Input { name, kind: InputKind::Proposition });
+                    let input = self.input(Input {
+                        name,
+                        kind: InputKind::Proposition,
+                        values: Vec::new(),
+                    });
                     self.read_conditions.push((id, input));
                 }
-                Condition::Value { text, .. } => return Err(RustCode(text.clone())),
+                Condition::Value { text, .. } => return Err(Unreadable::Rust(text.clone())),
                 _ => {}
             }
         }
         Ok(())
+    }
+
+    /// Whether no index on the way to a place depends on the state.
+    fn is_fixed(&self, place: TermId) -> bool {
+        let arena = &self.module.arena;
+        let varies = |id: &TermId| matches!(arena.term(*id), Term::Place { .. });
+        !arena.term(place).operands().iter().any(varies)
+    }
+
+    fn values_of(&self, kind: InputKind) -> Vec<String> {
+        match kind {
+            InputKind::Place(Scalar::Enum { of, .. }) => {
+                self.module.enums[of as usize].variants.clone()
+            }
+            _ => Vec::new(),
+        }
     }
 
     fn input(&mut self, input: Input) -> usize {
@@ -231,7 +278,11 @@ impl<'a> Evaluator<'a> {
         let of = |id: TermId| self.numbers[id.0 as usize];
         match *self.module.arena.term(id) {
             Term::Number(Number(value)) => value,
-            Term::Place { .. } | Term::Variable(_) | Term::Host { .. } => of(id),
+            Term::Variant { number, .. } => f64::from(number),
+            Term::Absent => -1.0,
+            Term::Place { .. } | Term::Variable(_) | Term::Host { .. } | Term::Parameter { .. } => {
+                of(id)
+            }
             Term::Negate(a) => -of(a),
             Term::Calculate(operator, a, b) => operator.value(of(a), of(b)),
             Term::Call(Function::Min, a, Some(b)) => least(of(a), of(b)),
@@ -249,7 +300,12 @@ impl<'a> Evaluator<'a> {
             Condition::Not(a) => (-of(a).0, !of(a).1),
             Condition::And(a, b) => (least(of(a).0, of(b).0), of(a).1 & of(b).1),
             Condition::Or(a, b) => (greatest(of(a).0, of(b).0), of(a).1 | of(b).1),
+            Condition::Compare(comparison, a, b) if self.module.arena.is_value(a) => {
+                let holds = comparison.holds(number(a), number(b));
+                (if holds { 1.0 } else { -1.0 }, holds)
+            }
             Condition::Compare(comparison, a, b) => compare(comparison, number(a), number(b)),
+            Condition::Apply { meaning, .. } => of(meaning),
             Condition::Bool(place) => {
                 let holds = number(place) != 0.0;
                 (if holds { 1.0 } else { -1.0 }, holds)
@@ -257,15 +313,6 @@ impl<'a> Evaluator<'a> {
             Condition::Is(predicate) => of(self.module.predicates[predicate.0 as usize].condition),
             Condition::Free(_) | Condition::Value { .. } => of(id),
         }
-    }
-}
-
-fn parts(term: &Term) -> [Option<TermId>; 2] {
-    match *term {
-        Term::Negate(a) => [Some(a), None],
-        Term::Calculate(_, a, b) => [Some(a), Some(b)],
-        Term::Call(_, a, b) => [Some(a), b],
-        Term::Number(_) | Term::Place { .. } | Term::Variable(_) | Term::Host { .. } => [None; 2],
     }
 }
 

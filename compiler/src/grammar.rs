@@ -32,6 +32,8 @@ pub enum Rule {
     r#parameters,
     r#field_declaration,
     r#field_type,
+    r#path,
+    r#optional,
     r#array_open,
     r#array_close,
     r#header,
@@ -52,6 +54,8 @@ pub enum Rule {
     r#next_op,
     r#minus,
     r#quantifier,
+    r#set,
+    r#element,
     r#word_for,
     r#word_all,
     r#word_some,
@@ -123,6 +127,8 @@ impl Rule {
             Rule::r#parameters,
             Rule::r#field_declaration,
             Rule::r#field_type,
+            Rule::r#path,
+            Rule::r#optional,
             Rule::r#array_open,
             Rule::r#array_close,
             Rule::r#header,
@@ -143,6 +149,8 @@ impl Rule {
             Rule::r#next_op,
             Rule::r#minus,
             Rule::r#quantifier,
+            Rule::r#set,
+            Rule::r#element,
             Rule::r#word_for,
             Rule::r#word_all,
             Rule::r#word_some,
@@ -1000,7 +1008,11 @@ impl ::pest::Parser<Rule> for Grammar {
                                                     })
                                             })
                                             .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { self::r#identifier(state) })
+                                            .and_then(|state| { self::r#path(state) })
+                                            .and_then(|state| { super::hidden::skip(state) })
+                                            .and_then(|state| {
+                                                state.optional(|state| { self::r#optional(state) })
+                                            })
                                             .and_then(|state| { super::hidden::skip(state) })
                                             .and_then(|state| {
                                                 state
@@ -1024,6 +1036,54 @@ impl ::pest::Parser<Rule> for Grammar {
                                     })
                             },
                         )
+                }
+                #[inline]
+                #[allow(non_snake_case, unused_variables)]
+                pub fn r#path(
+                    state: ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                ) -> ::pest::ParseResult<
+                    ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                > {
+                    state
+                        .rule(
+                            Rule::r#path,
+                            |state| {
+                                state
+                                    .atomic(
+                                        ::pest::Atomicity::Atomic,
+                                        |state| {
+                                            state
+                                                .sequence(|state| {
+                                                    self::r#identifier(state)
+                                                        .and_then(|state| {
+                                                            state
+                                                                .repeat(|state| {
+                                                                    state
+                                                                        .sequence(|state| {
+                                                                            state
+                                                                                .repeat(|state| { self::r#trivia(state) })
+                                                                                .and_then(|state| { state.match_string("::") })
+                                                                                .and_then(|state| {
+                                                                                    state.repeat(|state| { self::r#trivia(state) })
+                                                                                })
+                                                                                .and_then(|state| { self::r#identifier(state) })
+                                                                        })
+                                                                })
+                                                        })
+                                                })
+                                        },
+                                    )
+                            },
+                        )
+                }
+                #[inline]
+                #[allow(non_snake_case, unused_variables)]
+                pub fn r#optional(
+                    state: ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                ) -> ::pest::ParseResult<
+                    ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                > {
+                    state.rule(Rule::r#optional, |state| { state.match_string("?") })
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1650,10 +1710,96 @@ impl ::pest::Parser<Rule> for Grammar {
                                             .and_then(|state| { super::hidden::skip(state) })
                                             .and_then(|state| { self::r#word_in(state) })
                                             .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { self::r#identifier(state) })
+                                            .and_then(|state| { self::r#set(state) })
                                             .and_then(|state| { super::hidden::skip(state) })
                                             .and_then(|state| { state.match_string(":") })
                                     })
+                            },
+                        )
+                }
+                #[inline]
+                #[allow(non_snake_case, unused_variables)]
+                pub fn r#set(
+                    state: ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                ) -> ::pest::ParseResult<
+                    ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                > {
+                    state
+                        .rule(
+                            Rule::r#set,
+                            |state| {
+                                state
+                                    .sequence(|state| {
+                                        state
+                                            .match_string("{")
+                                            .and_then(|state| { super::hidden::skip(state) })
+                                            .and_then(|state| {
+                                                state
+                                                    .optional(|state| {
+                                                        state
+                                                            .sequence(|state| {
+                                                                self::r#element(state)
+                                                                    .and_then(|state| { super::hidden::skip(state) })
+                                                                    .and_then(|state| {
+                                                                        state
+                                                                            .sequence(|state| {
+                                                                                state
+                                                                                    .optional(|state| {
+                                                                                        state
+                                                                                            .sequence(|state| {
+                                                                                                state
+                                                                                                    .match_string(",")
+                                                                                                    .and_then(|state| { super::hidden::skip(state) })
+                                                                                                    .and_then(|state| { self::r#element(state) })
+                                                                                            })
+                                                                                            .and_then(|state| {
+                                                                                                state
+                                                                                                    .repeat(|state| {
+                                                                                                        state
+                                                                                                            .sequence(|state| {
+                                                                                                                super::hidden::skip(state)
+                                                                                                                    .and_then(|state| {
+                                                                                                                        state
+                                                                                                                            .sequence(|state| {
+                                                                                                                                state
+                                                                                                                                    .match_string(",")
+                                                                                                                                    .and_then(|state| { super::hidden::skip(state) })
+                                                                                                                                    .and_then(|state| { self::r#element(state) })
+                                                                                                                            })
+                                                                                                                    })
+                                                                                                            })
+                                                                                                    })
+                                                                                            })
+                                                                                    })
+                                                                            })
+                                                                    })
+                                                                    .and_then(|state| { super::hidden::skip(state) })
+                                                                    .and_then(|state| {
+                                                                        state.optional(|state| { state.match_string(",") })
+                                                                    })
+                                                            })
+                                                    })
+                                            })
+                                            .and_then(|state| { super::hidden::skip(state) })
+                                            .and_then(|state| { state.match_string("}") })
+                                    })
+                                    .or_else(|state| { self::r#identifier(state) })
+                            },
+                        )
+                }
+                #[inline]
+                #[allow(non_snake_case, unused_variables)]
+                pub fn r#element(
+                    state: ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                ) -> ::pest::ParseResult<
+                    ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                > {
+                    state
+                        .rule(
+                            Rule::r#element,
+                            |state| {
+                                self::r#digits(state)
+                                    .or_else(|state| { self::r#path(state) })
                             },
                         )
                 }
@@ -2920,6 +3066,8 @@ impl ::pest::Parser<Rule> for Grammar {
                     Rule::r#parameters => rules::r#parameters(state),
                     Rule::r#field_declaration => rules::r#field_declaration(state),
                     Rule::r#field_type => rules::r#field_type(state),
+                    Rule::r#path => rules::r#path(state),
+                    Rule::r#optional => rules::r#optional(state),
                     Rule::r#array_open => rules::r#array_open(state),
                     Rule::r#array_close => rules::r#array_close(state),
                     Rule::r#header => rules::r#header(state),
@@ -2940,6 +3088,8 @@ impl ::pest::Parser<Rule> for Grammar {
                     Rule::r#next_op => rules::r#next_op(state),
                     Rule::r#minus => rules::r#minus(state),
                     Rule::r#quantifier => rules::r#quantifier(state),
+                    Rule::r#set => rules::r#set(state),
+                    Rule::r#element => rules::r#element(state),
                     Rule::r#word_for => rules::r#word_for(state),
                     Rule::r#word_all => rules::r#word_all(state),
                     Rule::r#word_some => rules::r#word_some(state),

@@ -78,6 +78,21 @@ pub(crate) fn compact(text: &str) -> String {
     compact
 }
 
+/// The Rust expression `text` with other words in the place of some names.
+pub(crate) fn renamed(text: &str, words: &[(&str, String)]) -> String {
+    let mut renamed = String::new();
+    let mut end = 0;
+    for token in Tokens::new(text, 0) {
+        let name = &text[token.start..token.end];
+        if let Some((_, word)) = words.iter().find(|(known, _)| *known == name) {
+            renamed.push_str(&text[end..token.start]);
+            renamed.push_str(word);
+            end = token.end;
+        }
+    }
+    renamed + &text[end..]
+}
+
 /// Whether the Rust expression `text` has the word `name` in it.
 pub(crate) fn mentions(text: &str, name: &str) -> bool {
     Tokens::new(text, 0).any(|token| &text[token.start..token.end] == name)

@@ -4,10 +4,10 @@
 //! are folded. Both live in arenas, operands before the operators that use them, hash-consed,
 //! so that equal comparisons are equal ids.
 
+mod build;
 mod print;
 
 use std::collections::HashMap;
-use std::fmt;
 
 pub use print::Printed;
 
@@ -39,6 +39,13 @@ pub enum Scalar {
     Number(&'static str),
     /// `bool`
     Bool,
+    /// A value of an enumeration.
+    Enum {
+        /// Which: an index of [`Module::enums`].
+        of: u32,
+        /// Whether there may be no value.
+        optional: bool,
+    },
 }
 
 impl Scalar {
@@ -53,12 +60,13 @@ impl Scalar {
         NUMBERS.into_iter().find(|number| *number == name).map(Self::Number)
     }
 
-    /// What Rust calls it.
+    /// What Rust calls it; a value of an enumeration is called by what the source calls that.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::Number(name) => name,
             Self::Bool => "bool",
+            Self::Enum { .. } => "enum",
         }
     }
 }
@@ -66,14 +74,14 @@ impl Scalar {
 /// The type of a field.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Type {
-    /// A number or a truth value.
+    /// A number, a truth value, or a value of an enumeration.
     Scalar(Scalar),
     /// A struct: an index of [`Module::structs`].
     Struct(u32),
-    /// An enumeration: an index of [`Module::enums`].
-    Enum(u32),
     /// An array of so many elements.
     Array(Box<Type>, u32),
+    /// An array with an element for each value of an enumeration: an index of [`Module::enums`].
+    Table(Box<Type>, u32),
 }
 
 /// One field of a state or a struct.
@@ -147,7 +155,32 @@ pub enum Step {
     Field(String),
     /// An element of an array.
     Index(u32),
+    /// The element of a table for a value of its enumeration.
+    Element(TermId),
 }
+
+/// The type of a parameter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ParameterType {
+    /// One of the source's own.
+    Scalar(Scalar),
+    /// A Rust type of the user's, where the source has it.
+    Host(Span),
+}
+
+/// What a predicate or a task takes when it is used.
+#[derive(Clone, Debug)]
+pub struct Parameter {
+    /// Its name.
+    pub name: String,
+    /// Its type.
+    pub ty: ParameterType,
+    /// Where the source has its name.
+    pub span: Span,
+}
+
+/// What the names of parameters stand for.
+pub type Arguments = Vec<(String, TermId)>;
 
 /// A function of numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -250,7 +283,7 @@ impl std::hash::Hash for Number {
     }
 }
 
-/// A number, as a function of one state.
+/// A number or a value of an enumeration, as a function of one state.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Term {
     /// A constant, finite.
@@ -270,6 +303,28 @@ pub enum Term {
         text: String,
         /// Where it stands first.
         span: Span,
+        /// What the names of parameters in it stand for.
+        bindings: Arguments,
+        /// Whether it is a value that is no number.
+        value: bool,
+    },
+    /// A value of an enumeration.
+    Variant {
+        /// Which enumeration: an index of [`Module::enums`].
+        of: u32,
+        /// Which of its values.
+        number: u32,
+        /// What that is called.
+        name: String,
+    },
+    /// `none`: what an optional place holds if it holds no value.
+    Absent,
+    /// A parameter of the predicate or task around it; a number, or a value.
+    Parameter {
+        /// Its name.
+        name: String,
+        /// Its type.
+        ty: ParameterType,
     },
     /// −x
     Negate(TermId),
@@ -294,14 +349,25 @@ pub enum Condition {
     Compare(Comparison, TermId, TermId),
     /// A Boolean place of the state, declared or Rust's.
     Bool(TermId),
-    /// Another predicate of the module.
+    /// Another predicate of the module, without parameters.
     Is(PredicateId),
+    /// Another predicate of the module with arguments.
+    Apply {
+        /// Which.
+        predicate: PredicateId,
+        /// What its parameters stand for, in order.
+        arguments: Vec<TermId>,
+        /// Its condition with the arguments in place of the parameters.
+        meaning: ConditionId,
+    },
     /// A Rust value in scope that is itself a predicate over the state.
     Value {
         /// Its text without blanks.
         text: String,
         /// Where it stands first.
         span: Span,
+        /// What the names of parameters in it stand for.
+        bindings: Arguments,
     },
     /// A free proposition of a bare formula: nothing is known of it but the predicate's name.
     Free(String),
@@ -314,7 +380,7 @@ pub struct Arena {
     terms: Vec<Term>,
     known_conditions: HashMap<Condition, ConditionId>,
     known_terms: HashMap<Term, TermId>,
-    hosts: HashMap<String, TermId>,
+    hosts: HashMap<(String, Arguments, bool), TermId>,
 }
 
 impl Arena {
@@ -368,8 +434,8 @@ impl Arena {
             return id;
         }
         let id = TermId(index(self.terms.len()));
-        if let Term::Host { text, .. } = &term {
-            self.hosts.insert(text.clone(), id);
+        if let Term::Host { text, bindings, value, .. } = &term {
+            self.hosts.insert((text.clone(), bindings.clone(), *value), id);
         }
         self.terms.push(term.clone());
         self.known_terms.insert(term, id);
@@ -378,7 +444,9 @@ impl Arena {
 
     fn find_term(&self, term: &Term) -> Option<TermId> {
         match term {
-            Term::Host { text, .. } => self.hosts.get(text).copied(),
+            Term::Host { text, bindings, value, .. } => {
+                self.hosts.get(&(text.clone(), bindings.clone(), *value)).copied()
+            }
             _ => self.known_terms.get(term).copied(),
         }
     }
@@ -395,6 +463,8 @@ pub struct Predicate {
     pub name: String,
     /// Whether an item of the source declares it.
     pub declared: bool,
+    /// What it takes.
+    pub parameters: Vec<Parameter>,
     /// What the author says about it.
     pub docs: Vec<String>,
     /// Where the source has it first.
@@ -421,6 +491,8 @@ pub struct Task {
     pub docs: Vec<String>,
     /// Where the source has its name; its formula if it has none.
     pub span: Span,
+    /// What it takes when it is run.
+    pub parameters: Vec<Parameter>,
     /// The formula, printed with the brackets that a reader wants.
     pub text: String,
     /// What it means.
@@ -527,15 +599,6 @@ impl Arithmetic {
             Self::Subtract => left - right,
             Self::Multiply => left * right,
             Self::Divide => left / right,
-        }
-    }
-}
-
-impl fmt::Display for Step {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Field(name) => write!(f, ".{name}"),
-            Self::Index(index) => write!(f, "[{index}]"),
         }
     }
 }

@@ -8,7 +8,11 @@
 //! next instants included; nothing is ever simplified to `true` *under* `X`, because `X true` asks
 //! for a second state.
 
+mod print;
+
 use rustc_hash::FxHashMap;
+
+pub use print::Printed;
 
 use crate::source::Span;
 

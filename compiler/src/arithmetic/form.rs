@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::ast::{Arithmetic, Comparison};
 use crate::linear::{Inequality, gcd};
-use crate::predicate::{Module, Scalar, Term, TermId};
+use crate::predicate::{Module, ParameterType, Scalar, Term, TermId};
 
 /// A linear form: integer coefficients without a common divisor, the first of them positive, of
 /// variables, which are terms that are not linear combinations of others.
@@ -72,10 +72,7 @@ pub(super) struct Range {
 
 impl Range {
     pub(super) fn of(module: &Module, form: &Form) -> Self {
-        let scalar = |term: &TermId| match module.arena.term(*term) {
-            Term::Place { scalar: Scalar::Number(name), .. } => integer_range(name),
-            _ => None,
-        };
+        let scalar = |term: &TermId| integer_range(module, *term);
         let integer = form.iter().all(|(term, _)| scalar(term).is_some());
         match form.as_slice() {
             [(term, 1)] if integer => {
@@ -118,11 +115,7 @@ pub(super) fn inequalities(form: &Form, after: Option<Cut>, until: Option<Cut>) 
 /// What the types of a form's variables say of them.
 pub(super) fn bounds(module: &Module, form: &Form) -> Vec<Inequality> {
     let bound = |&(term, _): &(TermId, i128)| {
-        match module.arena.term(term) {
-            Term::Place { scalar: Scalar::Number(name), .. } => integer_range(name),
-            _ => None,
-        }
-        .map(|(least, greatest)| {
+        integer_range(module, term).map(|(least, greatest)| {
             let row = |sign, bound| Inequality {
                 coefficients: BTreeMap::from([(term, sign)]),
                 bound,
@@ -134,7 +127,22 @@ pub(super) fn bounds(module: &Module, form: &Form) -> Vec<Inequality> {
     form.iter().filter_map(bound).flatten().collect()
 }
 
-fn integer_range(name: &str) -> Option<(i128, i128)> {
+/// The least and the greatest value of a term of a type of integers. The values of an enumeration
+/// are numbered in order, and none of them is -1.
+fn integer_range(module: &Module, term: TermId) -> Option<(i128, i128)> {
+    let (Term::Place { scalar, .. } | Term::Parameter { ty: ParameterType::Scalar(scalar), .. }) =
+        module.arena.term(term)
+    else {
+        return None;
+    };
+    let name = match *scalar {
+        Scalar::Number(name) => name,
+        Scalar::Bool => return None,
+        Scalar::Enum { of, optional } => {
+            let values = module.enums[of as usize].variants.len() as i128;
+            return Some((-i128::from(optional), values - 1));
+        }
+    };
     Some(match name {
         "i8" => (i8::MIN.into(), i8::MAX.into()),
         "i16" => (i16::MIN.into(), i16::MAX.into()),
@@ -253,6 +261,8 @@ pub(super) fn linear_terms(module: &Module) -> Vec<Linear> {
         let of = |id: &TermId| &linear[id.0 as usize];
         let combined = match term {
             Term::Number(number) => Linear::number(number.0),
+            Term::Variant { number, .. } => Linear::number(f64::from(*number)),
+            Term::Absent => Linear::number(-1.0),
             Term::Negate(a) => Linear::number(0.0).and_then(|zero| zero.plus(-1, of(a))),
             Term::Calculate(Arithmetic::Add, a, b) => of(a).plus(1, of(b)),
             Term::Calculate(Arithmetic::Subtract, a, b) => of(a).plus(-1, of(b)),

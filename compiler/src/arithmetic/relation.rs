@@ -83,6 +83,7 @@ impl<'a> Analysis<'a> {
         match *condition {
             Condition::Not(a) => vec![a],
             Condition::And(a, b) | Condition::Or(a, b) => vec![a, b],
+            Condition::Apply { meaning, .. } => vec![meaning],
             Condition::Is(predicate) => {
                 vec![self.module.predicates[predicate.0 as usize].condition]
             }
@@ -191,7 +192,7 @@ impl<'a> Relation<'a> {
             (Condition::Not(_), &[a]) => self.store.not(a),
             (Condition::And(..), &[a, b]) => self.store.and(a, b),
             (Condition::Or(..), &[a, b]) => self.store.or(a, b),
-            (Condition::Is(_), &[a]) => a,
+            (Condition::Is(_) | Condition::Apply { .. }, &[a]) => a,
             _ => self.atom(id),
         }
     }

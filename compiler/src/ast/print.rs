@@ -96,7 +96,7 @@ impl fmt::Display for Printed<'_> {
                         open.push(Step::Field(id));
                         open.push(Step::Piece(Piece::Node(base)));
                     }
-                    Node::Quantified { all, name, set, body } => {
+                    Node::Quantified { all, name, set, body, .. } => {
                         let slice = |span| self.ast.source().slice(span);
                         let word = if all { "all" } else { "some" };
                         write!(f, "for {word} {} in {}: ", slice(name), slice(set))?;

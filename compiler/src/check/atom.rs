@@ -5,7 +5,7 @@ use super::term::Place;
 use super::{Checker, Names};
 use crate::ast::{Comparison, Infix, ItemKind, Node, NodeId, Prefix};
 use crate::error::{Error, Kind};
-use crate::predicate::{Condition, ConditionId, Scalar, TaskId, Term, TermId};
+use crate::predicate::{Arguments, Condition, ConditionId, Scalar, TaskId, Term, TermId};
 use crate::source::Span;
 
 /// What a leaf of a formula is.
@@ -13,8 +13,8 @@ use crate::source::Span;
 pub(super) enum Atom {
     /// All of these; none of them is a constant, unless it is the only one.
     Conditions(Vec<ConditionId>),
-    /// The formula of another task.
-    Task(TaskId),
+    /// The formula of another task, with what its parameters stand for.
+    Task(TaskId, Arguments),
 }
 
 impl Checker<'_> {
@@ -27,10 +27,19 @@ impl Checker<'_> {
     ) -> Option<Atom> {
         let condition = match *self.ast.node(id) {
             Node::Truth(value) => Condition::Truth(value),
+            Node::Infix(Infix::Compare(op), left, right)
+                if roles.of(left) == Role::Part && roles.of(right) == Role::Part =>
+            {
+                let condition = self.compare_values(id, op, [left, right])?;
+                return Some(Atom::Conditions(vec![condition]));
+            }
             Node::Infix(Infix::Compare(_), ..) => {
                 return self.comparison(id, roles, terms).map(Atom::Conditions);
             }
             Node::Prefix(..) | Node::Infix(..) | Node::Quantified { .. } => return None,
+            Node::Call { .. } if self.applied(id).is_some() => {
+                return self.application(id, roles, terms);
+            }
             _ => match self.item(id) {
                 Some(item) if matches!(self.ast.node(id), Node::Name) => {
                     return self.formula_item(id, item);
@@ -44,16 +53,21 @@ impl Checker<'_> {
     /// A condition that is not compared: a field, a free proposition, a Rust expression.
     fn place_condition(&mut self, id: NodeId) -> Option<Condition> {
         let span = self.ast.span(id);
+        if let Some(sort) = self.sort(id) {
+            let error = self.value_instead(id, sort, "a formula");
+            self.mistakes.push(error);
+            return None;
+        }
         match self.names {
             Names::Free => self.free_name(id, true).map(Condition::Free),
             Names::Host => {
                 let text = self.compact(id);
                 if self.host().is_some_and(|host| crate::parse::mentions(&text, host)) {
-                    let term = self.module.arena.add_term(Term::Host { text, span });
-                    return Some(Condition::Bool(term));
+                    return Some(Condition::Bool(self.host_term(id, false)));
                 }
+                let bindings = self.bindings(id);
                 let known = self.values.entry(text.clone()).or_insert(span);
-                Some(Condition::Value { text, span: *known })
+                Some(Condition::Value { text, span: *known, bindings })
             }
             Names::Declared => {
                 let Place { steps, scalar } = self.place(id)?;
@@ -78,13 +92,18 @@ impl Checker<'_> {
     fn formula_item(&mut self, id: NodeId, item: usize) -> Option<Atom> {
         self.used.insert(item);
         let text = self.ast.text(id);
+        if !self.scope.parameters(item).is_empty() {
+            let error = self.without_arguments(id, item);
+            self.mistakes.push(error);
+            return None;
+        }
         match self.ast.items()[item].kind {
             ItemKind::Predicate(..) => {
                 let predicate = *self.declared.get(&item)?;
                 let condition = self.module.arena.add_condition(Condition::Is(predicate));
                 Some(Atom::Conditions(vec![condition]))
             }
-            ItemKind::Task(..) => self.task_id(item).map(Atom::Task),
+            ItemKind::Task(..) => self.task_id(item).map(|task| Atom::Task(task, Vec::new())),
             ItemKind::Constant(_) => {
                 let message = format!("`{text}` is a number, but a formula is needed here");
                 let declared = self.ast.items()[item].name;
@@ -129,7 +148,7 @@ impl Checker<'_> {
         let of = |operand: NodeId| terms[roles.position(operand)];
         let mut conditions = Vec::new();
         for (op, left, right, _) in links {
-            conditions.push(self.compare(op, of(left)?, of(right)?));
+            conditions.push(self.module.arena.compare(op, of(left)?, of(right)?));
         }
         Some(self.without_constants(conditions))
     }
@@ -143,17 +162,6 @@ impl Checker<'_> {
         }
         conditions.retain(|condition| *condition != always);
         if conditions.is_empty() { vec![always] } else { conditions }
-    }
-
-    /// One comparison, what varies on the left.
-    fn compare(&mut self, op: Comparison, left: TermId, right: TermId) -> ConditionId {
-        let arena = &mut self.module.arena;
-        let condition = match (arena.constant(left), arena.constant(right)) {
-            (Some(x), Some(y)) => Condition::Truth(op.holds(x, y)),
-            (Some(_), None) => Condition::Compare(op.mirrored(), right, left),
-            _ => Condition::Compare(op, left, right),
-        };
-        arena.add_condition(condition)
     }
 
     /// The error for a chain that points both ways.
@@ -207,19 +215,27 @@ impl Checker<'_> {
     ) -> Option<ConditionId> {
         let of = |operand: NodeId| built[roles.position(operand)];
         match *self.ast.node(id) {
-            Node::Prefix(Prefix::Not, operand) => Some(self.not(of(operand)?)),
-            Node::Infix(Infix::And, left, right) => Some(self.and(of(left)?, of(right)?)),
-            Node::Infix(Infix::Or, left, right) => Some(self.or(of(left)?, of(right)?)),
+            Node::Prefix(Prefix::Not, operand) => Some(self.module.arena.not(of(operand)?)),
+            Node::Infix(Infix::And, left, right) => {
+                Some(self.module.arena.and(of(left)?, of(right)?))
+            }
+            Node::Infix(Infix::Or, left, right) => {
+                Some(self.module.arena.or(of(left)?, of(right)?))
+            }
             Node::Infix(Infix::Implies, left, right) => {
-                let left = self.not(of(left)?);
-                Some(self.or(left, of(right)?))
+                let left = self.module.arena.not(of(left)?);
+                Some(self.module.arena.or(left, of(right)?))
             }
             _ => match self.atom(id, roles, terms)? {
                 Atom::Conditions(all) => {
                     let first = *all.first()?;
-                    Some(all[1..].iter().fold(first, |left, right| self.and(left, *right)))
+                    Some(
+                        all[1..]
+                            .iter()
+                            .fold(first, |left, right| self.module.arena.and(left, *right)),
+                    )
                 }
-                Atom::Task(_) => {
+                Atom::Task(..) => {
                     let text = self.ast.quote(id);
                     let message =
                         format!("`{text}` is a task, and a predicate speaks of one state");
@@ -230,37 +246,6 @@ impl Checker<'_> {
                     None
                 }
             },
-        }
-    }
-
-    fn not(&mut self, a: ConditionId) -> ConditionId {
-        let arena = &mut self.module.arena;
-        let condition = match *arena.condition(a) {
-            Condition::Truth(value) => Condition::Truth(!value),
-            Condition::Not(inner) => return inner,
-            Condition::Compare(op, left, right) => Condition::Compare(op.negated(), left, right),
-            _ => Condition::Not(a),
-        };
-        arena.add_condition(condition)
-    }
-
-    fn and(&mut self, a: ConditionId, b: ConditionId) -> ConditionId {
-        let arena = &mut self.module.arena;
-        match (arena.condition(a), arena.condition(b)) {
-            (Condition::Truth(true), _) | (_, Condition::Truth(false)) => b,
-            (Condition::Truth(false), _) | (_, Condition::Truth(true)) => a,
-            _ if a == b => a,
-            _ => arena.add_condition(Condition::And(a, b)),
-        }
-    }
-
-    fn or(&mut self, a: ConditionId, b: ConditionId) -> ConditionId {
-        let arena = &mut self.module.arena;
-        match (arena.condition(a), arena.condition(b)) {
-            (Condition::Truth(true), _) | (_, Condition::Truth(false)) => a,
-            (Condition::Truth(false), _) | (_, Condition::Truth(true)) => b,
-            _ if a == b => a,
-            _ => arena.add_condition(Condition::Or(a, b)),
         }
     }
 }

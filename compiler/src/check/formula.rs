@@ -7,7 +7,9 @@ use super::atom::Atom;
 use super::role::{Role, Roles};
 use crate::ast::{Infix, ItemKind, Node, NodeId, Prefix};
 use crate::error::{Error, Kind};
-use crate::predicate::{Condition, ConditionId, Connective, Predicate, PredicateId, Task, TaskId};
+use crate::predicate::{
+    Arguments, Condition, ConditionId, Connective, Predicate, PredicateId, Task, TaskId,
+};
 use crate::source::Span;
 use crate::spec::{Formula, FormulaId, Spec};
 
@@ -33,11 +35,26 @@ impl Checker<'_> {
         } else {
             (Some(name.to_owned()), entry.name)
         };
-        let parts = self.parts(root);
-        let text = self.ast.display(root).to_string();
-        let task = Task { name, docs: entry.docs.clone(), span, text, spec, predicates, parts };
+        let task = Task {
+            name,
+            docs: entry.docs.clone(),
+            span,
+            parameters: self.parameters.clone(),
+            text: self.text(item),
+            spec,
+            predicates,
+            parts: self.parts(root),
+        };
         if let Some(id) = self.task_id(item) {
             self.tasks[id.0 as usize] = Some(task);
+        }
+    }
+
+    /// The formula of the task `item` as it was written.
+    fn text(&self, item: usize) -> String {
+        match self.written.items()[item].kind {
+            ItemKind::Task(_, root) => self.written.display(root).to_string(),
+            _ => String::new(),
         }
     }
 
@@ -61,14 +78,40 @@ impl Checker<'_> {
                         }
                     }
                 }
-                Some(Atom::Task(task)) => {
-                    let task = self.tasks[task.0 as usize].as_ref();
-                    task.into_iter().flat_map(|task| &task.predicates).copied().for_each(&mut add);
+                Some(Atom::Task(task, arguments)) => {
+                    for literal in self.literals(*task, arguments) {
+                        if let Literal::Proposition(predicate, _) = literal {
+                            add(predicate);
+                        }
+                    }
                 }
                 None => {}
             }
         }
         predicates
+    }
+
+    /// What the predicates of a task are with these arguments.
+    fn literals(&mut self, task: TaskId, arguments: &Arguments) -> Vec<Literal> {
+        let Some(task) = &self.tasks[task.0 as usize] else { return Vec::new() };
+        let predicates = task.predicates.clone();
+        predicates.into_iter().map(|predicate| self.literal(predicate, arguments)).collect()
+    }
+
+    fn literal(&mut self, predicate: PredicateId, arguments: &Arguments) -> Literal {
+        let Predicate { declared, span, condition, .. } =
+            self.module.predicates[predicate.0 as usize];
+        if declared || arguments.is_empty() {
+            return Literal::Proposition(predicate, false);
+        }
+        let condition = self.module.arena.substitute(condition, arguments);
+        if let Condition::Truth(value) = *self.module.arena.condition(condition) {
+            return Literal::Truth(value);
+        }
+        match self.proposition(condition, span) {
+            Some((predicate, negated)) => Literal::Proposition(predicate, negated),
+            None => Literal::Truth(false),
+        }
     }
 
     /// The predicate that a condition is, and whether it is its negation; `None` for a constant.
@@ -80,9 +123,15 @@ impl Checker<'_> {
             Condition::Truth(_) => None,
             Condition::Is(predicate) => Some((predicate, false)),
             _ => {
-                let name = self.module.arena.display(condition).to_string();
-                let predicate =
-                    Predicate { name, declared: false, docs: Vec::new(), span, condition };
+                let name = self.module.display(condition).to_string();
+                let predicate = Predicate {
+                    name,
+                    declared: false,
+                    parameters: Vec::new(),
+                    docs: Vec::new(),
+                    span,
+                    condition,
+                };
                 let id = self.add_predicate(predicate);
                 self.remember(condition, id);
                 Some((id, false))
@@ -122,8 +171,8 @@ impl Checker<'_> {
                 (Role::Formula { negated }, Some(Atom::Conditions(conditions))) => {
                     Some(self.conditions(&mut builder, id, conditions, negated.is_some()))
                 }
-                (Role::Formula { negated }, Some(Atom::Task(task))) => {
-                    self.inline(&mut builder, id, *task, negated)
+                (Role::Formula { negated }, Some(Atom::Task(task, arguments))) => {
+                    self.inline(&mut builder, id, (*task, arguments), negated)
                 }
                 (Role::Formula { negated }, None) => {
                     self.operator(&mut builder, id, roles, negated.is_some())
@@ -209,9 +258,10 @@ impl Checker<'_> {
         &mut self,
         builder: &mut Builder,
         id: NodeId,
-        task: TaskId,
+        (task, arguments): (TaskId, &Arguments),
         negated: Option<NodeId>,
     ) -> Option<FormulaId> {
+        let literals = self.literals(task, arguments);
         let task = self.tasks[task.0 as usize].as_ref()?;
         let span = self.ast.span(id);
         if let (Some(by), Some(temporal)) = (negated, temporal(&task.spec)) {
@@ -228,7 +278,7 @@ impl Checker<'_> {
             );
             return None;
         }
-        Some(builder.import(task, negated.is_some(), span))
+        Some(builder.import(task, &literals, negated.is_some(), span))
     }
 
     /// The tasks that `root` is the plain conjunction or disjunction of.
@@ -266,6 +316,15 @@ fn temporal(spec: &Spec) -> Option<FormulaId> {
         .map(|(id, _)| id)
 }
 
+/// What a predicate of a task is where the task is used.
+#[derive(Clone, Copy)]
+enum Literal {
+    /// A constant.
+    Truth(bool),
+    /// A predicate, or its negation.
+    Proposition(PredicateId, bool),
+}
+
 /// A spec in the making, with the formula of each node.
 struct Builder {
     spec: Spec,
@@ -281,7 +340,13 @@ impl Builder {
 
     /// The formula of `task`; its negation, if `negated`, in which case it has no temporal
     /// operator.
-    fn import(&mut self, task: &Task, negated: bool, span: Span) -> FormulaId {
+    fn import(
+        &mut self,
+        task: &Task,
+        literals: &[Literal],
+        negated: bool,
+        span: Span,
+    ) -> FormulaId {
         let mut built: Vec<FormulaId> = Vec::new();
         for (_, formula) in task.spec.formulas() {
             use Formula::{And, Eventually, False, Literal, Next, Or, Then, True, Until};
@@ -290,10 +355,12 @@ impl Builder {
             let id = match formula {
                 True => spec.truth(!negated, span),
                 False => spec.truth(negated, span),
-                Literal { proposition, negated: not } => {
-                    let predicate = task.predicates[proposition as usize];
-                    self.literal(predicate, not != negated, span)
-                }
+                Literal { proposition, negated: not } => match literals[proposition as usize] {
+                    self::Literal::Truth(value) => spec.truth(value != (not != negated), span),
+                    self::Literal::Proposition(predicate, reversed) => {
+                        self.literal(predicate, reversed != (not != negated), span)
+                    }
+                },
                 And(a, b) if negated => spec.or(of(a), of(b), span),
                 Or(a, b) if negated => spec.and(of(a), of(b), span),
                 And(a, b) => spec.and(of(a), of(b), span),

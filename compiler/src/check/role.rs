@@ -1,9 +1,9 @@
 //! From the root down: what each operand has to be, and what negates it.
 
 use super::{Checker, intent};
-use crate::ast::{Infix, Node, NodeId, Prefix};
+use crate::ast::{Comparison, Infix, Node, NodeId, Prefix};
 use crate::error::{Error, Kind};
-use crate::predicate::Function;
+use crate::predicate::{Function, ParameterType, Scalar};
 
 /// What an expression has to be where it stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -103,14 +103,9 @@ impl Checker<'_> {
             | Node::Infix(Infix::Calculate(_), ..) => {
                 self.refuse(id, roles, self.not_a_formula(id))
             }
-            Node::Quantified { .. } => {
-                let message = "`for all` is not supported yet";
-                self.refuse(
-                    id,
-                    roles,
-                    Error::new(Kind::Syntax, message, self.ast.entry(id).operator)
-                        .help("write the formulas one by one, with `&&` between them"),
-                );
+            Node::Call { ref arguments, .. } if self.applied(id).is_some() => {
+                let arguments = self.ast.arguments(arguments).to_vec();
+                self.descend_application(id, &arguments, roles);
             }
             Node::Call { .. } if self.function(id).is_some() => {
                 self.refuse(id, roles, self.not_a_formula(id));
@@ -140,8 +135,57 @@ impl Checker<'_> {
             return self.refuse(id, roles, self.compared_truth(truth));
         }
         let chained = self.is_chained(left);
+        let value = |side: &NodeId| self.sort(*side).is_some();
+        if let Some(side) = [left, right].into_iter().skip(usize::from(chained)).find(value) {
+            if let Some(error) = self.ordered_values(id, side, chained) {
+                self.refuse(id, roles, error);
+            }
+            return;
+        }
         roles.set(left, if chained { Role::Chain } else { Role::Number });
         roles.set(right, Role::Number);
+    }
+
+    /// A number is an operand of its own; a value is read with the predicate or task.
+    fn descend_application(&self, id: NodeId, arguments: &[NodeId], roles: &mut Roles) {
+        let Some((_, item)) = self.applied(id) else { return };
+        for (argument, parameter) in arguments.iter().zip(self.scope.parameters(item)) {
+            if let ParameterType::Scalar(Scalar::Number(_)) = parameter.ty {
+                roles.set(*argument, Role::Number);
+            }
+        }
+    }
+
+    /// The error for values that are compared as if they had an order.
+    fn ordered_values(&self, id: NodeId, side: NodeId, chained: bool) -> Option<Error> {
+        let operator = self.ast.entry(id).operator;
+        let symbol = self.ast.source().slice(operator);
+        let text = self.ast.quote(side);
+        match *self.ast.node(id) {
+            Node::Infix(Infix::Compare(Comparison::Equal | Comparison::Unequal), ..)
+                if !chained =>
+            {
+                None
+            }
+            _ if chained => Some(
+                Error::new(
+                    Kind::Chain,
+                    format!("`{text}` is a value, and values are compared two at a time"),
+                    operator,
+                )
+                .help("write each comparison, with `&&` between them"),
+            ),
+            _ => Some(
+                Error::new(
+                    Kind::Type,
+                    format!(
+                        "`{text}` is a value and no number, so `{symbol}` says nothing about it"
+                    ),
+                    operator,
+                )
+                .help("values are compared with `==` and `!=` only"),
+            ),
+        }
     }
 
     fn is_truth(&self, id: NodeId) -> bool {

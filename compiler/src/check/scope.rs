@@ -5,7 +5,9 @@ use std::collections::{BTreeMap, HashMap};
 use super::{Names, name};
 use crate::ast::{Ast, Declaration, FieldType, Item, ItemKind};
 use crate::error::{Error, Kind};
-use crate::predicate::{Enum, Field, Scalar, State, Struct, TaskId, Type};
+use crate::predicate::{
+    Enum, Field, Parameter, ParameterType, Scalar, State, Struct, TaskId, Type,
+};
 use crate::source::Span;
 
 /// The declared names and types.
@@ -17,13 +19,15 @@ pub(super) struct Scope<'a> {
     state: Option<Struct>,
     /// Where the fields of the state are declared.
     fields: BTreeMap<&'a str, Span>,
-    variants: HashMap<&'a str, u32>,
+    variants: HashMap<&'a str, Vec<(u32, u32)>>,
+    /// What predicates and tasks take, by item.
+    parameters: BTreeMap<usize, Vec<Parameter>>,
     /// Whether an item of types could not be read.
     incomplete: bool,
 }
 
 impl<'a> Scope<'a> {
-    pub(super) fn new(ast: &'a Ast, mistakes: &mut Vec<Error>) -> Self {
+    pub(super) fn new(ast: &'a Ast, names: Names, mistakes: &mut Vec<Error>) -> Self {
         let mut scope = Self {
             items: BTreeMap::new(),
             tasks: BTreeMap::new(),
@@ -32,11 +36,13 @@ impl<'a> Scope<'a> {
             state: None,
             fields: BTreeMap::new(),
             variants: HashMap::new(),
+            parameters: BTreeMap::new(),
             incomplete: false,
         };
         scope.declare(ast, mistakes);
         scope.declare_types(ast, mistakes);
         scope.declare_state(ast, mistakes);
+        scope.declare_parameters(ast, names, mistakes);
         scope
     }
 
@@ -53,9 +59,23 @@ impl<'a> Scope<'a> {
         self.tasks.len()
     }
 
-    /// The number that an enumeration gives to the value called `name`.
-    pub(super) fn variant(&self, name: &str) -> Option<u32> {
-        self.variants.get(name).copied()
+    /// The values called `name`, or `Enumeration::name`: of which enumerations, and which there.
+    pub(super) fn variants(&self, name: &str) -> Vec<(u32, u32)> {
+        let (of, name) = name.rsplit_once("::").map_or((None, name), |(of, name)| (Some(of), name));
+        let all = self.variants.get(name.trim()).map_or(&[][..], Vec::as_slice);
+        let wanted =
+            |at: &&(u32, u32)| of.is_none_or(|of| self.enums[at.0 as usize].name == of.trim());
+        all.iter().filter(wanted).copied().collect()
+    }
+
+    /// The enumeration called `name`.
+    pub(super) fn enumeration(&self, name: &str) -> Option<u32> {
+        self.enums.iter().position(|known| known.name == name).map(index)
+    }
+
+    /// What the item takes when it is used.
+    pub(super) fn parameters(&self, item: usize) -> &[Parameter] {
+        self.parameters.get(&item).map_or(&[], Vec::as_slice)
     }
 
     /// Whether `name` is unknown only because its declaration has a mistake.
@@ -78,7 +98,7 @@ impl<'a> Scope<'a> {
 
     /// All names that can stand in a formula.
     pub(super) fn names(&self) -> impl Iterator<Item = &str> {
-        self.items.keys().chain(self.fields.keys()).copied()
+        self.items.keys().chain(self.fields.keys()).chain(self.variants.keys()).copied()
     }
 
     pub(super) fn state(&self, ast: &Ast, names: Names) -> State {
@@ -124,7 +144,7 @@ impl<'a> Scope<'a> {
             let name = ast.source().slice(item.name).to_owned();
             let docs = item.docs.clone();
             if let ItemKind::Enum(variants) = &item.kind {
-                self.declare_variants(ast, variants, mistakes);
+                self.declare_variants(ast, item.name, variants, mistakes);
                 let text = |span: &Span| ast.source().slice(*span).to_owned();
                 let variants = variants.iter().map(text).collect();
                 self.enums.push(Enum { name, docs, variants });
@@ -139,12 +159,88 @@ impl<'a> Scope<'a> {
         }
     }
 
-    fn declare_variants(&mut self, ast: &'a Ast, names: &[Span], mistakes: &mut Vec<Error>) {
+    fn declare_variants(
+        &mut self,
+        ast: &'a Ast,
+        of: Span,
+        names: &[Span],
+        mistakes: &mut Vec<Error>,
+    ) {
+        if names.is_empty() {
+            let message = format!("the enumeration `{}` has no values", ast.source().slice(of));
+            mistakes.push(
+                Error::new(Kind::Type, message, of)
+                    .help("list them: `enum Room { kitchen, hall }`"),
+            );
+        }
+        let of = index(self.enums.len());
+        let mut first: BTreeMap<&str, Span> = BTreeMap::new();
         for (number, span) in (0..).zip(names) {
             let name = ast.source().slice(*span);
-            if self.variants.insert(name, number).is_some_and(|before| before != number) {
-                let message = format!("`{name}` is declared twice with different positions");
-                mistakes.push(Error::new(Kind::DuplicateName, message, *span));
+            if let Some(before) = first.insert(name, *span) {
+                mistakes.push(duplicate(name, *span, before));
+            }
+            self.variants.entry(name).or_default().push((of, number));
+        }
+    }
+
+    fn declare_parameters(&mut self, ast: &'a Ast, names: Names, mistakes: &mut Vec<Error>) {
+        for (item, entry) in ast.items().iter().enumerate() {
+            let (ItemKind::Predicate(declared, _) | ItemKind::Task(declared, _)) = &entry.kind
+            else {
+                continue;
+            };
+            let mut parameters: Vec<Parameter> = Vec::new();
+            for declaration in declared {
+                let name = ast.source().slice(declaration.name).to_owned();
+                let before = parameters.iter().find(|known| known.name == name);
+                if let Some(before) = before {
+                    mistakes.push(duplicate(&name, declaration.name, before.span));
+                    continue;
+                }
+                if let Some(error) = self.shadowed(ast, declaration.name) {
+                    mistakes.push(error);
+                }
+                match self.parameter_type(ast, names, &declaration.ty) {
+                    Ok(ty) => parameters.push(Parameter { name, ty, span: declaration.name }),
+                    Err(error) => mistakes.push(error),
+                }
+            }
+            self.parameters.insert(item, parameters);
+        }
+    }
+
+    /// The error for a parameter or a bound name that something else is called too.
+    pub(super) fn shadowed(&self, ast: &Ast, span: Span) -> Option<Error> {
+        let name = ast.source().slice(span);
+        let item = self.items.get(name).map(|item| ast.items()[*item].name);
+        let host = ast.items().iter().find(|item| {
+            matches!(item.kind, ItemKind::Host(_)) && ast.source().slice(item.name) == name
+        });
+        let first = item.or(self.fields.get(name).copied()).or(host.map(|item| item.name))?;
+        Some(duplicate(name, span, first).help("give this one another name"))
+    }
+
+    fn parameter_type(
+        &self,
+        ast: &Ast,
+        names: Names,
+        written: &FieldType,
+    ) -> Result<ParameterType, Error> {
+        let text = ast.source().slice(written.name);
+        let known = Scalar::named(text).is_some() || self.enumeration(text).is_some();
+        if names == Names::Host && !known && written.lengths.is_empty() && !written.optional {
+            return Ok(ParameterType::Host(written.span));
+        }
+        match self.resolve(ast, written)? {
+            Type::Scalar(
+                scalar @ (Scalar::Number("f64") | Scalar::Enum { optional: false, .. }),
+            ) => Ok(ParameterType::Scalar(scalar)),
+            _ => {
+                let text = ast.source().slice(written.span);
+                let message = format!("`{text}` cannot be the type of a parameter");
+                Err(Error::new(Kind::Type, message, written.span)
+                    .help("a parameter is a value of an enumeration, or a number (`f64`)"))
             }
         }
     }
@@ -211,27 +307,32 @@ impl<'a> Scope<'a> {
     fn resolve(&self, ast: &Ast, written: &FieldType) -> Result<Type, Error> {
         let text = ast.source().slice(written.name);
         let position = |name: &str| self.structs.iter().position(|known| known.name == name);
-        let index = |at: usize| u32::try_from(at).expect("fewer than 2^32 types");
         let mut ty = if let Some(scalar) = Scalar::named(text) {
             Type::Scalar(scalar)
         } else if let Some(at) = position(text) {
             Type::Struct(index(at))
         } else if let Some(at) = self.enums.iter().position(|known| known.name == text) {
-            Type::Enum(index(at))
+            Type::Scalar(Scalar::Enum { of: index(at), optional: written.optional })
         } else {
             return Err(self.unknown_type(ast, written.name));
         };
+        if written.optional && !matches!(ty, Type::Scalar(Scalar::Enum { .. })) {
+            let message = format!("`{text}` cannot be optional");
+            return Err(Error::new(Kind::Type, message, written.span)
+                .help("only a value of an enumeration can be absent: `Object?`"));
+        }
         for length in &written.lengths {
-            ty = Type::Array(Box::new(ty), self.length(ast, *length)?);
+            let text = ast.source().slice(*length);
+            ty = match self.enumeration(text) {
+                Some(of) => Type::Table(Box::new(ty), of),
+                None => Type::Array(Box::new(ty), self.length(ast, *length)?),
+            };
         }
         Ok(ty)
     }
 
     fn length(&self, ast: &Ast, span: Span) -> Result<u32, Error> {
         let text = ast.source().slice(span).replace('_', "");
-        if let Some(known) = self.enums.iter().find(|known| known.name == text) {
-            return Ok(u32::try_from(known.variants.len()).unwrap_or(u32::MAX));
-        }
         text.parse().map_err(|_| {
             let message = format!("`{text}` is not a length");
             Error::new(Kind::Type, message, span)
@@ -249,15 +350,20 @@ impl<'a> Scope<'a> {
             Some(near) => error.help(format!("did you mean `{near}`?")),
             None => error.help(
                 "the types are f64, f32, i8 to i64, u8 to u64, bool, arrays such as `[f64; 6]`, \
-                 and structs declared above",
+                 enumerations, and structs declared above",
             ),
         }
     }
 }
 
+fn index(at: usize) -> u32 {
+    u32::try_from(at).expect("fewer than 2^32 of a kind")
+}
+
 fn is_broken_type(ast: &Ast, item: &Item) -> bool {
     let text = ast.source().slice(item.span);
-    matches!(item.kind, ItemKind::Broken) && (text.contains("state") || text.contains("struct"))
+    matches!(item.kind, ItemKind::Broken)
+        && (["state", "struct", "enum"].iter().any(|word| text.contains(word)))
 }
 
 fn is_value(kind: &ItemKind) -> bool {

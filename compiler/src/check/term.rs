@@ -5,7 +5,7 @@ use super::role::{Role, Roles};
 use crate::ast::quoted;
 use crate::ast::{Arithmetic, Infix, ItemKind, Node, NodeId, Prefix};
 use crate::error::{Error, Kind};
-use crate::predicate::{Function, Number, Scalar, Step, Term, TermId, Type};
+use crate::predicate::{Function, Number, ParameterType, Scalar, Step, Term, TermId, Type};
 use crate::source::Span;
 
 use super::Names;
@@ -16,6 +16,17 @@ pub(super) struct Place {
     pub(super) steps: Vec<Step>,
     pub(super) scalar: Scalar,
 }
+
+/// A step on the way to a place.
+pub(super) enum Pending {
+    /// One that is known.
+    Step(Step),
+    /// The element of a table at an index, of an enumeration.
+    Element(NodeId, u32),
+}
+
+/// The deepest nesting of indices.
+const INDICES: usize = 4;
 
 impl Checker<'_> {
     /// The term of each node that is a number, by its position in the expression.
@@ -140,14 +151,23 @@ impl Checker<'_> {
 
     /// A number that is not calculated: a constant, a place, a variable, a Rust expression.
     fn number_leaf(&mut self, id: NodeId) -> Option<TermId> {
-        if let (Node::Name, Some(item)) = (self.ast.node(id), self.item(id)) {
+        if let Some(parameter) = self.parameter(id) {
+            if let ParameterType::Scalar(Scalar::Number(_)) = parameter.ty {
+                let term = Term::Parameter { name: parameter.name.clone(), ty: parameter.ty };
+                return Some(self.module.arena.add_term(term));
+            }
+        } else if let (Node::Name, Some(item)) = (self.ast.node(id), self.item(id)) {
+            return self.number_item(id, item);
+        } else if let Some((_, item)) = self.applied(id) {
             return self.number_item(id, item);
         }
+        if let Some(sort) = self.sort(id) {
+            let error = self.value_instead(id, sort, "a number");
+            self.mistakes.push(error);
+            return None;
+        }
         match self.names {
-            Names::Host => {
-                let term = Term::Host { text: self.compact(id), span: self.ast.span(id) };
-                Some(self.module.arena.add_term(term))
-            }
+            Names::Host => Some(self.host_term(id, false)),
             Names::Declared => {
                 let place = self.place(id)?;
                 if place.scalar == Scalar::Bool {
@@ -248,8 +268,8 @@ impl Checker<'_> {
 
     /// The place of the declared state that `id` names.
     pub(super) fn place(&mut self, id: NodeId) -> Option<Place> {
-        match self.find_place(id) {
-            Ok(place) => Some(place),
+        match self.find_place(id, 0) {
+            Ok((pending, scalar)) => Some(Place { steps: self.steps(pending)?, scalar }),
             Err(error) => {
                 let told =
                     error.kind() == Kind::UnknownName && self.scope.is_broken(self.ast.text(id));
@@ -261,7 +281,12 @@ impl Checker<'_> {
         }
     }
 
-    fn find_place(&self, id: NodeId) -> Result<Place, Error> {
+    /// The steps to the place `id`, which stands within `depth` indices of others.
+    pub(super) fn find_place(
+        &self,
+        id: NodeId,
+        depth: usize,
+    ) -> Result<(Vec<Pending>, Scalar), Error> {
         let mut path = vec![id];
         loop {
             let last = path[path.len() - 1];
@@ -275,26 +300,31 @@ impl Checker<'_> {
         let mut ty: Option<&Type> = None;
         let mut steps = Vec::new();
         for id in path.into_iter().rev() {
-            let (step, next) = self.step(id, ty)?;
+            let (step, next) = self.step(id, ty, depth)?;
             steps.push(step);
             ty = Some(next);
         }
         let Some(Type::Scalar(scalar)) = ty else {
             return Err(self.not_a_scalar(id, ty));
         };
-        Ok(Place { steps, scalar: *scalar })
+        Ok((steps, *scalar))
     }
 
     /// The step that `id` takes from a place of type `ty` (the state itself if `None`).
-    fn step<'t>(&'t self, id: NodeId, ty: Option<&'t Type>) -> Result<(Step, &'t Type), Error> {
+    fn step<'t>(
+        &'t self,
+        id: NodeId,
+        ty: Option<&'t Type>,
+        depth: usize,
+    ) -> Result<(Pending, &'t Type), Error> {
         let (name, span) = match self.ast.node(id) {
-            Node::Index { index, .. } => return self.index(id, *index, ty),
+            Node::Index { index, .. } => return self.index(id, *index, ty, depth),
             Node::Field { field, .. } => (self.ast.source().slice(*field), *field),
             _ => (self.ast.text(id), self.ast.span(id)),
         };
         let fields = self.scope.fields_of(ty);
         match fields.iter().find(|field| field.name == name) {
-            Some(field) => Ok((Step::Field(name.to_owned()), &field.ty)),
+            Some(field) => Ok((Pending::Step(Step::Field(name.to_owned())), &field.ty)),
             None if ty.is_none() => Err(self.unknown(name, span)),
             None => {
                 let error =
@@ -311,31 +341,65 @@ impl Checker<'_> {
     }
 
     fn index<'t>(
-        &self,
+        &'t self,
         id: NodeId,
         index: NodeId,
         ty: Option<&'t Type>,
-    ) -> Result<(Step, &'t Type), Error> {
+        depth: usize,
+    ) -> Result<(Pending, &'t Type), Error> {
         let span = self.ast.span(index);
-        let Some(Type::Array(element, length)) = ty else {
-            let message = format!("`{}` indexes what is not an array", self.ast.quote(id));
-            return Err(Error::new(Kind::Type, message, self.ast.span(id)));
-        };
-        let text = self.ast.text(index);
+        match ty {
+            Some(Type::Table(element, of)) if depth < INDICES => {
+                self.table_index(index, *of, depth)?;
+                Ok((Pending::Element(index, *of), element))
+            }
+            Some(Type::Table(..)) => {
+                let message = format!("indices nest more than {INDICES} deep");
+                Err(Error::new(Kind::Nesting, message, span))
+            }
+            Some(Type::Array(element, length)) => {
+                let index = self.array_index(index, *length)?;
+                Ok((Pending::Step(Step::Index(index)), element))
+            }
+            _ => {
+                let message = format!("`{}` indexes what is not an array", self.ast.quote(id));
+                Err(Error::new(Kind::Type, message, self.ast.span(id)))
+            }
+        }
+    }
+
+    /// Whether `index` can be an index of a table; what it is of is checked with its value.
+    fn table_index(&self, index: NodeId, of: u32, depth: usize) -> Result<(), Error> {
+        if self.sort_within(index, depth + 1).is_some() {
+            return Ok(());
+        }
+        let (text, name) = (self.ast.quote(index), self.enum_name(of));
+        let variants = &self.scope.enums[of as usize].variants;
+        let message = format!("`{text}` is not a value of `{name}`, which indexes this array");
+        let error = Error::new(Kind::Type, message, self.ast.span(index));
+        Err(match name::nearest(&text, variants.iter().map(String::as_str)) {
+            Some(near) => error.help(format!("did you mean `{near}`?")),
+            None => error.help("an index is a value of the enumeration, a parameter or a field"),
+        })
+    }
+
+    fn array_index(&self, index: NodeId, length: u32) -> Result<u32, Error> {
+        let (text, span) = (self.ast.text(index), self.ast.span(index));
         let value = match self.ast.node(index) {
             Node::Number(value) => Some(*value),
             Node::Name => {
-                let constant = self.scope.item(text).and_then(|item| self.constants.get(&item));
-                constant.copied().or(self.scope.variant(text).map(f64::from))
+                let item = self.scope.item(text);
+                item.and_then(|item| self.constants.get(&item)).copied()
             }
             _ => None,
         };
         let Some(value) = value.filter(|value| value.fract() == 0.0 && *value >= 0.0) else {
             let message = format!("`{text}` cannot be an index");
-            return Err(Error::new(Kind::Type, message, span)
-                .help("an index is a whole number, a constant, or a value of an enumeration"));
+            return Err(Error::new(Kind::Type, message, span).help(
+                "an index is a whole number or a constant; declare the array as `[…; Room]` to index it by an enumeration",
+            ));
         };
-        if value >= f64::from(*length) {
+        if value >= f64::from(length) {
             let message = format!("index {value} is beyond an array of {length} elements");
             return Err(Error::new(Kind::Type, message, span).help(format!(
                 "the elements are numbered from 0 to {}",
@@ -343,14 +407,18 @@ impl Checker<'_> {
             )));
         }
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked above")]
-        Ok((Step::Index(value as u32), element))
+        Ok(value as u32)
     }
 
     fn not_a_scalar(&self, id: NodeId, ty: Option<&Type>) -> Error {
         let text = self.ast.quote(id);
         let (what, example) = match ty {
             Some(Type::Array(..)) => ("an array", format!("`{text}[0]`")),
-            Some(Type::Enum(_)) => ("a value of an enumeration", "a `bool` field".to_owned()),
+            Some(Type::Table(_, of)) => {
+                let known = &self.scope.enums[*of as usize];
+                let first = known.variants.first().map_or("value", String::as_str);
+                ("an array", format!("`{text}[{first}]`"))
+            }
             _ => {
                 let field = self.scope.fields_of(ty).first();
                 ("a struct", format!("`{text}.{}`", field.map_or("field", |field| &field.name)))
@@ -368,7 +436,8 @@ impl Checker<'_> {
             format!("nothing here is called `{}`", quoted(name)),
             span,
         );
-        if let Some(near) = name::nearest(name, self.scope.names()) {
+        let parameters = self.parameters.iter().map(|known| known.name.as_str());
+        if let Some(near) = name::nearest(name, self.scope.names().chain(parameters)) {
             return error.help(format!("did you mean `{near}`?"));
         }
         if self.scope.has_state() {

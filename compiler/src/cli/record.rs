@@ -131,14 +131,22 @@ fn lookup<'a>(state: &'a Value, name: &str) -> Option<&'a Value> {
 
 /// The number that a field is, as the input's type has it.
 fn number(text: &str, input: &Input) -> Result<f64, String> {
-    let Input { name, kind } = input;
+    let Input { name, kind, values } = input;
     let ty = match kind {
         InputKind::Place(scalar) => scalar.name(),
         InputKind::Variable | InputKind::Proposition => "f64",
     };
     let value = match (kind, text) {
+        (InputKind::Place(Scalar::Enum { optional: true, .. }), "" | "none" | "null") => Some(-1.0),
         (_, "") => return Err(format!("`{name}` is empty")),
         (InputKind::Place(Scalar::Bool), _) => truth(text),
+        (InputKind::Place(Scalar::Enum { .. }), _) => {
+            let known = values.iter().position(|value| value == text);
+            let Some(number) = known else {
+                return Err(format!("`{text}` is no value of `{name}`: {}", values.join(", ")));
+            };
+            Some(number as f64)
+        }
         (InputKind::Proposition, "true" | "True") => Some(1.0),
         (InputKind::Proposition, "false" | "False") => Some(-1.0),
         _ => typed(text, ty),

@@ -10,7 +10,10 @@ use quote::{format_ident, quote};
 use rustc_hash::FxHashMap;
 
 use crate::ast::{Arithmetic, Comparison};
-use crate::predicate::{Condition, ConditionId, Module, Number, Scalar, State, Step, Term, TermId};
+use crate::predicate::{
+    Arguments, Condition, ConditionId, Module, Number, PredicateId, Scalar, State, Step, Term,
+    TermId,
+};
 use crate::source::Span;
 
 /// Expressions deeper than this are cut by a `let`.
@@ -40,7 +43,14 @@ impl Scope<'_> {
     pub fn state(&self) -> Ident {
         match &self.module.state {
             State::Host { name, .. } => ident(name),
-            _ => Ident::new("s", TokenSpan::call_site()),
+            _ => {
+                // A parameter may have the name.
+                let predicates = self.module.predicates.iter().flat_map(|known| &known.parameters);
+                let parameters = self.module.tasks.iter().flat_map(|task| &task.parameters);
+                let taken: Vec<_> = predicates.chain(parameters).map(|p| p.name.as_str()).collect();
+                let name = ["s", "state", "__s"].into_iter().find(|name| !taken.contains(name));
+                Ident::new(name.unwrap_or("__state"), TokenSpan::call_site())
+            }
         }
     }
 
@@ -123,7 +133,7 @@ impl Writer<'_> {
             Condition::Or(a, b) => self.binary(*a, *b, &quote! { max }, &quote! { | }),
             Condition::Compare(comparison, a, b) => self.comparison(*comparison, *a, *b),
             Condition::Bool(place) => {
-                let place = self.place(*place);
+                let place = self.leaf(*place);
                 let rho = quote! { #runtime::private::truth(#place) };
                 (if robust { rho } else { place }, 0)
             }
@@ -133,8 +143,16 @@ impl Writer<'_> {
                 let holds = quote! { #runtime::Predicate::holds(&#name {}, #state)? };
                 (if robust { rho } else { holds }, 0)
             }
-            Condition::Value { span, .. } => {
-                let value = (self.scope.host)(*span);
+            Condition::Apply { predicate, arguments, .. } => {
+                let (name, arguments) = self.application(*predicate, arguments);
+                let values = arguments.iter().map(|(_, value)| value);
+                let fields = arguments.iter().map(|(field, value)| quote! { #field: #value });
+                let rho = quote! { #name(#state #(, #values)*) };
+                let holds = quote! { #runtime::Predicate::holds(&#name { #(#fields),* }, #state)? };
+                (if robust { rho } else { holds }, 0)
+            }
+            Condition::Value { span, bindings, .. } => {
+                let value = self.bound(bindings, (self.scope.host)(*span));
                 let rho = quote! { #runtime::Predicate::robustness(&(#value), #state) };
                 let holds = quote! { #runtime::Predicate::holds(&(#value), #state)? };
                 (if robust { rho } else { holds }, 0)
@@ -142,6 +160,33 @@ impl Writer<'_> {
             // Only a bare formula has free propositions, and it is never written as Rust.
             Condition::Free(_) => (truth(false, robust), 0),
         }
+    }
+
+    /// The name of a predicate, and its parameters with their arguments.
+    fn application(
+        &mut self,
+        predicate: PredicateId,
+        arguments: &[TermId],
+    ) -> (Ident, Vec<(Ident, TokenStream)>) {
+        let predicate = &self.scope.module.predicates[predicate.0 as usize];
+        let mut given = Vec::new();
+        for (parameter, argument) in predicate.parameters.iter().zip(arguments) {
+            given.push((ident(&parameter.name), self.term(*argument).0));
+        }
+        (ident(&predicate.name), given)
+    }
+
+    /// A Rust expression with what the names of parameters in it stand for.
+    fn bound(&self, bindings: &Arguments, code: TokenStream) -> TokenStream {
+        let arena = &self.scope.module.arena;
+        let itself = |(name, term): &(String, TermId)| matches!(arena.term(*term), Term::Parameter { name: own, .. } if own == name);
+        if bindings.iter().all(itself) {
+            return code;
+        }
+        // Each is read before any is bound, for one may be called like what another stands for.
+        let (names, values): (Vec<_>, Vec<_>) =
+            bindings.iter().map(|(name, term)| (ident(name), self.leaf(*term))).unzip();
+        quote! { { let (#(#names,)*) = (#(#values,)*); #code } }
     }
 
     fn unary(&mut self, a: ConditionId) -> Written {
@@ -172,6 +217,10 @@ impl Writer<'_> {
     }
 
     fn comparison(&mut self, comparison: Comparison, a: TermId, b: TermId) -> Written {
+        let arena = &self.scope.module.arena;
+        if arena.is_value(a) || arena.is_value(b) {
+            return self.value_comparison(comparison, a, b);
+        }
         let ((a, deep_a), (b, deep_b)) = (self.term(a), self.term(b));
         let depth = deep_a.max(deep_b) + 1;
         let runtime = self.scope.runtime;
@@ -201,12 +250,44 @@ impl Writer<'_> {
         (code, depth)
     }
 
+    /// Whether two values are equal: ±1.
+    fn value_comparison(&self, comparison: Comparison, a: TermId, b: TermId) -> Written {
+        let optional = [a, b].map(|side| self.is_optional(side));
+        let [a, b] = [(a, optional[1]), (b, optional[0])].map(|(side, other)| {
+            let value = self.leaf(side);
+            match other && !self.is_optional(side) {
+                true => quote! { ::core::option::Option::Some(#value) },
+                false => value,
+            }
+        });
+        let code = match comparison {
+            Comparison::Unequal => quote! { (#a != #b) },
+            _ => quote! { (#a == #b) },
+        };
+        let runtime = self.scope.runtime;
+        match self.reading {
+            Reading::Robustness => (quote! { #runtime::private::truth #code }, 0),
+            Reading::Truth => (code, 0),
+        }
+    }
+
+    /// Whether a value is an `Option` in the code.
+    fn is_optional(&self, term: TermId) -> bool {
+        matches!(
+            self.scope.module.arena.term(term),
+            Term::Absent | Term::Place { scalar: Scalar::Enum { optional: true, .. }, .. }
+        )
+    }
+
     /// A term, and first everything that it needs.
     fn term(&mut self, root: TermId) -> Written {
         let mut needed = vec![root];
         let mut at = 0;
         while let Some(&id) = needed.get(at) {
-            needed.extend(parts(self.scope.module.arena.term(id)));
+            let term = self.scope.module.arena.term(id);
+            if matches!(term, Term::Negate(_) | Term::Calculate(..) | Term::Call(..)) {
+                needed.extend(term.operands());
+            }
             at += 1;
         }
         needed.sort_unstable();
@@ -231,9 +312,13 @@ impl Writer<'_> {
         let runtime = self.scope.runtime;
         match self.scope.module.arena.term(id) {
             Term::Number(Number(value)) => (number(*value), 0),
-            Term::Place { scalar: Scalar::Number("f64"), .. } => (self.place(id), 0),
+            Term::Place { scalar: Scalar::Number("f64") | Scalar::Enum { .. }, .. }
+            | Term::Variant { .. }
+            | Term::Absent
+            | Term::Host { value: true, .. }
+            | Term::Parameter { .. } => (self.leaf(id), 0),
             Term::Place { .. } | Term::Host { .. } => {
-                let place = self.place(id);
+                let place = self.leaf(id);
                 (quote! { #runtime::private::number(#place) }, 0)
             }
             // Only a bare formula has free variables, and it is never written as Rust.
@@ -263,40 +348,49 @@ impl Writer<'_> {
         }
     }
 
-    /// A place within the state, or a Rust expression.
-    fn place(&self, id: TermId) -> TokenStream {
-        match self.scope.module.arena.term(id) {
+    /// A place within the state, a value, or a Rust expression.
+    fn leaf(&self, id: TermId) -> TokenStream {
+        let module = self.scope.module;
+        match module.arena.term(id) {
             Term::Place { steps, .. } => {
                 let state = self.scope.state();
-                let steps = steps.iter().map(|step| match step {
-                    Step::Field(name) => {
-                        let name = ident(name);
-                        quote! { .#name }
-                    }
-                    Step::Index(index) => {
-                        let index = Literal::u32_unsuffixed(*index);
-                        quote! { [#index] }
-                    }
-                });
+                let steps = steps.iter().map(|step| self.step(step));
                 quote! { #state #(#steps)* }
             }
-            Term::Host { span, .. } => {
+            Term::Host { span, bindings, .. } => {
                 let host = (self.scope.host)(*span);
-                quote! { (#host) }
+                self.bound(bindings, quote! { (#host) })
             }
+            Term::Variant { of, name, .. } => {
+                let (of, name) = (ident(&module.enums[*of as usize].name), ident(name));
+                quote! { #of::#name }
+            }
+            Term::Absent => quote! { ::core::option::Option::None },
+            Term::Parameter { name, .. } => {
+                let name = ident(name);
+                quote! { #name }
+            }
+            Term::Number(Number(value)) => number(*value),
             _ => TokenStream::new(),
         }
     }
-}
 
-fn parts(term: &Term) -> impl Iterator<Item = TermId> {
-    let pair = match *term {
-        Term::Negate(a) => [Some(a), None],
-        Term::Calculate(_, a, b) => [Some(a), Some(b)],
-        Term::Call(_, a, b) => [Some(a), b],
-        _ => [None, None],
-    };
-    pair.into_iter().flatten()
+    fn step(&self, step: &Step) -> TokenStream {
+        match step {
+            Step::Field(name) => {
+                let name = ident(name);
+                quote! { .#name }
+            }
+            Step::Index(index) => {
+                let index = Literal::u32_unsuffixed(*index);
+                quote! { [#index] }
+            }
+            Step::Element(index) => {
+                let index = self.leaf(*index);
+                quote! { [#index as ::core::primitive::usize] }
+            }
+        }
+    }
 }
 
 fn truth(value: bool, robust: bool) -> TokenStream {

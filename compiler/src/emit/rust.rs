@@ -12,7 +12,9 @@ use crate::dfa::Dfa;
 pub use crate::emit::predicates::ident as identifier;
 use crate::emit::predicates::{Reading, Scope};
 use crate::emit::tables;
-use crate::predicate::{Condition, Enum, PredicateId, State, Struct, Task, Type};
+use crate::predicate::{
+    Condition, Enum, Parameter, ParameterType, PredicateId, Scalar, State, Struct, Task, Type,
+};
 use crate::source::Span;
 
 /// How the code is fitted to the place where it stands.
@@ -187,26 +189,30 @@ impl<'a> Emitter<'a> {
         let text = format!("Robustness of the predicate `{}`.", predicate.name);
         let docs = documentation(&predicate.docs, &[text]);
         let implementing = format!("The predicate `{}`.", predicate.name);
+        let parameters = self.parameters(&predicate.parameters);
+        let (names, types) = (&parameters.names, &parameters.types);
+        let structure = parameters.structure(&name, &implementing);
+        let unpacked = parameters.unpacked();
         quote! {
             #docs
             #[allow(non_snake_case, unused_variables, clippy::all)]
             #[must_use]
-            pub fn #name(#s: &#state) -> ::core::primitive::f64 { #robustness }
+            pub fn #name(#s: &#state #(, #names: #types)*) -> ::core::primitive::f64 { #robustness }
 
-            #[doc = #implementing]
-            #[allow(non_camel_case_types)]
-            #[derive(Clone, Copy, Debug)]
-            pub struct #name {}
+            #structure
 
             impl #runtime::Predicate<#state> for #name {
                 #[inline]
-                fn robustness(&self, s: &#state) -> ::core::primitive::f64 { #name(s) }
+                fn robustness(&self, #s: &#state) -> ::core::primitive::f64 {
+                    #name(#s #(, self.#names)*)
+                }
                 #[inline]
                 #[allow(unused_variables, clippy::all)]
                 fn holds(
                     &self,
                     #s: &#state,
                 ) -> ::core::result::Result<::core::primitive::bool, #runtime::robustness::NotANumber> {
+                    #unpacked
                     ::core::result::Result::Ok({ #holds })
                 }
             }
@@ -216,11 +222,17 @@ impl<'a> Emitter<'a> {
     fn task(&self, task: &Task, dfa: &Dfa) -> TokenStream {
         let name = task.name.as_deref().unwrap_or("task");
         let (function, runtime, state) = (identifier(name), self.runtime, self.state());
+        let parameters = self.parameters(&task.parameters);
+        let unpacked = parameters.unpacked();
         let of = |reading| {
+            let unpacked = &unpacked;
             let arms = task.predicates.iter().enumerate().map(move |(i, &id)| {
                 let place = Literal::usize_unsuffixed(i);
                 let code = self.arm(id, reading);
-                quote! { #place => #code }
+                match unpacked {
+                    Some(unpacked) => quote! { #place => { #unpacked #code } },
+                    None => quote! { #place => #code },
+                }
             });
             quote! { #(#arms,)* }
         };
@@ -235,19 +247,23 @@ impl<'a> Emitter<'a> {
         let parts = self.parts(task, dfa);
         let docs = documentation(&task.docs, &[format!("`{}`", task.text), sizes(dfa)]);
         let about = format!("The predicates of the task `{name}`.");
+        let (names, declared) = (&parameters.names, parameters.declared());
+        let structure = parameters.structure(&function, &about);
         quote! {
             #docs
             #[allow(non_snake_case)]
             #[must_use]
-            pub const fn #function() -> #runtime::Task<#function> {
+            pub const fn #function(#declared) -> #runtime::Task<#function> {
                 #parts
-                #runtime::Task::from_parts(#name, &__TLTL_FORMULA, &__TLTL_AUTOMATON, #function {})
+                #runtime::Task::from_parts(
+                    #name,
+                    &__TLTL_FORMULA,
+                    &__TLTL_AUTOMATON,
+                    #function { #(#names),* },
+                )
             }
 
-            #[doc = #about]
-            #[allow(non_camel_case_types)]
-            #[derive(Clone, Copy, Debug)]
-            pub struct #function {}
+            #structure
 
             #implementation
         }
@@ -352,28 +368,81 @@ impl<'a> Emitter<'a> {
     fn enumeration(&self, declared: &Enum) -> TokenStream {
         let name = identifier(&declared.name);
         let docs = documentation(&declared.docs, &[]);
-        let variants = declared.variants.iter().map(|variant| identifier(variant));
+        let variants: Vec<_> = declared.variants.iter().map(|name| identifier(name)).collect();
+        let count = Literal::usize_unsuffixed(variants.len());
         quote! {
             #docs
             #[allow(missing_docs, non_camel_case_types)]
             #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
             pub enum #name { #(#variants,)* }
+
+            #[allow(clippy::all)]
+            impl #name {
+                #[doc = " All values, in order."]
+                pub const ALL: [Self; #count] = [#(Self::#variants,)*];
+
+                #[doc = " Which value it is, counted from 0."]
+                #[must_use]
+                pub const fn index(self) -> ::core::primitive::usize {
+                    self as ::core::primitive::usize
+                }
+
+                #[doc = " The value of this index, if there is one."]
+                #[must_use]
+                pub const fn from_index(
+                    index: ::core::primitive::usize,
+                ) -> ::core::option::Option<Self> {
+                    if index < #count {
+                        ::core::option::Option::Some(Self::ALL[index])
+                    } else {
+                        ::core::option::Option::None
+                    }
+                }
+            }
+        }
+    }
+
+    fn scalar(&self, scalar: Scalar) -> TokenStream {
+        match scalar {
+            Scalar::Enum { of, optional } => {
+                let name = identifier(&self.compiled.module.enums[of as usize].name);
+                match optional {
+                    true => quote! { ::core::option::Option<#name> },
+                    false => quote! { #name },
+                }
+            }
+            Scalar::Number(_) | Scalar::Bool => {
+                let name = identifier(scalar.name());
+                quote! { ::core::primitive::#name }
+            }
+        }
+    }
+
+    /// What a predicate or a task takes, as Rust has it.
+    fn parameters(&self, parameters: &[Parameter]) -> Parameters {
+        let ty = |parameter: &Parameter| match parameter.ty {
+            ParameterType::Scalar(scalar) => self.scalar(scalar),
+            ParameterType::Host(span) => (self.options.host)(span),
+        };
+        let of_rust = |parameter: &Parameter| matches!(parameter.ty, ParameterType::Host(_));
+        Parameters {
+            names: parameters.iter().map(|parameter| identifier(&parameter.name)).collect(),
+            types: parameters.iter().map(ty).collect(),
+            printable: !parameters.iter().any(of_rust),
         }
     }
 
     fn ty(&self, ty: &Type) -> TokenStream {
         let module = &self.compiled.module;
         match ty {
-            Type::Scalar(scalar) => {
-                let name = identifier(scalar.name());
-                quote! { ::core::primitive::#name }
+            Type::Scalar(scalar) => self.scalar(*scalar),
+            Type::Table(element, of) => {
+                let length = module.enums[*of as usize].variants.len();
+                let (element, length) = (self.ty(element), Literal::usize_unsuffixed(length));
+                quote! { [#element; #length] }
             }
             Type::Struct(index) => {
                 let name = identifier(&module.structs[*index as usize].name);
-                quote! { #name }
-            }
-            Type::Enum(index) => {
-                let name = identifier(&module.enums[*index as usize].name);
                 quote! { #name }
             }
             Type::Array(element, length) => {
@@ -381,6 +450,43 @@ impl<'a> Emitter<'a> {
                 quote! { [#element; #length] }
             }
         }
+    }
+}
+
+/// The parameters of a predicate or a task.
+struct Parameters {
+    names: Vec<Ident>,
+    types: Vec<TokenStream>,
+    /// Whether the types are known to implement `Debug`.
+    printable: bool,
+}
+
+impl Parameters {
+    /// `a: A, b: B`
+    fn declared(&self) -> TokenStream {
+        let Self { names, types, .. } = self;
+        quote! { #(#names: #types),* }
+    }
+
+    /// The struct `name` that holds them.
+    fn structure(&self, name: &Ident, about: &str) -> TokenStream {
+        let Self { names, types, printable } = self;
+        let derive = match printable {
+            true => quote! { #[derive(Clone, Copy, Debug)] },
+            false => quote! { #[derive(Clone, Copy)] },
+        };
+        quote! {
+            #[doc = #about]
+            #[allow(missing_docs, non_camel_case_types)]
+            #derive
+            pub struct #name { #(pub #names: #types),* }
+        }
+    }
+
+    /// The statement that brings the fields into scope; none if there are none.
+    fn unpacked(&self) -> Option<TokenStream> {
+        let names = &self.names;
+        (!names.is_empty()).then(|| quote! { let Self { #(#names),* } = *self; })
     }
 }
 

@@ -29,6 +29,8 @@ enum Pending {
         all: bool,
         name: Span,
         set: Span,
+        /// The listed elements, by their place among the arguments.
+        elements: (u32, u32),
         span: Span,
     },
     Infix(Infix, Span),
@@ -58,7 +60,7 @@ impl Yard<'_> {
             Rule::next_op => Pending::Prefix(Prefix::Next, span),
             Rule::minus => Pending::Prefix(Prefix::Minus, span),
             Rule::open => Pending::Open(span),
-            Rule::quantifier => self.quantifier(token),
+            Rule::quantifier => self.quantifier(token)?,
             _ => {
                 let node = self.primary(&token, span)?;
                 self.push(node, span, span);
@@ -69,19 +71,34 @@ impl Yard<'_> {
         Ok(true)
     }
 
-    fn quantifier(&self, token: Pair<'_>) -> Pending {
+    fn quantifier(&mut self, token: Pair<'_>) -> Result<Pending, Error> {
         let span = place(&token, self.at);
-        let mut all = false;
-        let mut names = Vec::new();
+        let (mut all, mut name, mut set) = (false, span, span);
+        let mut listed = Vec::new();
         for part in token.into_inner() {
             match part.as_rule() {
                 Rule::word_all => all = true,
-                Rule::identifier => names.push(place(&part, self.at)),
+                Rule::identifier => name = place(&part, self.at),
+                Rule::set => {
+                    set = place(&part, self.at);
+                    let elements = part.into_inner().filter(|part| part.as_rule() == Rule::element);
+                    listed = elements.map(|part| self.element(&part)).collect::<Result<_, _>>()?;
+                }
                 _ => {}
             }
         }
-        let name = |i| names.get(i).copied().unwrap_or(span);
-        Pending::Quantifier { all, name: name(0), set: name(1), span }
+        let elements = self.ast.push_arguments(&listed);
+        Ok(Pending::Quantifier { all, name, set, elements: (elements.start, elements.end), span })
+    }
+
+    /// An element of a listed set.
+    fn element(&mut self, element: &Pair<'_>) -> Result<NodeId, Error> {
+        let span = place(element, self.at);
+        let node = match element.as_str().starts_with(|c: char| c.is_ascii_digit()) {
+            true => Node::Number(number(element.as_str(), span)?),
+            false => Node::Name,
+        };
+        Ok(self.ast.push(node, span, span))
     }
 
     fn primary(&self, token: &Pair<'_>, span: Span) -> Result<Node, Error> {
@@ -256,10 +273,11 @@ impl Yard<'_> {
                 let whole = self.outer(left).to(self.outer(right));
                 self.push(Node::Infix(op, left, right), whole, span);
             }
-            Some(Pending::Quantifier { all, name, set, span }) => {
+            Some(Pending::Quantifier { all, name, set, elements, span }) => {
                 let body = self.pop();
                 let whole = span.to(self.outer(body));
-                self.push(Node::Quantified { all, name, set, body }, whole, span);
+                let elements = elements.0..elements.1;
+                self.push(Node::Quantified { all, name, set, elements, body }, whole, span);
             }
             _ => {}
         }

@@ -118,15 +118,17 @@ fn declarations(
 fn field_type(pair: Pair<'_>, at: usize) -> FieldType {
     let span = place(&pair, at);
     let mut name = Span::default();
+    let mut optional = false;
     let mut lengths = Vec::new();
     for part in pair.into_inner() {
         match part.as_rule() {
-            Rule::identifier => name = place(&part, at),
+            Rule::path => name = place(&part, at),
+            Rule::optional => optional = true,
             Rule::array_close => lengths.extend(part.into_inner().map(|part| place(&part, at))),
             _ => {}
         }
     }
-    FieldType { name, lengths, span }
+    FieldType { name, optional, lengths, span }
 }
 
 /// Refuses an operator's word as a declared name.

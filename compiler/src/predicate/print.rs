@@ -2,58 +2,67 @@
 
 use std::fmt;
 
-use super::{Arena, Condition, ConditionId, Number, PredicateId, Term, TermId};
+use super::{Arena, Arguments, Condition, ConditionId, Module, Number, Predicate, PredicateId};
+use super::{Step, Term, TermId};
 use crate::ast::{Arithmetic, Prefix};
 
-/// A condition that can be printed.
+/// A condition or a term that can be printed.
 pub struct Printed<'a> {
     arena: &'a Arena,
-    root: ConditionId,
+    predicates: &'a [Predicate],
+    root: Piece,
 }
 
 /// What is still to be printed; the number is how tightly the surroundings bind.
+#[derive(Clone)]
 enum Piece {
     Condition(ConditionId, u8),
     Term(TermId, u8),
-    Predicate(PredicateId),
     Text(&'static str),
+    Word(String),
 }
 
-impl Arena {
-    /// The condition `root` as text. Other predicates are `#` and a number: they have names in the
-    /// module only.
+impl Module {
+    /// The condition `root` as text.
     #[must_use]
     pub fn display(&self, root: ConditionId) -> Printed<'_> {
-        Printed { arena: self, root }
+        self.printed(Piece::Condition(root, 0))
+    }
+
+    /// The term `root` as text.
+    #[must_use]
+    pub fn display_term(&self, root: TermId) -> Printed<'_> {
+        self.printed(Piece::Term(root, 0))
+    }
+
+    fn printed(&self, root: Piece) -> Printed<'_> {
+        Printed { arena: &self.arena, predicates: &self.predicates, root }
     }
 }
 
 impl fmt::Display for Printed<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut open = vec![Piece::Condition(self.root, 0)];
+        let mut open = vec![self.root.clone()];
         while let Some(piece) = open.pop() {
-            let pieces = match piece {
+            let (level, outer, pieces) = match piece {
                 Piece::Text(text) => {
                     f.write_str(text)?;
                     continue;
                 }
-                Piece::Predicate(id) => {
-                    write!(f, "#{}", id.0)?;
+                Piece::Word(text) => {
+                    f.write_str(&text)?;
                     continue;
                 }
                 Piece::Condition(id, outer) => {
-                    let condition = self.arena.condition(id);
-                    let (level, pieces) = condition_pieces(condition, f)?;
-                    bracketed(level < outer, pieces)
+                    let (level, pieces) = self.condition(self.arena.condition(id));
+                    (level, outer, pieces)
                 }
                 Piece::Term(id, outer) => {
-                    let term = self.arena.term(id);
-                    // A bracket goes before what a leaf writes at once; leaves bind most tightly.
-                    let (level, pieces) = term_pieces(term, f)?;
-                    bracketed(level < outer, pieces)
+                    let (level, pieces) = self.term(self.arena.term(id));
+                    (level, outer, pieces)
                 }
             };
-            open.extend(pieces.into_iter().rev());
+            open.extend(bracketed(level < outer, pieces).into_iter().rev());
         }
         Ok(())
     }
@@ -67,60 +76,91 @@ fn bracketed(brackets: bool, mut pieces: Vec<Piece>) -> Vec<Piece> {
     pieces
 }
 
-fn condition_pieces(
-    condition: &Condition,
-    f: &mut fmt::Formatter<'_>,
-) -> Result<(u8, Vec<Piece>), fmt::Error> {
-    use Piece::{Predicate, Text};
-    let between = |a, symbol, b, level| {
-        let space = || Text(" ");
-        vec![Piece::Condition(a, level), space(), Text(symbol), space(), Piece::Condition(b, level)]
-    };
-    Ok(match condition {
-        Condition::Truth(value) => (9, vec![Text(if *value { "true" } else { "false" })]),
-        Condition::Not(a) => (5, vec![Text("!"), Piece::Condition(*a, 9)]),
-        Condition::And(a, b) => (3, between(*a, "&&", *b, 3)),
-        Condition::Or(a, b) => (2, between(*a, "||", *b, 2)),
-        Condition::Compare(op, a, b) => {
-            let space = || Text(" ");
-            (6, vec![Piece::Term(*a, 7), space(), Text(op.symbol()), space(), Piece::Term(*b, 7)])
+impl Printed<'_> {
+    fn condition(&self, condition: &Condition) -> (u8, Vec<Piece>) {
+        use Piece::{Text, Word};
+        let between = |a, symbol, b, level| {
+            let (a, b) = (Piece::Condition(a, level), Piece::Condition(b, level));
+            vec![a, Text(" "), Text(symbol), Text(" "), b]
+        };
+        match condition {
+            Condition::Truth(value) => (9, vec![Text(if *value { "true" } else { "false" })]),
+            Condition::Not(a) => (5, vec![Text("!"), Piece::Condition(*a, 9)]),
+            Condition::And(a, b) => (3, between(*a, "&&", *b, 3)),
+            Condition::Or(a, b) => (2, between(*a, "||", *b, 2)),
+            Condition::Compare(op, a, b) => {
+                let (a, b) = (Piece::Term(*a, 7), Piece::Term(*b, 7));
+                (6, vec![a, Text(" "), Text(op.symbol()), Text(" "), b])
+            }
+            Condition::Bool(term) => (9, vec![Piece::Term(*term, 9)]),
+            Condition::Is(predicate) => (9, vec![self.name(*predicate)]),
+            Condition::Apply { predicate, arguments, .. } => {
+                let mut pieces = vec![self.name(*predicate)];
+                for (i, argument) in arguments.iter().enumerate() {
+                    pieces.push(Text(if i == 0 { "(" } else { ", " }));
+                    pieces.push(Piece::Term(*argument, 0));
+                }
+                pieces.push(Text(")"));
+                (9, pieces)
+            }
+            Condition::Value { text, bindings, .. } => (9, vec![self.host(text, bindings)]),
+            Condition::Free(text) => (9, vec![Word(text.clone())]),
         }
-        Condition::Bool(term) => (9, vec![Piece::Term(*term, 9)]),
-        Condition::Is(predicate) => (9, vec![Predicate(*predicate)]),
-        Condition::Value { text, .. } | Condition::Free(text) => {
-            f.write_str(text)?;
-            (9, Vec::new())
+    }
+
+    fn name(&self, predicate: PredicateId) -> Piece {
+        Piece::Word(self.predicates[predicate.0 as usize].name.clone())
+    }
+
+    fn term(&self, term: &Term) -> (u8, Vec<Piece>) {
+        use Piece::{Term as Inner, Text, Word};
+        match term {
+            Term::Number(Number(value)) => (12, vec![Word(value.to_string())]),
+            Term::Variable(name) | Term::Variant { name, .. } | Term::Parameter { name, .. } => {
+                (12, vec![Word(name.clone())])
+            }
+            Term::Absent => (12, vec![Text("none")]),
+            Term::Host { text, bindings, .. } => (12, vec![self.host(text, bindings)]),
+            Term::Place { steps, .. } => (12, place(steps)),
+            Term::Negate(a) => (9, vec![Text(Prefix::Minus.symbol()), Inner(*a, 10)]),
+            Term::Calculate(op, a, b) => {
+                let level =
+                    if matches!(op, Arithmetic::Add | Arithmetic::Subtract) { 7 } else { 8 };
+                let symbol = Text(op.symbol());
+                (level, vec![Inner(*a, level), Text(" "), symbol, Text(" "), Inner(*b, level + 1)])
+            }
+            Term::Call(function, a, b) => {
+                let mut pieces = vec![Text(function.name()), Text("("), Inner(*a, 0)];
+                pieces.extend(b.iter().flat_map(|b| [Text(", "), Inner(*b, 0)]));
+                pieces.push(Text(")"));
+                (12, pieces)
+            }
         }
-    })
+    }
+
+    /// A Rust expression with what its parameters stand for.
+    fn host(&self, text: &str, bindings: &Arguments) -> Piece {
+        let print = |root| {
+            let root = Piece::Term(root, 0);
+            Printed { arena: self.arena, predicates: self.predicates, root }.to_string()
+        };
+        let words: Vec<_> =
+            bindings.iter().map(|(name, term)| (name.as_str(), print(*term))).collect();
+        Piece::Word(crate::parse::renamed(text, &words))
+    }
 }
 
-fn term_pieces(term: &Term, f: &mut fmt::Formatter<'_>) -> Result<(u8, Vec<Piece>), fmt::Error> {
-    use Piece::{Term as Inner, Text};
-    Ok(match term {
-        Term::Number(Number(value)) => {
-            write!(f, "{value}")?;
-            (12, Vec::new())
+fn place(steps: &[Step]) -> Vec<Piece> {
+    let mut pieces = Vec::new();
+    for (i, step) in steps.iter().enumerate() {
+        match step {
+            Step::Field(name) if i == 0 => pieces.push(Piece::Word(name.clone())),
+            Step::Field(name) => pieces.push(Piece::Word(format!(".{name}"))),
+            Step::Index(index) => pieces.push(Piece::Word(format!("[{index}]"))),
+            Step::Element(term) => {
+                pieces.extend([Piece::Text("["), Piece::Term(*term, 0), Piece::Text("]")]);
+            }
         }
-        Term::Variable(text) | Term::Host { text, .. } => {
-            f.write_str(text)?;
-            (12, Vec::new())
-        }
-        Term::Place { steps, .. } => {
-            let text: String = steps.iter().map(ToString::to_string).collect();
-            f.write_str(text.strip_prefix('.').unwrap_or(&text))?;
-            (12, Vec::new())
-        }
-        Term::Negate(a) => (9, vec![Text(Prefix::Minus.symbol()), Inner(*a, 10)]),
-        Term::Calculate(op, a, b) => {
-            let level = if matches!(op, Arithmetic::Add | Arithmetic::Subtract) { 7 } else { 8 };
-            let symbol = Text(op.symbol());
-            (level, vec![Inner(*a, level), Text(" "), symbol, Text(" "), Inner(*b, level + 1)])
-        }
-        Term::Call(function, a, b) => {
-            let mut pieces = vec![Text(function.name()), Text("("), Inner(*a, 0)];
-            pieces.extend(b.iter().flat_map(|b| [Text(", "), Inner(*b, 0)]));
-            pieces.push(Text(")"));
-            (12, pieces)
-        }
-    })
+    }
+    pieces
 }

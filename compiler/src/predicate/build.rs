@@ -1,0 +1,241 @@
+//! Conditions made of others, with what is constant folded, and arguments in the place of
+//! parameters.
+
+use std::collections::{BTreeSet, HashMap};
+
+use super::{Arena, Arguments, Condition, ConditionId, Number, Scalar, Step, Term, TermId};
+use super::{ParameterType, PredicateId};
+use crate::ast::Comparison;
+
+impl Arena {
+    /// ¬φ
+    pub fn not(&mut self, a: ConditionId) -> ConditionId {
+        let condition = match *self.condition(a) {
+            Condition::Truth(value) => Condition::Truth(!value),
+            Condition::Not(inner) => return inner,
+            Condition::Compare(op, left, right) => Condition::Compare(op.negated(), left, right),
+            _ => Condition::Not(a),
+        };
+        self.add_condition(condition)
+    }
+
+    /// φ ∧ ψ
+    pub fn and(&mut self, a: ConditionId, b: ConditionId) -> ConditionId {
+        match (self.condition(a), self.condition(b)) {
+            (Condition::Truth(true), _) | (_, Condition::Truth(false)) => b,
+            (Condition::Truth(false), _) | (_, Condition::Truth(true)) => a,
+            _ if a == b => a,
+            _ => self.add_condition(Condition::And(a, b)),
+        }
+    }
+
+    /// φ ∨ ψ
+    pub fn or(&mut self, a: ConditionId, b: ConditionId) -> ConditionId {
+        match (self.condition(a), self.condition(b)) {
+            (Condition::Truth(true), _) | (_, Condition::Truth(false)) => a,
+            (Condition::Truth(false), _) | (_, Condition::Truth(true)) => b,
+            _ if a == b => a,
+            _ => self.add_condition(Condition::Or(a, b)),
+        }
+    }
+
+    /// One comparison, what varies on the left.
+    pub fn compare(&mut self, op: Comparison, left: TermId, right: TermId) -> ConditionId {
+        let condition = match (self.fixed(left), self.fixed(right)) {
+            (Some(x), Some(y)) => Condition::Truth(op.holds(x, y)),
+            (Some(_), None) => Condition::Compare(op.mirrored(), right, left),
+            _ => Condition::Compare(op, left, right),
+        };
+        self.add_condition(condition)
+    }
+
+    /// A predicate with arguments, whose condition with these arguments is `meaning`.
+    pub fn apply(
+        &mut self,
+        predicate: PredicateId,
+        arguments: Vec<TermId>,
+        meaning: ConditionId,
+    ) -> ConditionId {
+        match self.condition(meaning) {
+            Condition::Truth(_) => meaning,
+            _ => self.add_condition(Condition::Apply { predicate, arguments, meaning }),
+        }
+    }
+
+    /// The number that stands for a term that depends on nothing: its value, or its place in its
+    /// enumeration.
+    fn fixed(&self, id: TermId) -> Option<f64> {
+        match self.term(id) {
+            Term::Number(Number(value)) => Some(*value),
+            Term::Variant { number, .. } => Some(f64::from(*number)),
+            Term::Absent => Some(-1.0),
+            _ => None,
+        }
+    }
+
+    /// Whether a term is a value that can only be equal to another or not, rather than a number.
+    #[must_use]
+    pub fn is_value(&self, id: TermId) -> bool {
+        match self.term(id) {
+            Term::Variant { .. } | Term::Absent | Term::Host { value: true, .. } => true,
+            Term::Place { scalar, .. } => matches!(scalar, Scalar::Enum { .. }),
+            Term::Parameter { ty, .. } => !matches!(ty, ParameterType::Scalar(Scalar::Number(_))),
+            _ => false,
+        }
+    }
+
+    /// The condition `root` with `arguments` in the place of the parameters of these names.
+    pub fn substitute(&mut self, root: ConditionId, arguments: &Arguments) -> ConditionId {
+        let mut conditions: HashMap<ConditionId, ConditionId> = HashMap::new();
+        for id in self.needed(root) {
+            let condition = self.condition(id).clone();
+            let new = self.substituted(id, condition, &conditions, arguments);
+            conditions.insert(id, new);
+        }
+        conditions[&root]
+    }
+
+    /// The conditions that `root` is made of, operands first.
+    fn needed(&self, root: ConditionId) -> BTreeSet<ConditionId> {
+        let mut needed = BTreeSet::new();
+        let mut open = vec![root];
+        while let Some(id) = open.pop() {
+            if needed.insert(id) {
+                match *self.condition(id) {
+                    Condition::Not(a) | Condition::Apply { meaning: a, .. } => open.push(a),
+                    Condition::And(a, b) | Condition::Or(a, b) => open.extend([a, b]),
+                    _ => {}
+                }
+            }
+        }
+        needed
+    }
+
+    fn substituted(
+        &mut self,
+        id: ConditionId,
+        condition: Condition,
+        done: &HashMap<ConditionId, ConditionId>,
+        arguments: &Arguments,
+    ) -> ConditionId {
+        match condition {
+            Condition::Truth(_) | Condition::Is(_) | Condition::Free(_) => id,
+            Condition::Not(a) => self.not(done[&a]),
+            Condition::And(a, b) => self.and(done[&a], done[&b]),
+            Condition::Or(a, b) => self.or(done[&a], done[&b]),
+            Condition::Compare(op, a, b) => {
+                let (a, b) = (self.replace(a, arguments), self.replace(b, arguments));
+                self.compare(op, a, b)
+            }
+            Condition::Bool(term) => {
+                let term = self.replace(term, arguments);
+                self.add_condition(Condition::Bool(term))
+            }
+            Condition::Value { text, span, bindings } => {
+                let bindings = self.rebound(bindings, arguments);
+                self.add_condition(Condition::Value { text, span, bindings })
+            }
+            Condition::Apply { predicate, arguments: old, meaning } => {
+                let new = old.into_iter().map(|term| self.replace(term, arguments)).collect();
+                self.apply(predicate, new, done[&meaning])
+            }
+        }
+    }
+
+    /// The term `root` with `arguments` in the place of the parameters of these names.
+    pub fn replace(&mut self, root: TermId, arguments: &Arguments) -> TermId {
+        let mut needed = BTreeSet::new();
+        let mut open = vec![root];
+        while let Some(id) = open.pop() {
+            if needed.insert(id) {
+                open.extend(self.term(id).operands());
+            }
+        }
+        let mut done: HashMap<TermId, TermId> = HashMap::new();
+        for id in needed {
+            let new = self.replaced(id, &done, arguments);
+            done.insert(id, new);
+        }
+        done[&root]
+    }
+
+    fn replaced(
+        &mut self,
+        id: TermId,
+        done: &HashMap<TermId, TermId>,
+        arguments: &Arguments,
+    ) -> TermId {
+        let term = match self.term(id).clone() {
+            Term::Parameter { name, .. } => {
+                let argument = arguments.iter().find(|(known, _)| *known == name);
+                return argument.map_or(id, |(_, term)| *term);
+            }
+            Term::Place { mut steps, scalar } => {
+                for step in &mut steps {
+                    if let Step::Element(index) = step {
+                        *index = done[index];
+                    }
+                }
+                Term::Place { steps, scalar }
+            }
+            Term::Host { text, span, bindings, value } => {
+                let bindings = bindings.into_iter().map(|(name, term)| (name, done[&term]));
+                Term::Host { text, span, bindings: bindings.collect(), value }
+            }
+            Term::Negate(a) => return self.folded(Term::Negate(done[&a])),
+            Term::Calculate(op, a, b) => {
+                return self.folded(Term::Calculate(op, done[&a], done[&b]));
+            }
+            Term::Call(function, a, b) => {
+                return self.folded(Term::Call(function, done[&a], b.map(|b| done[&b])));
+            }
+            _ => return id,
+        };
+        self.add_term(term)
+    }
+
+    /// A calculation, or its value if that is known and finite.
+    fn folded(&mut self, term: Term) -> TermId {
+        let value = match term {
+            Term::Negate(a) => self.constant(a).map(|value| -value),
+            Term::Calculate(op, a, b) => {
+                self.constant(a).zip(self.constant(b)).map(|(x, y)| op.value(x, y))
+            }
+            Term::Call(function, a, b) => {
+                let y = b.map_or(Some(0.0), |b| self.constant(b));
+                self.constant(a).zip(y).map(|(x, y)| function.value(x, y))
+            }
+            _ => None,
+        };
+        match value.filter(|value| value.is_finite()) {
+            Some(value) => self.add_term(Term::Number(Number(value + 0.0))),
+            None => self.add_term(term),
+        }
+    }
+
+    fn rebound(&mut self, bindings: Arguments, arguments: &Arguments) -> Arguments {
+        let replace = |(name, term)| (name, self.replace(term, arguments));
+        bindings.into_iter().map(replace).collect()
+    }
+}
+
+impl Term {
+    /// The terms that it is made of.
+    #[must_use]
+    pub fn operands(&self) -> Vec<TermId> {
+        match self {
+            Self::Negate(a) => vec![*a],
+            Self::Calculate(_, a, b) => vec![*a, *b],
+            Self::Call(_, a, b) => std::iter::once(*a).chain(*b).collect(),
+            Self::Host { bindings, .. } => bindings.iter().map(|(_, term)| *term).collect(),
+            Self::Place { steps, .. } => {
+                let index = |step: &Step| match step {
+                    Step::Element(term) => Some(*term),
+                    _ => None,
+                };
+                steps.iter().filter_map(index).collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+}

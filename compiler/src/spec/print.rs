@@ -1,0 +1,156 @@
+//! Formulas as text, with the brackets that a reader wants: `U` and `T` are never mixed without
+//! them, and a comparison stands in them wherever an operator binds it.
+
+use std::fmt;
+
+use super::{Formula, FormulaId, Spec};
+
+/// A formula of a [`Spec`] that can be printed.
+pub struct Printed<'a> {
+    spec: &'a Spec,
+    root: FormulaId,
+}
+
+/// What is still to be printed.
+enum Piece {
+    Formula(FormulaId),
+    Text(&'static str),
+}
+
+/// How tightly an operator binds.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Level {
+    Or,
+    And,
+    Until,
+    Then,
+    Prefix,
+    Comparison,
+    Name,
+}
+
+impl Spec {
+    /// The formula `root` as text; reading it gives a formula that means the same.
+    #[must_use]
+    pub fn display(&self, root: FormulaId) -> Printed<'_> {
+        Printed { spec: self, root }
+    }
+
+    fn level(&self, id: FormulaId) -> Level {
+        match self.formula(id) {
+            Formula::True | Formula::False => Level::Name,
+            Formula::Literal { negated: true, .. } => Level::Prefix,
+            Formula::Literal { proposition, .. } if self.is_compound(proposition) => {
+                Level::Comparison
+            }
+            Formula::Literal { .. } => Level::Name,
+            Formula::And(..) => Level::And,
+            Formula::Or(..) => Level::Or,
+            Formula::Next(_) | Formula::Eventually(_) => Level::Prefix,
+            Formula::Until(..) => Level::Until,
+            Formula::Then(..) => Level::Then,
+        }
+    }
+
+    /// Whether the name of a proposition is a comparison rather than one word.
+    fn is_compound(&self, proposition: u32) -> bool {
+        let name = &self.propositions()[proposition as usize];
+        ["<", ">", "==", "!="].iter().any(|symbol| name.contains(symbol))
+    }
+
+    /// ψ of a ◇ψ.
+    fn goal(&self, id: FormulaId) -> FormulaId {
+        match self.formula(id) {
+            Formula::Eventually(a) => a,
+            _ => id,
+        }
+    }
+}
+
+impl fmt::Display for Spec {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.display(self.root()).fmt(f)
+    }
+}
+
+impl fmt::Display for Printed<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut open = vec![Piece::Formula(self.root)];
+        while let Some(piece) = open.pop() {
+            match piece {
+                Piece::Text(text) => f.write_str(text)?,
+                Piece::Formula(id) => match self.spec.formula(id) {
+                    Formula::True => f.write_str("true")?,
+                    Formula::False => f.write_str("false")?,
+                    Formula::Literal { proposition, negated } => {
+                        self.literal(proposition, negated, f)?;
+                    }
+                    formula => open.extend(self.pieces(formula).into_iter().rev()),
+                },
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Printed<'_> {
+    fn literal(&self, proposition: u32, negated: bool, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let name = &self.spec.propositions()[proposition as usize];
+        match (negated, self.spec.is_compound(proposition)) {
+            (true, true) => write!(f, "!({name})"),
+            (true, false) => write!(f, "!{name}"),
+            (false, _) => f.write_str(name),
+        }
+    }
+
+    /// The pieces of an operator and its operands, in order.
+    fn pieces(&self, formula: Formula) -> Vec<Piece> {
+        use Level::{And, Or};
+        match formula {
+            Formula::And(a, b) => self.between(a, " && ", b, And),
+            Formula::Or(a, b) => self.between(a, " || ", b, Or),
+            Formula::Until(a, b) => self.ordered(a, " U ", b, Level::Until),
+            Formula::Then(a, b) => self.ordered(a, " T ", self.spec.goal(b), Level::Then),
+            Formula::Next(a) => self.after("X ", a),
+            Formula::Eventually(a) => self.after("F ", a),
+            // A leaf has no pieces: it is written at once.
+            Formula::True | Formula::False | Formula::Literal { .. } => Vec::new(),
+        }
+    }
+
+    /// `a && b` or `a || b`: other operators between two operands stand in brackets.
+    fn between(&self, a: FormulaId, symbol: &'static str, b: FormulaId, own: Level) -> Vec<Piece> {
+        let brackets = |id| {
+            let level = self.spec.level(id);
+            level < Level::Prefix && level != own
+        };
+        let mut pieces = self.operand(a, brackets(a));
+        pieces.push(Piece::Text(symbol));
+        pieces.extend(self.operand(b, brackets(b)));
+        pieces
+    }
+
+    /// `a U b` or `a T b`: a chain of one of the two needs no brackets on the right.
+    fn ordered(&self, a: FormulaId, symbol: &'static str, b: FormulaId, own: Level) -> Vec<Piece> {
+        let loose = |level: Level| level < Level::Prefix || level == Level::Comparison;
+        let mut pieces = self.operand(a, loose(self.spec.level(a)));
+        pieces.push(Piece::Text(symbol));
+        let level = self.spec.level(b);
+        pieces.extend(self.operand(b, loose(level) && level != own));
+        pieces
+    }
+
+    fn after(&self, symbol: &'static str, a: FormulaId) -> Vec<Piece> {
+        let level = self.spec.level(a);
+        let mut pieces = vec![Piece::Text(symbol)];
+        pieces.extend(self.operand(a, level < Level::Prefix || level == Level::Comparison));
+        pieces
+    }
+
+    fn operand(&self, id: FormulaId, brackets: bool) -> Vec<Piece> {
+        match brackets {
+            true => vec![Piece::Text("("), Piece::Formula(id), Piece::Text(")")],
+            false => vec![Piece::Formula(id)],
+        }
+    }
+}
