@@ -259,23 +259,39 @@ impl<'a> Guards<'a> {
     /// ψ_{q,to}: when `q` moves to `to`. Literals are `(proposition, value)`, by rising
     /// proposition.
     pub fn edge(&mut self, q: State, to: State) -> Vec<Cube> {
-        self.cubes(q, &|leaf| leaf == to)
+        self.cubes(q, &|leaf| leaf == to, usize::MAX).unwrap_or_default()
     }
 
     /// D_φ^q: when `q` moves to another state that is not the trap (paper, Eq. 3A3).
     pub fn progress(&mut self, q: State) -> Vec<Cube> {
         let trap = self.dfa.trap;
-        self.cubes(q, &|leaf| leaf != q && Some(leaf) != trap)
+        self.cubes(q, &|leaf| leaf != q && Some(leaf) != trap, usize::MAX).unwrap_or_default()
     }
 
-    fn cubes(&mut self, q: State, select: &dyn Fn(State) -> bool) -> Vec<Cube> {
+    /// Whether no guard has more than `most` products.
+    pub fn are_below(&mut self, most: usize) -> bool {
+        let dfa = self.dfa;
+        dfa.states().all(|q| {
+            let progress = |leaf| leaf != q && Some(leaf) != dfa.trap;
+            let mut successors = dfa.successors(q).into_iter();
+            successors.all(|to| self.cubes(q, &|leaf| leaf == to, most).is_some())
+                && self.cubes(q, &progress, most).is_some()
+        })
+    }
+
+    fn cubes(
+        &mut self,
+        q: State,
+        select: &dyn Fn(State) -> bool,
+        most: usize,
+    ) -> Option<Vec<Cube>> {
         let when = self.when(self.dfa.transitions[q as usize], select);
         let lower = self.store.and(when, self.possible);
         let impossible = self.store.not(self.possible);
         let upper = self.store.or(when, impossible);
-        let mut cubes = self.store.sum_of_products(lower, upper);
+        let mut cubes = self.store.sum_of_products(lower, upper, most)?;
         cubes.sort_by_key(|cube| cube.iter().map(|&(p, value)| (p, !value)).collect::<Vec<_>>());
-        cubes
+        Some(cubes)
     }
 
     /// The letters under which a target leads to a selected state; levels are propositions.

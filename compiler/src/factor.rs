@@ -11,7 +11,7 @@ use crate::spec::{Formula, FormulaId, Spec};
 use crate::translate::{Budget, Exceeded, translate};
 
 /// What the joint automaton of conjuncts that share propositions may need.
-pub const PART: Budget = Budget { states: 256, nodes: 1 << 16, edges: 1 << 12 };
+pub const PART: Budget = Budget { states: 256, nodes: 1 << 16, ..Budget::EMITTED };
 
 /// One part: its formula, and the propositions of the whole that its own ones are.
 #[derive(Clone, Debug)]

@@ -61,6 +61,8 @@ pub struct Store {
     unique: Vec<u32>,
     /// Direct-mapped and lossy: a forgotten result is computed again.
     known: Vec<Known>,
+    /// The number of nodes beyond which nothing is computed any more.
+    limit: usize,
 }
 
 impl Default for Store {
@@ -70,6 +72,7 @@ impl Default for Store {
             nodes: vec![leaf(Guard::FALSE), leaf(Guard::TRUE)],
             unique: Vec::new(),
             known: Vec::new(),
+            limit: usize::MAX,
         };
         store.grow();
         store
@@ -79,6 +82,19 @@ impl Default for Store {
 impl Store {
     /// The number of levels up to which no operation runs out of stack.
     pub const MAX_LEVELS: u32 = 4096;
+
+    /// A store that stops growing soon after `limit` nodes: from then on, results are arbitrary and
+    /// [`is_exhausted`](Self::is_exhausted) says so. No single operation can run away.
+    #[must_use]
+    pub fn with_limit(limit: usize) -> Self {
+        Self { limit, ..Self::default() }
+    }
+
+    /// Whether the limit has been passed, and results are arbitrary.
+    #[must_use]
+    pub fn is_exhausted(&self) -> bool {
+        self.nodes.len() > self.limit
+    }
 
     /// The number of nodes made so far, the two constants included.
     #[must_use]
@@ -200,6 +216,9 @@ impl Store {
         if known.operation == operation && known.a == a && known.b == b {
             return known.result;
         }
+        if self.is_exhausted() {
+            return Guard::FALSE;
+        }
         let level = self.level(a).min(self.level(b));
         let (a0, a1) = self.split(a, level);
         let (b0, b1) = self.split(b, level);
@@ -221,56 +240,103 @@ impl Store {
     }
 
     /// An irredundant sum of products between `lower` and `upper` (Minato and Morreale): every
-    /// cube is needed and no literal can be dropped. `lower` must imply `upper`. Cubes that need
-    /// their first level false come first, then true, then those that do not ask it; so the form
-    /// is a function of the two bounds and the order of the levels alone.
-    pub fn sum_of_products(&mut self, lower: Guard, upper: Guard) -> Vec<Cube> {
-        let mut covers = FxHashMap::default();
-        let mut cubes = self.cover(lower, upper, &mut covers).1;
-        cubes.iter_mut().for_each(|cube| cube.reverse());
-        cubes
-    }
-
-    /// The covered function and its cubes, literals by falling level.
-    fn cover(
+    /// cube is needed and no literal can be dropped. `lower` must imply `upper`. The form is a
+    /// function of the two bounds and the order of the levels alone. `None` if it has more than
+    /// `most` cubes; they are counted before they are written out.
+    pub fn sum_of_products(
         &mut self,
         lower: Guard,
         upper: Guard,
-        covers: &mut FxHashMap<(Guard, Guard), (Guard, Vec<Cube>)>,
-    ) -> (Guard, Vec<Cube>) {
+        most: usize,
+    ) -> Option<Vec<Cube>> {
+        let mut covers = Covers::default();
+        let root = self.cover(lower, upper, &mut covers).1;
+        if covers.count(root) > most {
+            return None;
+        }
+        let mut cubes = Vec::new();
+        covers.write(root, &mut Cube::new(), &mut cubes);
+        Some(cubes)
+    }
+
+    /// The covered function and its cubes.
+    fn cover(&mut self, lower: Guard, upper: Guard, covers: &mut Covers) -> (Guard, u32) {
         if lower == Guard::FALSE {
-            return (Guard::FALSE, Vec::new());
+            return (Guard::FALSE, Covers::NONE);
         }
         if upper == Guard::TRUE {
-            return (Guard::TRUE, vec![Cube::new()]);
+            return (Guard::TRUE, Covers::EMPTY_CUBE);
         }
-        if let Some(cover) = covers.get(&(lower, upper)) {
-            return cover.clone();
+        if let Some(&known) = covers.known.get(&(lower, upper)) {
+            return known;
         }
         let level = self.level(lower).min(self.level(upper));
         let (lower0, lower1) = self.split(lower, level);
         let (upper0, upper1) = self.split(upper, level);
         let only0 = self.minus(lower0, upper1);
         let only1 = self.minus(lower1, upper0);
-        let (covered0, cubes0) = self.cover(only0, upper0, covers);
-        let (covered1, cubes1) = self.cover(only1, upper1, covers);
+        let (covered0, low) = self.cover(only0, upper0, covers);
+        let (covered1, high) = self.cover(only1, upper1, covers);
         let rest0 = self.minus(lower0, covered0);
         let rest1 = self.minus(lower1, covered1);
         let rest = self.or(rest0, rest1);
         let both = self.and(upper0, upper1);
-        let (covered, cubes) = self.cover(rest, both, covers);
-        let with = |value| {
-            move |mut cube: Cube| {
-                cube.push((level, value));
-                cube
-            }
-        };
-        let all = cubes0.into_iter().map(with(false));
-        let all = all.chain(cubes1.into_iter().map(with(true))).chain(cubes).collect();
-        let (low, high) = (self.or(covered0, covered), self.or(covered1, covered));
-        let cover = (self.node(level, low, high), all);
-        covers.insert((lower, upper), cover.clone());
+        let (covered, rest) = self.cover(rest, both, covers);
+        let (under0, under1) = (self.or(covered0, covered), self.or(covered1, covered));
+        let cover = (self.node(level, under0, under1), covers.add(level, low, high, rest));
+        covers.known.insert((lower, upper), cover);
         cover
+    }
+}
+
+/// Sets of cubes that share their parts: those that ask a level false, true, or not at all.
+#[derive(Default)]
+struct Covers {
+    known: FxHashMap<(Guard, Guard), (Guard, u32)>,
+    sets: Vec<CubeSet>,
+}
+
+struct CubeSet {
+    level: u32,
+    low: u32,
+    high: u32,
+    rest: u32,
+    /// How many cubes, saturating.
+    count: usize,
+}
+
+impl Covers {
+    const NONE: u32 = 0;
+    const EMPTY_CUBE: u32 = 1;
+
+    fn add(&mut self, level: u32, low: u32, high: u32, rest: u32) -> u32 {
+        let counts = [low, high, rest].map(|set| self.count(set));
+        let count = counts.into_iter().fold(0, usize::saturating_add);
+        self.sets.push(CubeSet { level, low, high, rest, count });
+        self.sets.len() as u32 + 1
+    }
+
+    fn count(&self, set: u32) -> usize {
+        match set {
+            Self::NONE | Self::EMPTY_CUBE => set as usize,
+            _ => self.sets[set as usize - 2].count,
+        }
+    }
+
+    fn write(&self, set: u32, prefix: &mut Cube, cubes: &mut Vec<Cube>) {
+        match set {
+            Self::NONE => {}
+            Self::EMPTY_CUBE => cubes.push(prefix.clone()),
+            _ => {
+                let CubeSet { level, low, high, rest, .. } = self.sets[set as usize - 2];
+                for (value, set) in [(false, low), (true, high)] {
+                    prefix.push((level, value));
+                    self.write(set, prefix, cubes);
+                    prefix.pop();
+                }
+                self.write(rest, prefix, cubes);
+            }
+        }
     }
 }
 

@@ -30,16 +30,20 @@ pub struct Budget {
     pub nodes: usize,
     /// Edges of the minimal automaton, each of which gets a guard where it is written out.
     pub edges: usize,
+    /// Products of one guard.
+    pub products: usize,
 }
 
 impl Budget {
     /// For what becomes Rust: 16,384 states, about a million nodes and 16,384 edges, which is a
     /// second in an unoptimised macro and two megabytes of generated code.
-    pub const EMITTED: Self = Self { states: 1 << 14, nodes: 1 << 20, edges: 1 << 14 };
+    pub const EMITTED: Self =
+        Self { states: 1 << 14, nodes: 1 << 20, edges: 1 << 14, products: 1 << 12 };
 
-    /// For what is only looked at: a million states, fifty million nodes and any number of edges,
-    /// which is a minute and a few gigabytes.
-    pub const SHOWN: Self = Self { states: 1_000_000, nodes: 50_000_000, edges: usize::MAX };
+    /// For what is only looked at: a million states, fifty million nodes, any number of edges
+    /// and 65,536 products of one guard, which is a minute and a few gigabytes.
+    pub const SHOWN: Self =
+        Self { states: 1_000_000, nodes: 50_000_000, edges: usize::MAX, products: 1 << 16 };
 }
 
 impl Default for Budget {
@@ -52,7 +56,8 @@ impl Default for Budget {
 /// A formula needs more than the [`Budget`] allows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Exceeded {
-    /// What ran out, as words: "states", "nodes", "operators" or "edges".
+    /// What ran out, as words: "states", "nodes", "operators", "edges" or
+    /// "products of one guard".
     pub what: &'static str,
     /// How many were allowed.
     pub limit: usize,
@@ -96,7 +101,7 @@ impl<'a> Translation<'a> {
         let mut translation = Self {
             spec,
             budget,
-            store: Store::default(),
+            store: Store::with_limit(budget.nodes),
             propositions: spec.propositions().len() as u32,
             level: vec![u32::MAX; spec.formulas().len()],
             obligations: Vec::new(),
