@@ -6,9 +6,9 @@ use std::fmt::Write;
 use proptest::prelude::*;
 use tltl_compiler::ast::{Ast, ItemKind};
 use tltl_compiler::check;
-use tltl_compiler::compile;
+use tltl_compiler::compile::{self, Compiled};
 use tltl_compiler::diff::{Difference, diff};
-use tltl_compiler::error::{Errors, Style};
+use tltl_compiler::error::{Error, Errors, Style};
 use tltl_compiler::parse;
 use tltl_compiler::predicate::Module;
 use tltl_compiler::source::Source;
@@ -23,13 +23,24 @@ fn checked(mode: &str, source: &Source) -> Result<Module, Errors> {
     }
 }
 
+fn compiled(mode: &str, source: &Source) -> Result<Compiled, Errors> {
+    let budget = Budget { states: 1_000, ..Budget::default() };
+    match mode {
+        "formula" => compile::formula(source, budget),
+        "file" => compile::file(source, budget),
+        _ => compile::fragment(source, budget),
+    }
+}
+
 /// The errors of a source, or its warnings.
 fn report(mode: &str, source: &Source) -> String {
-    match checked(mode, source) {
+    match compiled(mode, source) {
         Err(errors) => errors.render(source, Style::Plain),
-        Ok(module) => {
-            let warnings = module.warnings.iter();
-            warnings.map(|warning| warning.render(source, Style::Plain)).collect()
+        Ok(compiled) => {
+            let mut warnings = [compiled.warnings.clone(), compiled.advice()].concat();
+            warnings.sort_by_key(Error::span);
+            let told = warnings.iter().map(|warning| warning.render(source, Style::Plain));
+            told.collect::<Vec<_>>().join("\n")
         }
     }
 }

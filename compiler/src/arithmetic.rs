@@ -22,7 +22,7 @@ use rustc_hash::FxHashMap;
 
 use crate::dfa::{Dfa, Diagram, Target};
 use crate::guard::{Guard, Store};
-use crate::predicate::{ConditionId, Module, Task};
+use crate::predicate::{ConditionId, Module, PredicateId, Task};
 
 use relation::Analysis;
 
@@ -40,12 +40,18 @@ pub struct Possible {
 /// The letters that can occur: those valuations of the task's propositions that some state has.
 #[must_use]
 pub fn possible(module: &Module, task: &Task) -> Possible {
+    let condition = |id: &PredicateId| module.predicates[id.0 as usize].condition;
+    let roots: Vec<ConditionId> = task.predicates.iter().map(condition).collect();
+    possible_conditions(module, &roots)
+}
+
+/// The valuations of some conditions, as propositions in this order, that some state has.
+#[must_use]
+pub fn possible_conditions(module: &Module, roots: &[ConditionId]) -> Possible {
     let analysis = Analysis::new(module);
-    let roots: Vec<ConditionId> =
-        task.predicates.iter().map(|id| module.predicates[id.0 as usize].condition).collect();
     let mut possible = Possible { store: Store::default(), letters: Guard::TRUE };
-    for component in analysis.components(&roots) {
-        if let Some(letters) = analysis.relate(&roots, &component, &mut possible.store) {
+    for component in analysis.components(roots) {
+        if let Some(letters) = analysis.relate(roots, &component, &mut possible.store) {
             possible.letters = possible.store.and(possible.letters, letters);
         }
     }
@@ -66,6 +72,20 @@ impl Possible {
         let yes = self.store.and(self.letters, holds);
         let no = self.store.minus(self.letters, holds);
         (yes != Guard::FALSE, no != Guard::FALSE)
+    }
+
+    /// Whether no letter has all of these values.
+    #[must_use]
+    pub fn excludes(&mut self, literals: &[(u32, bool)]) -> bool {
+        let mut letters = self.letters;
+        for &(proposition, value) in literals {
+            let holds = self.store.variable(proposition);
+            letters = match value {
+                true => self.store.and(letters, holds),
+                false => self.store.minus(letters, holds),
+            };
+        }
+        letters == Guard::FALSE
     }
 
     /// The automaton without the edges that only impossible letters take. States and the

@@ -1,9 +1,10 @@
 //! The pipeline: source to automata, in one place.
 
-use crate::arithmetic::{self, Possible};
+use crate::arithmetic;
 use crate::check;
-use crate::dfa::Dfa;
+use crate::dfa::{Dfa, Guards};
 use crate::error::{Error, Errors, Kind};
+use crate::judge;
 use crate::minimize::minimize;
 use crate::predicate::{Module, Task};
 use crate::source::{Source, Span};
@@ -54,6 +55,16 @@ pub fn fragment(source: &Source, budget: Budget) -> Result<Compiled, Errors> {
     check::fragment(source).and_then(|module| automata(module, budget))
 }
 
+impl Compiled {
+    /// Warnings that cost a search: parts of formulas that do not matter. Not part of compiling,
+    /// for the macros, which cannot warn, would search in vain.
+    #[must_use]
+    pub fn advice(&self) -> Vec<Error> {
+        let tasks = self.module.tasks.iter().zip(&self.automata);
+        tasks.flat_map(|(task, automata)| judge::vacuous(&self.module, task, automata)).collect()
+    }
+}
+
 fn automata(mut module: Module, budget: Budget) -> Result<Compiled, Errors> {
     let mut mistakes = std::mem::take(&mut module.warnings);
     let mut automata = Vec::new();
@@ -82,81 +93,47 @@ fn task_automata(
         possible.attach(&mut dfa);
         dfa
     };
-    check_edges(&dfa, budget)?;
-    judge_predicates(module, task, &mut possible, mistakes);
-    judge(task, &dfa, mistakes);
-    Ok(Automata { propositional, dfa })
-}
-
-/// A predicate that never holds, or always does, is surely a mistake; in a bare formula, which may
-/// be there to be explored, only a warning.
-fn judge_predicates(
-    module: &Module,
-    task: &Task,
-    possible: &mut Possible,
-    mistakes: &mut Vec<Error>,
-) {
-    for (proposition, &id) in (0..).zip(&task.predicates) {
-        let predicate = &module.predicates[id.0 as usize];
-        let name = &predicate.name;
-        let mistake = match possible.values(proposition) {
-            (true, true) => continue,
-            (false, _) => Error::new(
-                Kind::Unsatisfiable,
-                format!("the predicate `{name}` can never hold"),
-                predicate.span,
-            ),
-            (true, false) => Error::new(
-                Kind::Valid,
-                format!("the predicate `{name}` always holds"),
-                predicate.span,
-            )
-            .warning(),
-        };
-        let mistake = if task.name.is_none() { mistake.warning() } else { mistake };
+    check_size(&dfa, budget)?;
+    let automata = Automata { propositional, dfa };
+    for mistake in judge::task(module, task, &mut possible, &automata) {
         if !mistakes.contains(&mistake) {
             mistakes.push(mistake);
         }
     }
+    Ok(automata)
 }
 
-/// So is a formula that no trajectory satisfies, or every one.
-fn judge(task: &Task, dfa: &Dfa, mistakes: &mut Vec<Error>) {
-    let what = task.name.as_ref().map_or("the formula".to_owned(), |name| format!("task `{name}`"));
-    if dfa.accepting.is_none() {
-        let mistake =
-            Error::new(Kind::Unsatisfiable, format!("{what} can never be satisfied"), task.span)
-                .label("no trajectory satisfies this");
-        mistakes.push(if task.name.is_none() { mistake.warning() } else { mistake });
-    } else if dfa.accepting == Some(0) {
-        mistakes.push(
-            Error::new(Kind::Valid, format!("{what} is always satisfied"), task.span)
-                .label("every trajectory satisfies this")
-                .warning(),
-        );
-    }
-}
-
-/// Counts edges, but not far beyond the limit.
-fn check_edges(dfa: &Dfa, budget: Budget) -> Result<(), Exceeded> {
-    let limit = budget.edges;
-    if dfa.len().saturating_mul(dfa.len()) <= limit {
+/// Whether an automaton can be written out: counts edges and the products of their guards, but
+/// not far beyond the limits. Nothing to count where any number of edges will do.
+fn check_size(dfa: &Dfa, budget: Budget) -> Result<(), Exceeded> {
+    if budget.edges == usize::MAX {
         return Ok(());
     }
     let mut edges = 0;
     for &target in &dfa.transitions {
         edges += dfa.leaves(target).len();
-        if edges > limit {
-            return Err(Exceeded { what: "edges", limit });
+        if edges > budget.edges {
+            return Err(Exceeded { what: "edges", limit: budget.edges });
         }
     }
-    Ok(())
+    check_guards(dfa, budget)
+}
+
+/// Whether the guards of an automaton can be written out.
+///
+/// # Errors
+/// If one of them has more products than the budget allows.
+pub fn check_guards(dfa: &Dfa, budget: Budget) -> Result<(), Exceeded> {
+    let limit = budget.products;
+    let fits = Guards::new(dfa).are_below(limit);
+    if fits { Ok(()) } else { Err(Exceeded { what: "products of one guard", limit }) }
 }
 
 fn exceeds(task: &Task, budget: Budget, exceeded: Exceeded) -> Error {
     let Exceeded { what, limit } = exceeded;
     let name = task.name.as_ref().map_or("the formula".to_owned(), |name| format!("task `{name}`"));
-    let span = if what == "edges" { task.span } else { culprit(&task.spec, budget) };
+    let whole = matches!(what, "edges" | "products of one guard");
+    let span = if whole { task.span } else { culprit(&task.spec, budget) };
     Error::new(Kind::Budget, format!("the automaton of {name} needs more than {limit} {what}"), span)
         .label("this is what grows")
         .help("split the task into smaller ones and watch them side by side: n unordered goals are 2^n states as one task, and 2n as n tasks")

@@ -16,6 +16,7 @@ pub mod format;
 pub mod factor;
 pub mod guard;
 pub mod hoa;
+pub mod judge;
 pub mod linear;
 pub mod minimize;
 pub mod parse;

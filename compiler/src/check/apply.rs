@@ -76,6 +76,12 @@ impl Checker<'_> {
             .help(format!("write `{text}({})`", names.join(", ")))
     }
 
+    /// The error for a constant with arguments.
+    pub(super) fn called_number(&self, id: NodeId, callee: NodeId, item: usize) -> Option<Error> {
+        let constant = matches!(self.ast.items()[item].kind, ItemKind::Constant(_));
+        constant.then(|| self.miscounted(id, callee, item, 0)).flatten()
+    }
+
     fn miscounted(&self, id: NodeId, callee: NodeId, item: usize, found: usize) -> Option<Error> {
         let text = self.ast.quote(callee);
         let entry = &self.ast.items()[item];

@@ -181,9 +181,9 @@ impl Expansion<'_, '_> {
         let entry = self.from.entry(id);
         let Node::Quantified { all, name, set, ref elements, body } = entry.node else { return id };
         let (span, operator) = (entry.span, entry.operator);
-        if let Some(error) = self.refused(name, environment) {
-            self.mistakes.push(error);
-        }
+        let refused = self.refused(name, environment);
+        let taken = refused.is_some();
+        self.mistakes.extend(refused);
         let listed = self.from.arguments(elements).to_vec();
         let values = self.values(set, &listed, environment);
         let op = if all { Infix::And } else { Infix::Or };
@@ -193,7 +193,9 @@ impl Expansion<'_, '_> {
                 break;
             }
             let mut inner = Vec::clone(environment);
-            inner.push((self.from.source().slice(name).to_owned(), value));
+            if !taken {
+                inner.push((self.from.source().slice(name).to_owned(), value));
+            }
             let copy = self.copy(body, &Rc::new(inner));
             joined = Some(match joined {
                 None => copy,

@@ -158,7 +158,11 @@ impl Checker<'_> {
             }
         } else if let (Node::Name, Some(item)) = (self.ast.node(id), self.item(id)) {
             return self.number_item(id, item);
-        } else if let Some((_, item)) = self.applied(id) {
+        } else if let Some((callee, item)) = self.applied(id) {
+            if let Some(error) = self.called_number(id, callee, item) {
+                self.mistakes.push(error);
+                return None;
+            }
             return self.number_item(id, item);
         }
         if let Some(sort) = self.sort(id) {

@@ -46,7 +46,9 @@ pub(super) fn reported(
     report: Report,
 ) -> Result<Option<Compiled>, String> {
     if let Ok(compiled) = &result {
-        compiled.warnings.iter().try_for_each(|warning| show(source, warning, report))?;
+        let mut warnings = [compiled.warnings.clone(), compiled.advice()].concat();
+        warnings.sort_by_key(Error::span);
+        warnings.iter().try_for_each(|warning| show(source, warning, report))?;
     }
     judged(source, result, report)
 }
