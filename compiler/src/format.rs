@@ -96,7 +96,7 @@ impl<'a> Layout<'a> {
         let calls = before.ends_operand() && !before.is_operator_word();
         match token.text {
             _ if token.kind == Kind::Rust => !symbol("("),
-            "," | ";" | ":" => false,
+            "," | ";" | ":" | "?" => false,
             "." | "::" => false,
             ")" | "]" => false,
             "}" => closes_block && !symbol("{"),
