@@ -1,4 +1,6 @@
 //! The worlds of the examples, and the pictures that they draw.
 
+pub mod chart;
 pub mod figure;
 pub mod grid;
+pub mod study;

@@ -1,0 +1,147 @@
+//! What the studies share: layouts, families of specifications, judgement, where results go.
+
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::{fs, io};
+
+use tltl::augmented::End;
+use tltl::rand::{Rng, SeedableRng, rngs::Xoshiro256PlusPlus};
+use tltl::solve::Problem;
+use tltl::{Monitor, tltl};
+
+use crate::grid::{Cell, Grid};
+
+/// A task on the grid.
+pub type GridTask = Box<dyn Monitor<Cell> + Send + Sync>;
+
+/// The paper's goal cells.
+pub const PAPER: [Cell; 3] = [Cell { x: 2, y: 2 }, Cell { x: 5, y: 5 }, Cell { x: 2, y: 7 }];
+
+/// A predicate: positive at one cell, and the less the farther away.
+pub fn at(goal: Cell) -> impl Fn(&Cell) -> f64 + Copy + Send + Sync {
+    move |s| f64::from(1 - (s.x - goal.x).abs().max((s.y - goal.y).abs()))
+}
+
+/// Three different cells of the paper's grid, by a seed.
+#[must_use]
+pub fn layout(seed: u64) -> [Cell; 3] {
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
+    let mut cell = || Cell { x: (rng.next_u32() % 8) as i32, y: (rng.next_u32() % 10) as i32 };
+    loop {
+        let cells = [cell(), cell(), cell()];
+        if cells[0] != cells[1] && cells[0] != cells[2] && cells[1] != cells[2] {
+            return cells;
+        }
+    }
+}
+
+/// Two skills that are to be composed, and how they are written.
+pub struct Family {
+    /// The skills' formulas.
+    pub formulas: [&'static str; 2],
+    /// The skills for goal cells a, b, c.
+    pub skills: fn([Cell; 3]) -> [GridTask; 2],
+}
+
+/// The five families of specifications; the last three have traps.
+pub const FAMILIES: [Family; 5] = [
+    Family {
+        formulas: ["F a && F b", "F c"],
+        skills: |[a, b, c]| {
+            let (a, b, c) = (at(a), at(b), at(c));
+            [Box::new(tltl! { F a && F b }), Box::new(tltl! { F c })]
+        },
+    },
+    Family {
+        formulas: ["a T b", "F c"],
+        skills: |[a, b, c]| {
+            let (a, b, c) = (at(a), at(b), at(c));
+            [Box::new(tltl! { a T b }), Box::new(tltl! { F c })]
+        },
+    },
+    Family {
+        formulas: ["!c U a", "F b"],
+        skills: |[a, b, c]| {
+            let (a, b, c) = (at(a), at(b), at(c));
+            [Box::new(tltl! { !c U a }), Box::new(tltl! { F b })]
+        },
+    },
+    Family {
+        formulas: ["!c U a", "!c U b"],
+        skills: |[a, b, c]| {
+            let (a, b, c) = (at(a), at(b), at(c));
+            [Box::new(tltl! { !c U a }), Box::new(tltl! { !c U b })]
+        },
+    },
+    Family {
+        formulas: ["!b U a", "!c U b"],
+        skills: |[a, b, c]| {
+            let (a, b, c) = (at(a), at(b), at(c));
+            [Box::new(tltl! { !b U a }), Box::new(tltl! { !c U b })]
+        },
+    },
+];
+
+/// Expected steps of a policy where episodes are cut at `horizon`, over the starts, `s_0` read: the
+/// one number that a policy has that never succeeds.
+#[must_use]
+pub fn capped_steps(problem: &Problem<'_>, policy: &[u32], horizon: u32) -> f64 {
+    let (dynamics, task) = (problem.dynamics(), problem.labelled());
+    let mut now = vec![0.0; task.pairs()];
+    for (s, p) in dynamics.starts().iter().enumerate() {
+        now[task.pair(task.start(s), s)] += p;
+    }
+    let mut steps = 0.0;
+    for _ in 0..horizon {
+        let mut then = vec![0.0; task.pairs()];
+        for q in 0..task.automaton_states() {
+            // Where the task is satisfied, time stands still; where it is lost, it goes on.
+            if task.end(q) == Some(End::Accepted) {
+                continue;
+            }
+            for s in 0..task.states() {
+                let p = now[task.pair(q, s)];
+                if p > 0.0 {
+                    steps += p;
+                    let successors = dynamics.successors(s);
+                    let row = policy[task.pair(q, s)] as usize * successors.len();
+                    let row = &dynamics.matrix(s)[row..row + successors.len()];
+                    for (&to, chance) in successors.iter().zip(row) {
+                        let to = to as usize;
+                        then[task.pair(task.next(q, to), to)] += p * chance;
+                    }
+                }
+            }
+        }
+        now = then;
+    }
+    steps
+}
+
+/// The grid of all studies.
+pub const GRID: Grid = Grid::PAPER;
+
+/// Writes a result of a study under `docs/studies`, and says where.
+///
+/// # Errors
+/// If it cannot be written.
+pub fn publish(name: &str, content: &str) -> io::Result<()> {
+    let folder: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/studies");
+    fs::create_dir_all(&folder)?;
+    fs::write(folder.join(name), content)?;
+    writeln!(io::stdout(), "docs/studies/{name}")
+}
+
+/// Mean of some numbers.
+#[must_use]
+pub fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// The number below which a share of the values lies.
+#[must_use]
+pub fn quantile(values: &[f64], share: f64) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted[((sorted.len() - 1) as f64 * share).round() as usize]
+}

@@ -1,0 +1,144 @@
+//! Study (c): composing skills, on the paper's layout and on 100 random ones, for five families of
+//! specifications, three of them with traps.
+//!
+//! `cargo run --release --example study_composition` writes `docs/studies/composition.{md,jsonl}`.
+
+use std::fmt::Write as _;
+
+use indicatif::{ProgressBar, ProgressStyle};
+use tltl::augmented::{Labelled, Rewards};
+use tltl::compose::{Combine, Composition, Skill};
+use tltl::env::ModelEnv;
+use tltl::learn::{Learner, Settings, seeds};
+use tltl::model::Dynamics;
+use tltl::product::Product;
+use tltl::q::QTable;
+use tltl::solve::Problem;
+use tltl_examples::grid::Cell;
+use tltl_examples::study::{FAMILIES, Family, GRID, PAPER, layout, mean, publish, quantile};
+
+const GAMMA: f64 = 0.95;
+const LAYOUTS: u64 = 100;
+const SCRATCH: u64 = 680_000;
+const METHODS: [&str; 6] =
+    ["sum", "normalised sum", "max", "compensated", "refined", "from scratch"];
+
+/// What one method is worth on one layout.
+#[derive(Clone, Copy)]
+struct Worth {
+    satisfied: f64,
+    largest: f64,
+    /// Relative to the fewest; infinite if it never succeeds.
+    excess: f64,
+    /// The largest difference of an action value from the optimum of the product.
+    error: f64,
+}
+
+/// All methods on one layout; panics only where the library is wrong.
+fn compare(family: &Family, cells: [Cell; 3], seed: u64) -> [Worth; 6] {
+    let [one, two] = (family.skills)(cells);
+    let whole = Product::conjunction(&[&*one, &*two]);
+    let label = |task: &dyn tltl::Monitor<Cell>| Labelled::of_model(&GRID, task).expect("numbers");
+    let (first, second, task) = (label(&*one), label(&*two), label(&whole));
+    let dynamics = Dynamics::new(&GRID).expect("a model");
+    let rewards = Rewards::default();
+    let solved = |task| Problem::new(&dynamics, task).optimal_q(&rewards, GAMMA);
+    let (q1, q2, exact) = (solved(&first), solved(&second), solved(&task));
+    let skills = [Skill { q: &q1, task: &first }, Skill { q: &q2, task: &second }];
+    let composition = Composition::new(&whole, &task, &skills);
+    let compensated = composition.compensated(&dynamics, &rewards, GAMMA);
+    let tables = [
+        composition.initial(Combine::Sum),
+        composition.initial(Combine::NormalisedSum),
+        composition.initial(Combine::Max),
+        compensated.clone(),
+        composition.refined(&dynamics, &rewards, GAMMA, &compensated),
+        scratch(&task, seed),
+    ];
+    let problem = Problem::new(&dynamics, &task);
+    let best = problem.best();
+    tables.map(|table| {
+        let own = problem.certify_against(&table.policy(), &exact, &best);
+        let differences = table.values().iter().zip(exact.values()).map(|(a, b)| (a - b).abs());
+        Worth {
+            satisfied: own.satisfied,
+            largest: own.optimal_satisfied,
+            excess: own.regret_steps.unwrap_or(f64::INFINITY),
+            error: differences.fold(0.0, f64::max),
+        }
+    })
+}
+
+fn scratch(task: &Labelled, seed: u64) -> QTable {
+    let mut env = ModelEnv::new(GRID).expect("a model");
+    let mut learner = Learner::new(task, 5, Settings::default(), seed);
+    learner.train(&mut env, task, SCRATCH);
+    learner.q().clone()
+}
+
+/// One line of the table.
+fn line(table: &mut String, formulas: [&str; 2], method: &str, worths: &[Worth]) {
+    let regrets: Vec<f64> = worths.iter().map(|w| 100.0 * (w.largest - w.satisfied)).collect();
+    let excess: Vec<f64> = worths.iter().map(|w| 100.0 * w.excess).collect();
+    let never = excess.iter().filter(|e| e.is_infinite()).count();
+    let error = worths.iter().map(|w| w.error).fold(0.0, f64::max);
+    let _ = writeln!(
+        table,
+        "| `{}` ∧ `{}` | {method} | {:.3} | {:.3} | {:.2} | {:.2} | {never} | {error:.1e} |",
+        formulas[0],
+        formulas[1],
+        mean(&regrets),
+        quantile(&regrets, 1.0),
+        quantile(&excess, 0.5),
+        quantile(&excess, 0.95),
+    );
+}
+
+const HEAD: &str = "| skills | method | P regret, mean % | P regret, worst % | excess steps, median % \
+                    | excess steps, 95th percentile % | never succeed | largest error of a value |\n\
+                    | --- | --- | --- | --- | --- | --- | --- | --- |\n";
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let style = ProgressStyle::with_template("{wide_bar} {pos}/{len}, {per_sec}, {eta} left")?;
+    let bar = ProgressBar::new(FAMILIES.len() as u64 * (LAYOUTS + 1)).with_style(style);
+    let (mut paper, mut random, mut lines) = (HEAD.to_owned(), HEAD.to_owned(), String::new());
+    for family in &FAMILIES {
+        let all = seeds(0..LAYOUTS + 1, |seed| {
+            let cells = if seed == 0 { PAPER } else { layout(seed) };
+            let worths = compare(family, cells, seed);
+            bar.inc(1);
+            worths
+        });
+        for (i, method) in METHODS.iter().enumerate() {
+            let of: Vec<Worth> = all.iter().map(|worths| worths[i]).collect();
+            line(&mut paper, family.formulas, method, &of[..1]);
+            line(&mut random, family.formulas, method, &of[1..]);
+            for (seed, worth) in of.iter().enumerate() {
+                let _ = writeln!(
+                    lines,
+                    "{}",
+                    serde_json::json!({
+                        "skills": family.formulas, "layout": seed, "method": method,
+                        "satisfied": worth.satisfied, "largest": worth.largest,
+                        "excess": worth.excess.is_finite().then_some(worth.excess),
+                        "error": worth.error,
+                    })
+                );
+            }
+        }
+    }
+    bar.finish_and_clear();
+    let text = format!(
+        "# Composition of two skills\n\nExact skills (`Progress`, γ 0.95) composed on the paper's 8 × 10 \
+         grid; from scratch: {SCRATCH} environment steps with the default settings. P regret is the \
+         largest possible P(satisfied) less that of the greedy policy, in percent; excess steps are \
+         E[steps given success] over the fewest possible, negative where P is given away for speed. \
+         `Progress` is paid per edge, so its optimum need not have either optimum: `refined` *is* the \
+         optimum of the product for `Progress` (last column). Written by `cargo run --release \
+         --example study_composition`.\n\n## The paper's layout\n\n{paper}\n## 100 random layouts\n\n\
+         {random}"
+    );
+    publish("composition.md", &text)?;
+    publish("composition.jsonl", &lines)?;
+    Ok(())
+}

@@ -1,0 +1,138 @@
+//! Study (b): learning curves of φ₁ = ◇a ∧ ◇b on the paper's grid, with 95 % confidence bands over 20
+//! seeds.
+//!
+//! `cargo run --release --example study_curves` writes `docs/studies/curves.{svg,md,jsonl}`.
+//!
+//! After each interval the results so far are a checkpoint (`docs/studies/curves.checkpoint`): a run
+//! that is killed goes on where it was.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use indicatif::{ProgressBar, ProgressStyle};
+use tltl::augmented::Labelled;
+use tltl::checkpoint;
+use tltl::env::ModelEnv;
+use tltl::estimate::Interval;
+use tltl::learn::{Learner, Settings, Terminal, WholeLearner, seeds};
+use tltl::model::Dynamics;
+use tltl::solve::Problem;
+use tltl::tltl;
+use tltl_examples::chart::{Chart, Curve, Point};
+use tltl_examples::study::{GRID, PAPER, at, capped_steps, publish};
+
+const SEEDS: u64 = 20;
+const HORIZON: u32 = 200;
+const STEPS: [u64; 11] =
+    [1_000, 2_000, 5_000, 10_000, 20_000, 50_000, 100_000, 200_000, 340_000, 700_000, 1_000_000];
+const METHODS: [&str; 5] = [
+    "paper's recipe",
+    "counterfactual (default)",
+    "terminal robustness, sees q",
+    "terminal robustness, no q",
+    "satisfaction, no q",
+];
+
+/// Expected steps, cut at the horizon, after each number of training steps.
+fn curve(method: usize, seed: u64) -> Vec<f64> {
+    let (a, b) = (at(PAPER[0]), at(PAPER[1]));
+    let formula = tltl! { F a && F b };
+    let task = Labelled::of_model(&GRID, &formula).expect("numbers");
+    let dynamics = Dynamics::new(&GRID).expect("a model");
+    let problem = Problem::new(&dynamics, &task);
+    let mut env = ModelEnv::new(GRID).expect("a model");
+    let judge = |policy: &[u32]| capped_steps(&problem, policy, HORIZON);
+    let settings = if method == 1 { Settings::default() } else { Settings::paper() };
+    if method < 2 {
+        let mut learner = Learner::new(&task, 5, settings, seed);
+        let after = |steps: &u64| {
+            learner.train(&mut env, &task, *steps);
+            judge(&learner.q().policy())
+        };
+        return STEPS.iter().map(after).collect();
+    }
+    let paid =
+        if method == 4 { Terminal::Satisfaction } else { Terminal::Robustness { bound: 10.0 } };
+    let mut learner = WholeLearner::new(&task, 5, settings, paid, method == 2, seed);
+    let after = |steps: &u64| {
+        learner.train(&mut env, &formula, &task, *steps).expect("numbers");
+        judge(&learner.policy())
+    };
+    STEPS.iter().map(after).collect()
+}
+
+/// The curves of all seeds; those of methods that are done already come from the checkpoint.
+fn curves(path: &Path) -> Result<Vec<Vec<Vec<f64>>>, Box<dyn std::error::Error>> {
+    let mut done: Vec<Vec<Vec<f64>>> = match checkpoint::read(path, "study-curves")? {
+        Some(content) => serde_json::from_slice(&content)?,
+        None => Vec::new(),
+    };
+    let style = ProgressStyle::with_template("{wide_bar} {pos}/{len}, {per_sec}, {eta} left")?;
+    let bar = ProgressBar::new(METHODS.len() as u64 * SEEDS).with_style(style);
+    bar.set_position(done.len() as u64 * SEEDS);
+    for method in done.len()..METHODS.len() {
+        done.push(seeds(0..SEEDS, |seed| {
+            let curve = curve(method, seed);
+            bar.inc(1);
+            curve
+        }));
+        checkpoint::write(path, "study-curves", &serde_json::to_vec(&done)?)?;
+    }
+    bar.finish_and_clear();
+    Ok(done)
+}
+
+fn points(runs: &[Vec<f64>]) -> Vec<Point> {
+    let at = |(i, &steps): (usize, &u64)| {
+        let values: Vec<f64> = runs.iter().map(|run| run[i]).collect();
+        let Interval { mean, low, high } = Interval::of(&values, 0.95).expect("many seeds");
+        Point { x: steps as f64, y: mean, low, high }
+    };
+    STEPS.iter().enumerate().map(at).collect()
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/studies");
+    std::fs::create_dir_all(&folder)?;
+    let path = folder.join("curves.checkpoint");
+    let all = curves(&path)?;
+    let name = |i: usize| METHODS[i].to_owned();
+    let curves: Vec<Curve> =
+        (0..all.len()).map(|i| Curve { name: name(i), points: points(&all[i]) }).collect();
+    let mut table = "| environment steps |".to_owned();
+    METHODS.iter().for_each(|method| table.push_str(&format!(" {method} |")));
+    let _ = writeln!(table, "\n| --- |{}", " --- |".repeat(METHODS.len()));
+    for (i, steps) in STEPS.iter().enumerate() {
+        let _ = write!(table, "| {steps} |");
+        for curve in &curves {
+            let Point { y, low, high, .. } = curve.points[i];
+            let _ = write!(table, " {y:.3} ± {:.3} |", (high - low) / 2.0);
+        }
+        table.push('\n');
+    }
+    let mut lines = String::new();
+    for (method, runs) in METHODS.iter().zip(&all) {
+        for (seed, steps) in runs.iter().enumerate() {
+            let line =
+                serde_json::json!({"method": method, "seed": seed, "at": STEPS, "steps": steps});
+            let _ = writeln!(lines, "{line}");
+        }
+    }
+    let chart = Chart {
+        title: "F a && F b on the paper's grid: mean of 20 seeds, 95 % bands".to_owned(),
+        x: "environment steps of training".to_owned(),
+        y: "expected steps, cut at 200".to_owned(),
+        line: Some((12.2002, "optimum, 12.2002".to_owned())),
+        curves,
+    };
+    let text = format!(
+        "# Learning curves\n\n![Learning curves](curves.svg)\n\nExpected steps of the greedy policy on \
+         `F a && F b`, episodes cut at {HORIZON}, exact for each policy; mean over {SEEDS} seeds with \
+         Student's 95 % interval. All explore at random. The optimum is 12.2002. Written by `cargo run \
+         --release --example study_curves`.\n\n{table}"
+    );
+    publish("curves.svg", &chart.svg())?;
+    publish("curves.md", &text)?;
+    publish("curves.jsonl", &lines)?;
+    Ok(std::fs::remove_file(path)?)
+}
