@@ -1,12 +1,17 @@
 //! The tests of the whole line, from source text to verdicts and learned policies.
 
 mod corpus;
+mod evaluate;
 mod forms;
 mod front;
 mod grammar;
 mod hoa;
 mod language;
+mod leak;
+mod properties;
+mod random;
 mod semantics;
 #[rustfmt::skip]
 mod static_corpus;
 mod static_corpus_source;
+mod ui;

@@ -8,6 +8,7 @@ pub(crate) trait Choices {
 }
 
 /// Choices that bytes make; all are 0 when the bytes are used up.
+#[allow(dead_code, reason = "only some of the programs that share this file draw bytes")]
 pub(crate) struct Bytes<'a>(pub(crate) &'a [u8]);
 
 impl Choices for Bytes<'_> {

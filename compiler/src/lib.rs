@@ -11,9 +11,9 @@ pub mod error;
 #[cfg(feature = "cli")]
 pub mod evaluate;
 pub mod explain;
+pub mod factor;
 #[cfg(feature = "cli")]
 pub mod format;
-pub mod factor;
 pub mod guard;
 pub mod hoa;
 pub mod judge;

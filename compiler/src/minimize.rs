@@ -33,8 +33,8 @@ pub fn canonical_order(dfa: &Dfa) -> (Dfa, Vec<State>) {
 /// The coarsest partition that separates the accepting state from the others and is respected by
 /// all transitions, as the class of each state.
 fn classes(dfa: &Dfa) -> Vec<State> {
-    let mut classes: Vec<State> =
-        dfa.states().map(|q| State::from(dfa.accepting == Some(q))).collect();
+    let accepts = |q| dfa.accepting == Some(q) || q == 0 && accepts_at_once(dfa);
+    let mut classes: Vec<State> = dfa.states().map(|q| State::from(accepts(q))).collect();
     let mut count = 0;
     loop {
         let (refined, refined_count) = refine(dfa, &classes);
@@ -43,6 +43,12 @@ fn classes(dfa: &Dfa) -> Vec<State> {
         }
         (classes, count) = (refined, refined_count);
     }
+}
+
+/// Whether every letter accepts from the initial state. That state then counts as accepting, for a
+/// trajectory has at least one letter; it is never met again, for the accepting state is absorbing.
+fn accepts_at_once(dfa: &Dfa) -> bool {
+    dfa.accepting.is_some_and(|accepting| dfa.transitions[0] == Target::to_state(accepting))
 }
 
 fn refine(dfa: &Dfa, classes: &[State]) -> (Vec<State>, usize) {

@@ -66,26 +66,17 @@ impl Flat {
         self.places[place].1 = self.text.len();
     }
 
-    /// The first and the last token of a part of the text, for rustc to underline.
+    /// The first and the last token of a part of the text, for rustc to underline; past the end,
+    /// the last token there is.
     pub(crate) fn spans(&self, span: source::Span) -> (Span, Span) {
-        let touched = self.places.iter().filter(|(start, end, tree)| {
-            !matches!(tree, TokenTree::Group(_))
-                && *start < span.end.max(span.start + 1)
-                && *end > span.start
-        });
-        let mut touched = touched.map(|(.., tree)| tree.span());
-        let first = touched.next().or_else(|| self.bracket(span)).unwrap_or_else(Span::call_site);
-        (first, touched.next_back().unwrap_or(first))
-    }
-
-    /// The bracket or, past the end, the last token at a place.
-    fn bracket(&self, span: source::Span) -> Option<Span> {
-        let mut around = self.places.iter().filter_map(|(start, end, tree)| match tree {
-            TokenTree::Group(group) if *start == span.start => Some(group.span_open()),
-            TokenTree::Group(group) if *end == span.end => Some(group.span_close()),
-            _ => None,
-        });
-        around.next_back().or_else(|| self.places.last().map(|(.., tree)| tree.span()))
+        let end = span.end.max(span.start + 1);
+        let mut touched: Vec<_> = self.places.iter().flat_map(marks).collect();
+        touched.retain(|(at, mark)| at.0 < end && at.1 > span.start && mark.is_some());
+        touched.sort_by_key(|(at, _)| *at);
+        let last_of_all = || self.places.last().map(|(.., tree)| tree.span());
+        let first = touched.first().and_then(|(_, mark)| *mark).or_else(last_of_all);
+        let first = first.unwrap_or_else(Span::call_site);
+        (first, touched.last().and_then(|(_, mark)| *mark).unwrap_or(first))
     }
 
     /// The tokens of a part of the text.
@@ -108,6 +99,18 @@ impl Flat {
     /// Whether the text came from a string literal.
     pub(crate) fn is_literal(&self) -> bool {
         self.literal
+    }
+}
+
+/// Where a token stands, and its span; of a group, both brackets.
+fn marks((start, end, tree): &(usize, usize, TokenTree)) -> [((usize, usize), Option<Span>); 2] {
+    match tree {
+        TokenTree::Group(group) if group.delimiter() != Delimiter::None => [
+            ((*start, start + 1), Some(group.span_open())),
+            ((end - 1, *end), Some(group.span_close())),
+        ],
+        TokenTree::Group(_) => [((*start, *start), None); 2],
+        leaf => [((*start, *end), Some(leaf.span())), ((*end, *end), None)],
     }
 }
 
@@ -162,6 +165,10 @@ fn unquote(literal: &str) -> Option<String> {
     while let Some(c) = rest.next() {
         match (c, c == '\\') {
             (c, false) => text.push(c),
+            // A line that goes on: the line break and the blanks after it are nothing.
+            (_, true) if rest.as_str().starts_with('\n') => {
+                rest = rest.as_str().trim_start().chars();
+            }
             (_, true) => text.push(escaped(&mut rest)?),
         }
     }
@@ -182,8 +189,9 @@ fn escaped(rest: &mut std::str::Chars<'_>) -> Option<char> {
             let code: String = rest.by_ref().skip(1).take_while(|&c| c != '}').collect();
             char::from_u32(u32::from_str_radix(&code.replace('_', ""), 16).ok()?)?
         }
-        // A line that goes on: the newline and the blanks after it are nothing.
-        '\n' => ' ',
         other => other,
     })
 }
+
+#[cfg(test)]
+mod tests;

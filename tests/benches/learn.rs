@@ -114,7 +114,8 @@ fn hashed(seed: u64) -> Vec<f64> {
             let next = env.step_index(action, &mut rng).state;
             let reached = done | label[next];
             let reward = if reached == done { 0.0 } else { 1.0 };
-            let rest = table.get(&(reached, next)).map(|row| row.values().copied().fold(0.0, f64::max));
+            let rest =
+                table.get(&(reached, next)).map(|row| row.values().copied().fold(0.0, f64::max));
             let value = table.entry((done, s)).or_default().entry(action).or_insert(0.0);
             *value += ALPHA * (reward + GAMMA * rest.unwrap_or(0.0) - *value);
             (s, done, steps) = (next, reached, steps + 1);
@@ -145,7 +146,8 @@ fn rate(what: &str, steps: u64, run: impl Fn(u64) -> Vec<f64>) -> f64 {
 /// Nanoseconds of `Policy::act` and `Policy::next` together.
 fn act(task: &Labelled) {
     let q = library(task, Settings::default(), 1);
-    let actions = q.chunks(5).map(|row| (0..5).max_by(|&i, &j| row[i].total_cmp(&row[j])).unwrap() as u32);
+    let actions =
+        q.chunks(5).map(|row| (0..5).max_by(|&i, &j| row[i].total_cmp(&row[j])).unwrap() as u32);
     let names = (0..5).map(|a| tltl::model::FiniteModel::action_name(&PAPER, a)).collect();
     let policy = Policy::new("both", "F a && F b", task, actions.collect(), names).unwrap();
     let (start, mut sum, rounds) = (Instant::now(), 0u64, 20_000_000);
@@ -164,7 +166,8 @@ fn main() {
     let task = on_paper(&both(A, B));
     let all = rate("all by hand", STEPS, all_by_hand);
     let hand = rate("loop by hand, library's world", STEPS, loop_by_hand);
-    let paper = rate("library, the paper's recipe", STEPS, |seed| library(&task, Settings::paper(), seed));
+    let paper =
+        rate("library, the paper's recipe", STEPS, |seed| library(&task, Settings::paper(), seed));
     rate("library, default settings", STEPS, |seed| library(&task, Settings::default(), seed));
     let hashed = rate("hash maps, as rurel", STEPS / 10, hashed);
     println!(

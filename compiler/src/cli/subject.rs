@@ -29,7 +29,7 @@ pub(super) fn read(text: &str, task: Option<&str>) -> Result<Option<Subject>, St
         return file(path, named.or(task));
     }
     let source = Source::new("formula", text);
-    let compiled = compile::formula(&source, Budget::default());
+    let compiled = compile::formula(&source, Budget::SHOWN);
     let compiled = input::reported(&source, compiled, Report::Human)?;
     Ok(compiled.map(|compiled| Subject::Task(Box::new(compiled), 0)))
 }
