@@ -206,9 +206,20 @@ pub enum ItemKind {
     Broken,
 }
 
+/// `#[name(setting = number, …)]` before an item or a formula.
+#[derive(Clone, Debug)]
+pub struct Attribute {
+    /// Its name.
+    pub name: Span,
+    /// Its settings: names and numbers.
+    pub settings: Vec<(Span, Span)>,
+}
+
 /// One declaration of a source.
 #[derive(Clone, Debug)]
 pub struct Item {
+    /// What it is compiled with.
+    pub attributes: Vec<Attribute>,
     /// What the author says about it, a string a line.
     pub docs: Vec<String>,
     /// Its name; an empty span for a bare formula.

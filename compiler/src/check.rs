@@ -8,6 +8,7 @@
 
 mod apply;
 mod atom;
+mod attribute;
 mod expand;
 mod formula;
 mod intent;
@@ -164,6 +165,7 @@ impl<'a> Checker<'a> {
 
     /// Checks all items, each after the ones that it uses.
     fn items(&mut self) {
+        self.check_attributes();
         let order = order::order(self.ast, &self.scope, &mut self.mistakes);
         for item in order {
             self.parameters = self.scope.parameters(item).to_vec();

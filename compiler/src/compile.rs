@@ -4,6 +4,7 @@ use crate::arithmetic;
 use crate::check;
 use crate::dfa::{Dfa, Guards};
 use crate::error::{Error, Errors, Kind};
+use crate::factor::{Factor, factors};
 use crate::judge;
 use crate::minimize::minimize;
 use crate::predicate::{Module, Task};
@@ -18,6 +19,8 @@ pub struct Compiled {
     pub module: Module,
     /// The automata of each of its tasks, in the same order.
     pub automata: Vec<Automata>,
+    /// Its factored tasks, which are not among the others.
+    pub factored: Vec<Factored>,
     /// What the author should look at.
     pub warnings: Vec<Error>,
 }
@@ -29,6 +32,28 @@ pub struct Automata {
     pub propositional: Dfa,
     /// Minimal over the letters that can occur: what is emitted.
     pub dfa: Dfa,
+}
+
+/// A conjunction whose parts run side by side.
+#[derive(Clone, Debug)]
+pub struct Factored {
+    /// The task as a whole.
+    pub task: Task,
+    /// Its parts, in source order.
+    pub parts: Vec<Part>,
+    /// Whether parts that share propositions are one, so that no dead end is missed.
+    pub joint: bool,
+}
+
+/// A part of a factored task.
+#[derive(Clone, Debug)]
+pub struct Part {
+    /// The part as a task, over its own propositions.
+    pub task: Task,
+    /// Its automata.
+    pub automata: Automata,
+    /// The place among the whole's propositions of each of its own.
+    pub propositions: Vec<u32>,
 }
 
 /// Compiles a bare formula, whose names are free: one task without a name.
@@ -67,15 +92,57 @@ impl Compiled {
 
 fn automata(mut module: Module, budget: Budget) -> Result<Compiled, Errors> {
     let mut mistakes = std::mem::take(&mut module.warnings);
+    let split = std::mem::take(&mut module.tasks);
+    let (apart, whole): (Vec<_>, Vec<_>) =
+        split.into_iter().partition(|task| task.options.factored);
     let mut automata = Vec::new();
-    for task in &module.tasks {
+    for task in &whole {
+        let budget = allowed(task, budget);
         match task_automata(&module, task, budget, &mut mistakes) {
             Ok(pair) => automata.push(pair),
             Err(exceeded) => mistakes.push(exceeds(task, budget, exceeded)),
         }
     }
+    let mut factored = Vec::new();
+    for task in apart {
+        let budget = allowed(&task, budget);
+        match task_parts(&module, &task, budget, &mut mistakes) {
+            Ok((parts, joint)) => factored.push(Factored { task, parts, joint }),
+            Err(exceeded) => mistakes.push(exceeds(&task, budget, exceeded)),
+        }
+    }
+    module.tasks = whole;
     let warnings = Errors::split(mistakes)?;
-    Ok(Compiled { module, automata, warnings })
+    Ok(Compiled { module, automata, factored, warnings })
+}
+
+/// The budget with what the task's attributes say.
+fn allowed(task: &Task, budget: Budget) -> Budget {
+    let options = task.options;
+    Budget {
+        states: options.states.unwrap_or(budget.states),
+        nodes: options.nodes.unwrap_or(budget.nodes),
+        edges: options.edges.unwrap_or(budget.edges),
+        products: options.products.unwrap_or(budget.products),
+    }
+}
+
+fn task_parts(
+    module: &Module,
+    task: &Task,
+    budget: Budget,
+    mistakes: &mut Vec<Error>,
+) -> Result<(Vec<Part>, bool), Exceeded> {
+    let factors = factors(&task.spec, budget)?;
+    let mut parts = Vec::new();
+    for Factor { spec, propositions } in factors.parts {
+        let predicates = propositions.iter().map(|&p| task.predicates[p as usize]).collect();
+        let text = spec.display(spec.root()).to_string();
+        let part = Task { text, spec, predicates, ..task.clone() };
+        let automata = task_automata(module, &part, budget, mistakes)?;
+        parts.push(Part { task: part, automata, propositions });
+    }
+    Ok((parts, factors.joint))
 }
 
 fn task_automata(
@@ -132,11 +199,22 @@ pub fn check_guards(dfa: &Dfa, budget: Budget) -> Result<(), Exceeded> {
 fn exceeds(task: &Task, budget: Budget, exceeded: Exceeded) -> Error {
     let Exceeded { what, limit } = exceeded;
     let name = task.name.as_ref().map_or("the formula".to_owned(), |name| format!("task `{name}`"));
+    let setting = if what == "products of one guard" { "products" } else { what };
     let whole = matches!(what, "edges" | "products of one guard");
     let span = if whole { task.span } else { culprit(&task.spec, budget) };
-    Error::new(Kind::Budget, format!("the automaton of {name} needs more than {limit} {what}"), span)
+    let error = Error::new(
+        Kind::Budget,
+        format!("the automaton of {name} needs more than {limit} {what}"),
+        span,
+    );
+    let error = error
         .label("this is what grows")
-        .help("split the task into smaller ones and watch them side by side: n unordered goals are 2^n states as one task, and 2n as n tasks")
+        .help("a conjunction can be kept factored, its parts side by side: write `#[factored]` before the task; n unordered goals are then 2n states, not 2^n")
+        ;
+    if setting == "operators" {
+        return error;
+    }
+    error.help(format!("or allow more: write `#[budget({setting} = …)]` before the task"))
 }
 
 /// Where the smallest subformula stands whose own automaton is too large.

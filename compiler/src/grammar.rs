@@ -20,6 +20,8 @@ pub enum Rule {
     r#next,
     r#item,
     r#boundary,
+    r#attribute,
+    r#setting,
     r#doc,
     r#file_doc,
     r#state,
@@ -115,6 +117,8 @@ impl Rule {
             Rule::r#next,
             Rule::r#item,
             Rule::r#boundary,
+            Rule::r#attribute,
+            Rule::r#setting,
             Rule::r#doc,
             Rule::r#file_doc,
             Rule::r#state,
@@ -395,6 +399,26 @@ impl ::pest::Parser<Rule> for Grammar {
                             self::r#SOI(state)
                                 .and_then(|state| { super::hidden::skip(state) })
                                 .and_then(|state| {
+                                    state
+                                        .sequence(|state| {
+                                            state
+                                                .optional(|state| {
+                                                    self::r#attribute(state)
+                                                        .and_then(|state| {
+                                                            state
+                                                                .repeat(|state| {
+                                                                    state
+                                                                        .sequence(|state| {
+                                                                            super::hidden::skip(state)
+                                                                                .and_then(|state| { self::r#attribute(state) })
+                                                                        })
+                                                                })
+                                                        })
+                                                })
+                                        })
+                                })
+                                .and_then(|state| { super::hidden::skip(state) })
+                                .and_then(|state| {
                                     state.optional(|state| { self::r#header(state) })
                                 })
                                 .and_then(|state| { super::hidden::skip(state) })
@@ -469,13 +493,17 @@ impl ::pest::Parser<Rule> for Grammar {
                                                 state
                                                     .optional(|state| {
                                                         self::r#doc(state)
+                                                            .or_else(|state| { self::r#attribute(state) })
                                                             .and_then(|state| {
                                                                 state
                                                                     .repeat(|state| {
                                                                         state
                                                                             .sequence(|state| {
                                                                                 super::hidden::skip(state)
-                                                                                    .and_then(|state| { self::r#doc(state) })
+                                                                                    .and_then(|state| {
+                                                                                        self::r#doc(state)
+                                                                                            .or_else(|state| { self::r#attribute(state) })
+                                                                                    })
                                                                             })
                                                                     })
                                                             })
@@ -518,6 +546,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 > {
                     let state = state.check_stack_limit()?;
                     self::r#doc(state)
+                        .or_else(|state| { self::r#attribute(state) })
                         .or_else(|state| {
                             state
                                 .sequence(|state| {
@@ -526,6 +555,114 @@ impl ::pest::Parser<Rule> for Grammar {
                                         .and_then(|state| { self::r#identifier(state) })
                                 })
                         })
+                }
+                #[inline]
+                #[allow(non_snake_case, unused_variables)]
+                pub fn r#attribute(
+                    state: ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                ) -> ::pest::ParseResult<
+                    ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                > {
+                    state
+                        .rule(
+                            Rule::r#attribute,
+                            |state| {
+                                state
+                                    .sequence(|state| {
+                                        state
+                                            .match_string("#")
+                                            .and_then(|state| { super::hidden::skip(state) })
+                                            .and_then(|state| { state.match_string("[") })
+                                            .and_then(|state| { super::hidden::skip(state) })
+                                            .and_then(|state| { self::r#identifier(state) })
+                                            .and_then(|state| { super::hidden::skip(state) })
+                                            .and_then(|state| {
+                                                state
+                                                    .optional(|state| {
+                                                        state
+                                                            .sequence(|state| {
+                                                                state
+                                                                    .match_string("(")
+                                                                    .and_then(|state| { super::hidden::skip(state) })
+                                                                    .and_then(|state| {
+                                                                        state
+                                                                            .optional(|state| {
+                                                                                state
+                                                                                    .sequence(|state| {
+                                                                                        self::r#setting(state)
+                                                                                            .and_then(|state| { super::hidden::skip(state) })
+                                                                                            .and_then(|state| {
+                                                                                                state
+                                                                                                    .sequence(|state| {
+                                                                                                        state
+                                                                                                            .optional(|state| {
+                                                                                                                state
+                                                                                                                    .sequence(|state| {
+                                                                                                                        state
+                                                                                                                            .match_string(",")
+                                                                                                                            .and_then(|state| { super::hidden::skip(state) })
+                                                                                                                            .and_then(|state| { self::r#setting(state) })
+                                                                                                                    })
+                                                                                                                    .and_then(|state| {
+                                                                                                                        state
+                                                                                                                            .repeat(|state| {
+                                                                                                                                state
+                                                                                                                                    .sequence(|state| {
+                                                                                                                                        super::hidden::skip(state)
+                                                                                                                                            .and_then(|state| {
+                                                                                                                                                state
+                                                                                                                                                    .sequence(|state| {
+                                                                                                                                                        state
+                                                                                                                                                            .match_string(",")
+                                                                                                                                                            .and_then(|state| { super::hidden::skip(state) })
+                                                                                                                                                            .and_then(|state| { self::r#setting(state) })
+                                                                                                                                                    })
+                                                                                                                                            })
+                                                                                                                                    })
+                                                                                                                            })
+                                                                                                                    })
+                                                                                                            })
+                                                                                                    })
+                                                                                            })
+                                                                                            .and_then(|state| { super::hidden::skip(state) })
+                                                                                            .and_then(|state| {
+                                                                                                state.optional(|state| { state.match_string(",") })
+                                                                                            })
+                                                                                    })
+                                                                            })
+                                                                    })
+                                                                    .and_then(|state| { super::hidden::skip(state) })
+                                                                    .and_then(|state| { state.match_string(")") })
+                                                            })
+                                                    })
+                                            })
+                                            .and_then(|state| { super::hidden::skip(state) })
+                                            .and_then(|state| { state.match_string("]") })
+                                    })
+                            },
+                        )
+                }
+                #[inline]
+                #[allow(non_snake_case, unused_variables)]
+                pub fn r#setting(
+                    state: ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                ) -> ::pest::ParseResult<
+                    ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                > {
+                    state
+                        .rule(
+                            Rule::r#setting,
+                            |state| {
+                                state
+                                    .sequence(|state| {
+                                        self::r#identifier(state)
+                                            .and_then(|state| { super::hidden::skip(state) })
+                                            .and_then(|state| { state.match_string("=") })
+                                            .and_then(|state| { super::hidden::skip(state) })
+                                            .and_then(|state| { self::r#digits(state) })
+                                    })
+                            },
+                        )
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -3054,6 +3191,8 @@ impl ::pest::Parser<Rule> for Grammar {
                     Rule::r#next => rules::r#next(state),
                     Rule::r#item => rules::r#item(state),
                     Rule::r#boundary => rules::r#boundary(state),
+                    Rule::r#attribute => rules::r#attribute(state),
+                    Rule::r#setting => rules::r#setting(state),
                     Rule::r#doc => rules::r#doc(state),
                     Rule::r#file_doc => rules::r#file_doc(state),
                     Rule::r#state => rules::r#state(state),

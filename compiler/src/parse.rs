@@ -112,14 +112,17 @@ fn one(source: &Source, rule: Rule) -> (Ast, Vec<Error>) {
         Err(error) => return (ast, vec![message::sentence(source, 0, &error)]),
     };
     let mut mistakes = Vec::new();
+    let mut attributes = Vec::new();
     for pair in pairs {
         match pair.as_rule() {
+            Rule::attribute => attributes.push(item::attribute(pair, 0)),
             Rule::header => item::header(&mut ast, &pair),
             Rule::expression => match expression::build(&mut ast, pair, 0) {
                 Ok(root) => {
                     let (name, span) = (Span::default(), ast.entry(root).span);
                     let kind = ItemKind::Task(Vec::new(), root);
-                    ast.push_item(Item { docs: Vec::new(), name, kind, span });
+                    let attributes = std::mem::take(&mut attributes);
+                    ast.push_item(Item { attributes, docs: Vec::new(), name, kind, span });
                 }
                 Err(error) => mistakes.push(error),
             },

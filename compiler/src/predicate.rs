@@ -501,6 +501,23 @@ pub struct Task {
     pub predicates: Vec<PredicateId>,
     /// The tasks that it is the plain conjunction or disjunction of.
     pub parts: Option<(Connective, Vec<TaskId>)>,
+    /// How it is compiled.
+    pub options: Options,
+}
+
+/// How a task is compiled: what its attributes say.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Options {
+    /// `#[factored]`: the conjuncts run side by side.
+    pub factored: bool,
+    /// `#[budget(states = …)]`
+    pub states: Option<usize>,
+    /// `#[budget(nodes = …)]`
+    pub nodes: Option<usize>,
+    /// `#[budget(edges = …)]`
+    pub edges: Option<usize>,
+    /// `#[budget(products = …)]`
+    pub products: Option<usize>,
 }
 
 /// A checked source.

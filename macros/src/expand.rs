@@ -68,13 +68,17 @@ pub(crate) fn include(input: TokenStream) -> TokenStream {
 /// A bare formula is an expression, declarations are items.
 fn emit(compiled: &Compiled, options: &Options<'_>) -> TokenStream {
     let module = &compiled.module;
-    let bare = module.tasks.len() == 1 && module.tasks[0].name.is_none();
+    let mut tasks = module.tasks.iter().chain(compiled.factored.iter().map(|part| &part.task));
+    let bare = tasks.next().is_some_and(|task| task.name.is_none());
     if bare { rust::expression(compiled, options) } else { rust::items(compiled, options) }
 }
 
 /// Whether a source that does not compile was meant as declarations.
 fn is_items(source: &Source) -> bool {
-    let text = source.text().trim_start();
+    let mut text = source.text().trim_start();
+    while let (true, Some((_, rest))) = (text.starts_with("#["), text.split_once(']')) {
+        text = rest.trim_start();
+    }
     let words = ["///", "state ", "struct ", "enum ", "const ", "predicate ", "task "];
     words.iter().any(|word| text.starts_with(word))
 }

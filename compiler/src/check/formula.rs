@@ -44,6 +44,7 @@ impl Checker<'_> {
             spec,
             predicates,
             parts: self.parts(root),
+            options: self.options(item),
         };
         if let Some(id) = self.task_id(item) {
             self.tasks[id.0 as usize] = Some(task);

@@ -7,7 +7,7 @@
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::compile::Compiled;
+use crate::compile::{Compiled, Factored};
 use crate::dfa::Dfa;
 pub use crate::emit::predicates::ident as identifier;
 use crate::emit::predicates::{Reading, Scope};
@@ -30,11 +30,15 @@ pub struct Options<'a> {
 /// A bare formula as an expression: a `Task` over the predicates that are in scope.
 #[must_use]
 pub fn expression(compiled: &Compiled, options: &Options<'_>) -> TokenStream {
-    let Some((task, automata)) = compiled.module.tasks.iter().zip(&compiled.automata).next() else {
-        return TokenStream::new();
-    };
     let emitter = Emitter::new(compiled, options);
     let runtime = &options.runtime;
+    let value = quote! { self };
+    let (task, made) = match (compiled.module.tasks.as_slice(), compiled.factored.as_slice()) {
+        ([task, ..], _) => (task, emitter.made(task, &compiled.automata[0].dfa, &value)),
+        ([], [factored, ..]) => (&factored.task, emitter.made_factored(factored, &value)),
+        ([], []) => return TokenStream::new(),
+    };
+    let Made { kind, statics, result } = made;
     let values = task.predicates.iter().map(|&predicate| emitter.value(predicate));
     let types: Vec<Ident> = (0..task.predicates.len()).map(|i| format_ident!("P{}", i)).collect();
     let robustness = (0..types.len()).map(|i| {
@@ -53,15 +57,14 @@ pub fn expression(compiled: &Compiled, options: &Options<'_>) -> TokenStream {
         &quote! { #(#holds,)* },
         task,
     );
-    let parts = emitter.parts(task, &automata.dfa);
     quote! {{
         #[derive(Clone, Copy)]
         struct __TltlPredicates<#(#types),*>(#(#types),*);
         #implementation
         impl<#(#types),*> __TltlPredicates<#(#types),*> {
-            fn __tltl_task(self) -> #runtime::Task<Self> {
-                #parts
-                #runtime::Task::from_parts(__TLTL_FORMULA.text, &__TLTL_FORMULA, &__TLTL_AUTOMATON, self)
+            fn __tltl_task(self) -> #kind<Self> {
+                #statics
+                #result
             }
         }
         __TltlPredicates(#(#values),*).__tltl_task()
@@ -85,7 +88,8 @@ pub fn items(compiled: &Compiled, options: &Options<'_>) -> TokenStream {
         .map(|id| emitter.predicate(id));
     let tasks = module.tasks.iter().zip(&compiled.automata);
     let tasks = tasks.map(|(task, automata)| emitter.task(task, &automata.dfa));
-    quote! { #(#enums)* #(#structs)* #state #(#predicates)* #(#tasks)* }
+    let factored = compiled.factored.iter().map(|factored| emitter.factored(factored));
+    quote! { #(#enums)* #(#structs)* #state #(#predicates)* #(#tasks)* #(#factored)* }
 }
 
 /// A source as a Rust file, as the macros would generate it, formatted.
@@ -124,6 +128,13 @@ fn statics(compiled: &Compiled, options: &Options<'_>) -> TokenStream {
         }
     });
     quote! { #(#tasks)* }
+}
+
+/// A task in the making: its type, the statics that it needs, and the expression that is it.
+struct Made {
+    kind: TokenStream,
+    statics: TokenStream,
+    result: TokenStream,
 }
 
 struct Emitter<'a> {
@@ -220,8 +231,81 @@ impl<'a> Emitter<'a> {
     }
 
     fn task(&self, task: &Task, dfa: &Dfa) -> TokenStream {
+        let (function, names) = (self.function(task), self.parameters(&task.parameters).names);
+        let made = self.made(task, dfa, &quote! { #function { #(#names),* } });
+        self.declaration(task, &[format!("`{}`", task.text), sizes(dfa)], made)
+    }
+
+    fn factored(&self, factored: &Factored) -> TokenStream {
+        let task = &factored.task;
+        let (function, names) = (self.function(task), self.parameters(&task.parameters).names);
+        let made = self.made_factored(factored, &quote! { #function { #(#names),* } });
+        let states: usize = factored.parts.iter().map(|part| part.automata.dfa.len()).sum();
+        let size =
+            format!("{} parts side by side, {states} states together.", factored.parts.len());
+        self.declaration(task, &[format!("`{}`", task.text), size], made)
+    }
+
+    fn function(&self, task: &Task) -> Ident {
+        identifier(task.name.as_deref().unwrap_or("task"))
+    }
+
+    /// The task whose predicates are `value`.
+    fn made(&self, task: &Task, dfa: &Dfa, value: &TokenStream) -> Made {
+        let runtime = self.runtime;
+        let name = task.name.as_deref().unwrap_or(&task.text);
+        Made {
+            kind: quote! { #runtime::Task },
+            statics: self.parts(task, dfa),
+            result: quote! {
+                #runtime::Task::from_parts(#name, &__TLTL_FORMULA, &__TLTL_AUTOMATON, #value)
+            },
+        }
+    }
+
+    /// The factored task whose predicates are `value`.
+    fn made_factored(&self, factored: &Factored, value: &TokenStream) -> Made {
+        let (runtime, task) = (self.runtime, &factored.task);
+        let (name, text) = (task.name.as_deref().unwrap_or(&task.text), &task.text);
+        let parts = factored.parts.iter().map(|part| {
+            let formula = tables::formula(&part.task.spec, &part.task.text, &self.path);
+            let automaton = tables::automaton(&part.automata.dfa, &self.path);
+            let predicates = part.propositions.iter().map(|&p| Literal::u32_unsuffixed(p));
+            quote! {
+                #runtime::factored::Part {
+                    formula: &#formula,
+                    automaton: &#automaton,
+                    predicates: &[#(#predicates),*],
+                }
+            }
+        });
+        let joint = if factored.joint {
+            quote! { None }
+        } else {
+            quote! { NotSearched }
+        };
+        Made {
+            kind: quote! { #runtime::Factored },
+            statics: quote! {
+                static __TLTL_PARTS: &[#runtime::factored::Part] = &[#(#parts),*];
+            },
+            result: quote! {
+                #runtime::Factored::from_parts(
+                    #name,
+                    #text,
+                    __TLTL_PARTS,
+                    #runtime::factored::JointDeadEnds::#joint,
+                    #value,
+                )
+            },
+        }
+    }
+
+    /// The function that returns a task, and the struct that is its predicates.
+    fn declaration(&self, task: &Task, about_it: &[String], made: Made) -> TokenStream {
+        let Made { kind, statics, result } = made;
         let name = task.name.as_deref().unwrap_or("task");
-        let (function, runtime, state) = (identifier(name), self.runtime, self.state());
+        let (function, state) = (identifier(name), self.state());
         let parameters = self.parameters(&task.parameters);
         let unpacked = parameters.unpacked();
         let of = |reading| {
@@ -244,23 +328,17 @@ impl<'a> Emitter<'a> {
             &of(Reading::Truth),
             task,
         );
-        let parts = self.parts(task, dfa);
-        let docs = documentation(&task.docs, &[format!("`{}`", task.text), sizes(dfa)]);
+        let docs = documentation(&task.docs, about_it);
         let about = format!("The predicates of the task `{name}`.");
-        let (names, declared) = (&parameters.names, parameters.declared());
+        let declared = parameters.declared();
         let structure = parameters.structure(&function, &about);
         quote! {
             #docs
             #[allow(non_snake_case)]
             #[must_use]
-            pub const fn #function(#declared) -> #runtime::Task<#function> {
-                #parts
-                #runtime::Task::from_parts(
-                    #name,
-                    &__TLTL_FORMULA,
-                    &__TLTL_AUTOMATON,
-                    #function { #(#names),* },
-                )
+            pub const fn #function(#declared) -> #kind<#function> {
+                #statics
+                #result
             }
 
             #structure

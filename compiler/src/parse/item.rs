@@ -1,7 +1,7 @@
 //! Items: what stands around expressions.
 
 use super::{Pair, expression, token};
-use crate::ast::{Ast, Declaration, FieldType, Item, ItemKind};
+use crate::ast::{Ast, Attribute, Declaration, FieldType, Item, ItemKind};
 use crate::error::{Error, Kind};
 use crate::grammar::Rule;
 use crate::source::Span;
@@ -9,15 +9,19 @@ use crate::source::Span;
 /// Adds the item of `pair`, whose text starts at byte `at` of the source.
 pub(super) fn build(ast: &mut Ast, pair: Pair<'_>, at: usize, mistakes: &mut Vec<Error>) {
     let mut docs = Vec::new();
+    let mut attributes = Vec::new();
     for part in pair.into_inner() {
         match part.as_rule() {
             Rule::doc => docs.push(doc_text(part.as_str())),
+            Rule::attribute => attributes.push(attribute(part, at)),
             Rule::EOI => {}
             _ => {
                 let span = place(&part, at);
                 let (name, kind) = declaration(ast, part, at, mistakes);
                 check_word(ast, name, mistakes);
-                ast.push_item(Item { docs: std::mem::take(&mut docs), name, kind, span });
+                let (docs, attributes) =
+                    (std::mem::take(&mut docs), std::mem::take(&mut attributes));
+                ast.push_item(Item { attributes, docs, name, kind, span });
             }
         }
     }
@@ -29,13 +33,31 @@ pub(super) fn header(ast: &mut Ast, pair: &Pair<'_>) {
     let (Some(name), Some(ty)) = (parts.next(), parts.next()) else { return };
     let kind = ItemKind::Host(trimmed(ast, place(&ty, 0)));
     let (name, span) = (place(&name, 0), place(pair, 0));
-    ast.push_item(Item { docs: Vec::new(), name, kind, span });
+    ast.push_item(Item { attributes: Vec::new(), docs: Vec::new(), name, kind, span });
+}
+
+/// The attribute of `pair`.
+pub(super) fn attribute(pair: Pair<'_>, at: usize) -> Attribute {
+    let mut name = Span::default();
+    let mut settings = Vec::new();
+    for part in pair.into_inner() {
+        match part.as_rule() {
+            Rule::identifier => name = place(&part, at),
+            Rule::setting => {
+                let mut sides = part.into_inner().map(|side| place(&side, at));
+                settings.extend(sides.next().zip(sides.next()));
+            }
+            _ => {}
+        }
+    }
+    Attribute { name, settings }
 }
 
 /// Adds an item of which no more than the name can be read, so that its uses are no mistakes.
 pub(super) fn broken(ast: &mut Ast, span: Span) {
     if let Some(name) = token::item_name(ast.source().text(), span) {
-        ast.push_item(Item { docs: Vec::new(), name, kind: ItemKind::Broken, span });
+        let (attributes, docs) = (Vec::new(), Vec::new());
+        ast.push_item(Item { attributes, docs, name, kind: ItemKind::Broken, span });
     }
 }
 

@@ -27,7 +27,13 @@ pub(super) fn keyword(word: &str) -> Option<&'static str> {
 
 /// Whether `text` begins like an item.
 pub(super) fn starts_with_item(text: &str) -> bool {
-    let Some(first) = Tokens::new(text, 0).next() else { return false };
+    let mut tokens = Tokens::new(text, 0);
+    let Some(mut first) = tokens.next() else { return false };
+    while &text[first.start..first.end] == "#" {
+        tokens.find(|token| &text[token.start..token.end] == "]");
+        let Some(next) = tokens.next() else { return false };
+        first = next;
+    }
     let word = &text[first.start..first.end];
     word == "///" || word == "//!" || begins_item(text, first)
 }
@@ -45,12 +51,17 @@ pub(super) fn next_item(text: &str, at: usize, from: usize) -> usize {
     let mut first = true;
     let mut item_seen = false;
     let mut doc = None;
-    for token in Tokens::new(text, at) {
+    let mut tokens = Tokens::new(text, at);
+    while let Some(token) = tokens.next() {
         let word = &text[token.start..token.end];
         let new_line = text[..token.start].rfind(|c: char| !c.is_whitespace() || c == '\n');
         first |= new_line.is_none_or(|at| text[at..].starts_with('\n'));
-        if first && word == "///" {
+        if first && matches!(word, "///" | "#") {
             doc = doc.or(Some(token.start));
+            if word == "#" {
+                tokens.find(|token| matches!(&text[token.start..token.end], "]" | "[]"));
+                continue;
+            }
         } else if first && begins_item(text, token) {
             if item_seen && token.start >= from || token.start > from {
                 return doc.unwrap_or(token.start).max(at + 1);
