@@ -1,6 +1,8 @@
 //! The front end: every diagnostic as its reader sees it, refusals of the corpus, deep inputs,
 //! and printing.
 
+mod reference;
+
 use std::fmt::Write;
 
 use proptest::prelude::*;
@@ -45,16 +47,33 @@ fn report(mode: &str, source: &Source) -> String {
     }
 }
 
+/// A mistake of the gallery.
+struct Case {
+    name: &'static str,
+    text: &'static str,
+    /// What its author is told.
+    report: String,
+}
+
+/// The mistakes of the gallery.
+fn cases() -> Vec<Case> {
+    let cases = include_str!("data/mistakes.txt").split("\n== ").skip(1);
+    cases.map(case).collect()
+}
+
+fn case(case: &'static str) -> Case {
+    let (head, text) = case.split_once('\n').unwrap_or((case, ""));
+    let (name, mode) = head.split_once(' ').unwrap();
+    let place = if mode == "file" { "task.tltl" } else { "<formula>" };
+    let report = report(mode, &Source::new(place, text));
+    assert!(!report.is_empty(), "{name} is accepted without a word");
+    Case { name, text, report }
+}
+
 #[test]
 fn every_diagnostic() {
-    let cases = include_str!("data/mistakes.txt").split("\n== ").skip(1);
     let mut gallery = String::new();
-    for case in cases {
-        let (head, text) = case.split_once('\n').unwrap_or((case, ""));
-        let (name, mode) = head.split_once(' ').unwrap();
-        let place = if mode == "file" { "task.tltl" } else { "<formula>" };
-        let report = report(mode, &Source::new(place, text));
-        assert!(!report.is_empty(), "{name} is accepted without a word");
+    for Case { name, text, report } in cases() {
         let _ = writeln!(gallery, "── {name} ──\n\n{}\n{report}", indented(text));
     }
     insta::assert_snapshot!("diagnostics", gallery);

@@ -3,9 +3,9 @@
 use super::Checker;
 use super::atom::Atom;
 use super::role::Roles;
-use crate::ast::{ItemKind, Node, NodeId};
+use crate::ast::{Arithmetic, ItemKind, Node, NodeId};
 use crate::error::{Error, Kind};
-use crate::predicate::{Arguments, Parameter, ParameterType, Scalar, TermId};
+use crate::predicate::{Arguments, Parameter, ParameterType, Scalar, Term, TermId};
 
 impl Checker<'_> {
     /// The callee and the item that the call `id` applies: a predicate, a task or a constant.
@@ -41,28 +41,56 @@ impl Checker<'_> {
             });
         }
         let given: Option<Vec<_>> = given.into_iter().collect();
-        self.instance(item, &parameters, given?)
+        self.instance(id, item, &parameters, given?)
     }
 
     fn instance(
         &mut self,
+        id: NodeId,
         item: usize,
         parameters: &[Parameter],
         arguments: Vec<TermId>,
     ) -> Option<Atom> {
         let names = parameters.iter().map(|parameter| parameter.name.clone());
         let bound: Arguments = names.zip(arguments.iter().copied()).collect();
-        match self.ast.items()[item].kind {
+        let known = self.module.arena.terms().len();
+        let atom = match self.ast.items()[item].kind {
             ItemKind::Predicate(..) => {
                 let predicate = *self.declared.get(&item)?;
                 let condition = self.module.predicates[predicate.0 as usize].condition;
                 let arena = &mut self.module.arena;
                 let meaning = arena.substitute(condition, &bound);
-                Some(Atom::Conditions(vec![arena.apply(predicate, arguments, meaning)]))
+                Atom::Conditions(vec![arena.apply(predicate, arguments, meaning)])
             }
-            ItemKind::Task(..) => self.task_id(item).map(|task| Atom::Task(task, bound)),
-            _ => None,
+            ItemKind::Task(..) => {
+                let task = self.task_id(item)?;
+                self.literals(task, &bound);
+                Atom::Task(task, bound)
+            }
+            _ => return None,
+        };
+        if let Some(error) = self.no_number(id, known) {
+            self.mistakes.push(error);
+            return None;
         }
+        Some(atom)
+    }
+
+    /// The error if one of the terms since `known`, made by putting arguments in the place of
+    /// parameters, divides by zero or is no number.
+    fn no_number(&self, id: NodeId, known: usize) -> Option<Error> {
+        let arena = &self.module.arena;
+        let bad = |term: &Term| match term {
+            Term::Calculate(Arithmetic::Divide, _, b) if arena.constant(*b) == Some(0.0) => true,
+            Term::Negate(_) | Term::Calculate(..) | Term::Call(..) => {
+                term.operands().iter().all(|operand| arena.constant(*operand).is_some())
+            }
+            _ => false,
+        };
+        let place = known + arena.terms()[known..].iter().position(bad)?;
+        let text = self.module.display_term(TermId(u32::try_from(place).ok()?));
+        let message = format!("with these arguments, `{text}` is not a number");
+        Some(Error::new(Kind::Number, message, self.ast.span(id)))
     }
 
     /// The error for the use of `item` without the arguments that it takes.

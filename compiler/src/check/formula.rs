@@ -93,7 +93,7 @@ impl Checker<'_> {
     }
 
     /// What the predicates of a task are with these arguments.
-    fn literals(&mut self, task: TaskId, arguments: &Arguments) -> Vec<Literal> {
+    pub(super) fn literals(&mut self, task: TaskId, arguments: &Arguments) -> Vec<Literal> {
         let Some(task) = &self.tasks[task.0 as usize] else { return Vec::new() };
         let predicates = task.predicates.clone();
         predicates.into_iter().map(|predicate| self.literal(predicate, arguments)).collect()
@@ -319,7 +319,7 @@ fn temporal(spec: &Spec) -> Option<FormulaId> {
 
 /// What a predicate of a task is where the task is used.
 #[derive(Clone, Copy)]
-enum Literal {
+pub(super) enum Literal {
     /// A constant.
     Truth(bool),
     /// A predicate, or its negation.

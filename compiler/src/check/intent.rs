@@ -89,6 +89,9 @@ fn bracketed(ast: &Ast, id: NodeId) -> String {
 
 /// A warning if the operator `id` orders less than its author seems to think.
 pub(super) fn warning(ast: &Ast, id: NodeId) -> Option<Error> {
+    if let Node::Infix(Infix::Until, left, right) = *ast.node(id) {
+        return idle_until(ast, left, right);
+    }
     let Node::Infix(Infix::Then, left, right) = *ast.node(id) else { return None };
     let entry = ast.entry(left);
     let right = ast.quote(right);
@@ -116,4 +119,31 @@ pub(super) fn warning(ast: &Ast, id: NodeId) -> Option<Error> {
         }
         _ => None,
     }
+}
+
+/// A warning for `a U F b`, which says no more than `F b`.
+fn idle_until(ast: &Ast, left: NodeId, right: NodeId) -> Option<Error> {
+    let goal = match *ast.node(right) {
+        Node::Prefix(Prefix::Eventually, goal) => goal,
+        Node::Infix(Infix::Then, goal, _) => goal,
+        _ => return None,
+    };
+    let (kept, text) = (ast.quote(left), ast.quote(right));
+    let operand = |id| match ast.node(id) {
+        Node::Prefix(..) => ast.quote(id),
+        _ => bracketed(ast, id),
+    };
+    let (keep, goal) = (operand(left), operand(goal));
+    let message = format!(
+        "`{kept}` does not matter: `{text}` already looks ahead, so `U` need not wait for it"
+    );
+    Some(
+        Error::new(Kind::Vacuous, message, ast.entry(left).outer)
+            .warning()
+            .related(
+                ast.entry(right).operator,
+                "this is asked at the first state, not when it comes true",
+            )
+            .help(format!("to keep to {keep} until {goal} comes, write `{keep} U {goal}`")),
+    )
 }
