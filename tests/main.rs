@@ -2,6 +2,7 @@
 
 mod corpus;
 mod evaluate;
+mod factored;
 mod forms;
 mod front;
 mod grammar;

@@ -1,0 +1,88 @@
+//! Factored tasks: the parts side by side say what the whole says.
+
+use tltl::factored::JointDeadEnds;
+use tltl::product::Product;
+use tltl::tltl;
+
+/// Which of 40 propositions hold.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Letter(u64);
+
+mod tasks {
+    use super::Letter;
+
+    tltl! {
+        state s: Letter;
+        predicate h = { s.0 >> 39 & 1 == 1 };
+        /// All three at once, as one automaton.
+        task whole = F { s.0 & 1 == 1 } && F { s.0 & 2 == 2 } && (!h U { s.0 & 4 == 4 });
+        #[factored]
+        task apart = F { s.0 & 1 == 1 } && F { s.0 & 2 == 2 } && (!h U { s.0 & 4 == 4 });
+    }
+
+    use tltl::tltl;
+}
+
+fn letters() -> impl Iterator<Item = Vec<Letter>> {
+    let mut random: u64 = 7;
+    (0..500).map(move |i| {
+        (0..i % 9)
+            .map(|_| {
+                random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(99);
+                let bits = random >> 40;
+                Letter(bits & 7 & (bits >> 3) | (bits >> 6 & bits >> 7 & 1) << 39)
+            })
+            .collect()
+    })
+}
+
+#[test]
+fn parts_side_by_side_agree_with_the_whole() {
+    let (whole, apart) = (tasks::whole(), tasks::apart());
+    assert_eq!((apart.len(), apart.joint_dead_ends()), (3, JointDeadEnds::None));
+    for trace in letters() {
+        assert_eq!(whole.satisfied(&trace), apart.satisfied(&trace), "{trace:?}");
+        assert_eq!(whole.robustness(&trace), apart.robustness(&trace), "{trace:?}");
+        let (mut q, mut parts) = (0, vec![0; apart.len()]);
+        for letter in &trace {
+            q = whole.next(q, letter).unwrap();
+            apart.next(&mut parts, letter).unwrap();
+            assert_eq!(whole.automaton().is_accepting(q), apart.is_accepting(&parts), "{trace:?}");
+            assert_eq!(whole.automaton().is_trap(q), apart.is_lost(&parts), "{trace:?}");
+        }
+    }
+}
+
+#[test]
+fn parts_multiply_to_the_whole() {
+    let apart = tasks::apart();
+    let parts: Vec<_> = (0..apart.len()).map(|i| apart.part(i)).collect();
+    let operands: Vec<&(dyn tltl::Monitor<Letter> + Sync)> =
+        parts.iter().map(|part| part as _).collect();
+    let product = Product::conjunction(&operands);
+    assert_eq!(product.live_or_accepting() + 1, tasks::whole().automaton().states as usize);
+}
+
+#[test]
+fn thirty_goals_are_sixty_states() {
+    macro_rules! bit {
+        ($($name:ident $bit:literal)*) => {$(
+            let $name = |s: &Letter| if s.0 >> $bit & 1 == 1 { 1.0 } else { -1.0 };
+        )*};
+    }
+    bit! {
+        a0 0 a1 1 a2 2 a3 3 a4 4 a5 5 a6 6 a7 7 a8 8 a9 9 b0 10 b1 11 b2 12 b3 13 b4 14 b5 15 b6 16
+        b7 17 b8 18 b9 19 c0 20 c1 21 c2 22 c3 23 c4 24 c5 25 c6 26 c7 27 c8 28 c9 29
+    }
+    let tour = tltl! {
+        #[factored]
+        F a0 && F a1 && F a2 && F a3 && F a4 && F a5 && F a6 && F a7 && F a8 && F a9
+            && F b0 && F b1 && F b2 && F b3 && F b4 && F b5 && F b6 && F b7 && F b8 && F b9
+            && F c0 && F c1 && F c2 && F c3 && F c4 && F c5 && F c6 && F c7 && F c8 && F c9
+    };
+    let states: u32 = (0..tour.len()).map(|i| tour.part(i).automaton().states).sum();
+    assert_eq!((tour.len(), states), (30, 60));
+    let one_by_one: Vec<Letter> = (0..30).map(|bit| Letter(1 << bit)).collect();
+    assert_eq!(tour.satisfied(&one_by_one), Ok(true));
+    assert_eq!(tour.satisfied(&one_by_one[1..]), Ok(false));
+}
