@@ -115,7 +115,8 @@ impl Chart {
             text(&mut svg, (LEFT + WIDTH + 12.0, at + 4.0), 12, "start", name);
         }
         for (i, curve) in self.curves.iter().enumerate() {
-            curve.draw(&mut svg, &scale, COLOURS[i % COLOURS.len()]);
+            let dash = ["", "6 5"][usize::from(i >= 4)];
+            curve.draw(&mut svg, &scale, COLOURS[i % COLOURS.len()], dash);
             let y = TOP + 10.0 + 22.0 * i as f64;
             let _ = writeln!(
                 svg,
@@ -156,7 +157,7 @@ impl Chart {
 }
 
 impl Curve {
-    fn draw(&self, svg: &mut String, scale: &Scale, colour: &str) {
+    fn draw(&self, svg: &mut String, scale: &Scale, colour: &str, dash: &str) {
         let path = |at: &dyn Fn(&Point) -> f64, points: &mut dyn Iterator<Item = &Point>| {
             let mut path = String::new();
             for p in points {
@@ -170,7 +171,8 @@ impl Curve {
         let _ = writeln!(
             svg,
             "<polygon points=\"{upper}{lower}\" fill=\"{colour}\" opacity=\"0.2\"/>\n\
-             <polyline points=\"{middle}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"2\"/>"
+             <polyline points=\"{middle}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"2\" \
+             stroke-dasharray=\"{dash}\"/>"
         );
     }
 }

@@ -14,6 +14,7 @@ use tltl::model::Dynamics;
 use tltl::product::Product;
 use tltl::q::QTable;
 use tltl::solve::Problem;
+use tltl_examples::chart::{Chart, Curve, Point};
 use tltl_examples::grid::Cell;
 use tltl_examples::study::{FAMILIES, Family, GRID, PAPER, layout, mean, publish, quantile};
 
@@ -94,6 +95,31 @@ fn line(table: &mut String, formulas: [&str; 2], method: &str, worths: &[Worth])
     );
 }
 
+/// The methods' losses over the random layouts, each sorted by size: excess steps where nothing can
+/// be lost, regret in P(satisfied) where it can.
+fn chart(family: &Family, all: &[[Worth; 6]]) -> Chart {
+    let trapped = all.iter().flatten().any(|worth| worth.largest < 1.0 - 1e-9);
+    let loss = |w: &Worth| if trapped { w.largest - w.satisfied } else { w.excess };
+    let curve = |i: usize| {
+        let mut losses: Vec<f64> = all.iter().map(|worths| 100.0 * loss(&worths[i])).collect();
+        losses.sort_by(f64::total_cmp);
+        let point = |(rank, y): (usize, &f64)| {
+            let y = y.clamp(0.01, 1e3);
+            Point { x: rank as f64 + 1.0, y, low: y, high: y }
+        };
+        let points = losses.iter().enumerate().map(point).collect();
+        Curve { name: METHODS[i].to_owned(), points }
+    };
+    let measure = if trapped { "P(satisfied) given away, %" } else { "excess steps, %" };
+    Chart {
+        title: format!("({}) ∧ ({}), 100 random layouts", family.formulas[0], family.formulas[1]),
+        x: "layouts, the easiest first".to_owned(),
+        y: format!("{measure} (at least 0.01)"),
+        line: None,
+        curves: (0..METHODS.len()).map(curve).collect(),
+    }
+}
+
 const HEAD: &str = "| skills | method | P regret, mean % | P regret, worst % | excess steps, median % \
                     | excess steps, 95th percentile % | never succeed | largest error of a value |\n\
                     | --- | --- | --- | --- | --- | --- | --- | --- |\n";
@@ -102,6 +128,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let style = ProgressStyle::with_template("{wide_bar} {pos}/{len}, {per_sec}, {eta} left")?;
     let bar = ProgressBar::new(FAMILIES.len() as u64 * (LAYOUTS + 1)).with_style(style);
     let (mut paper, mut random, mut lines) = (HEAD.to_owned(), HEAD.to_owned(), String::new());
+    let mut charts = Vec::new();
     for family in &FAMILIES {
         let all = seeds(0..LAYOUTS + 1, |seed| {
             let cells = if seed == 0 { PAPER } else { layout(seed) };
@@ -109,6 +136,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             bar.inc(1);
             worths
         });
+        charts.push(chart(family, &all[1..]));
         for (i, method) in METHODS.iter().enumerate() {
             let of: Vec<Worth> = all.iter().map(|worths| worths[i]).collect();
             line(&mut paper, family.formulas, method, &of[..1]);
@@ -129,7 +157,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     bar.finish_and_clear();
     let text = format!(
-        "# Composition of two skills\n\nExact skills (`Progress`, γ 0.95) composed on the paper's 8 × 10 \
+        "# Composition of two skills\n\n![Excess steps without traps](composition_steps.svg)\n\n\
+         ![Lost safety with traps](composition_traps.svg)\n\nExact skills (`Progress`, γ 0.95) composed on the paper's 8 × 10 \
          grid; from scratch: {SCRATCH} environment steps with the default settings. P regret is the \
          largest possible P(satisfied) less that of the greedy policy, in percent; excess steps are \
          E[steps given success] over the fewest possible, negative where P is given away for speed. \
@@ -138,6 +167,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
          --example study_composition`.\n\n## The paper's layout\n\n{paper}\n## 100 random layouts\n\n\
          {random}"
     );
+    publish("composition_steps.svg", &charts[0].svg())?;
+    publish("composition_traps.svg", &charts[4].svg())?;
     publish("composition.md", &text)?;
     publish("composition.jsonl", &lines)?;
     Ok(())

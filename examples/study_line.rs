@@ -15,7 +15,7 @@ use tltl::tltl;
 use tltl_examples::study::publish;
 
 const GAMMA: f64 = 0.95;
-const ACTIONS: [&str; 3] = ["←", "·", "→"];
+const ACTIONS: [&str; 3] = ["←", "●", "→"];
 
 struct Line;
 
@@ -64,6 +64,25 @@ fn row(svg: &mut String, y: f64, title: &str, actions: &[u32]) {
     }
 }
 
+/// The live automaton states that some trajectory meets; the raw product has more.
+fn met(task: &Labelled) -> Vec<u32> {
+    let mut met: Vec<u32> = (0..10).map(|s| task.start(s)).collect();
+    let mut at = 0;
+    while at < met.len() {
+        for s in 0..10 {
+            let to = task.next(met[at], s);
+            if !met.contains(&to) {
+                met.push(to);
+            }
+        }
+        at += 1;
+    }
+    met.retain(|&q| task.end(q).is_none());
+    met.sort_unstable();
+    met.dedup();
+    met
+}
+
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (a, b) = (|s: &i32| f64::from(1 - (s + 2).abs()), |s: &i32| f64::from(1 - (s - 3).abs()));
     let (visit, order) = (tltl! { F a && F b }, tltl! { !b U a });
@@ -95,9 +114,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let steps = own.steps.map_or("never".to_owned(), |steps| format!("{steps:.4}"));
         let share = 100.0 * own.fraction_optimal;
         let _ = writeln!(text, "| {name} | {:.4} | {steps} | {share:.1} % |", own.satisfied);
-        for q in task.live() {
+        for q in met(&task) {
             let actions: Vec<u32> = (0..10).map(|s| table.greedy(q, s)).collect();
-            let when = if q == 0 { "before a" } else { "after a" };
+            let when = if q == task.start(4) { "before a" } else { "after a" };
             row(&mut body, y, &format!("{name}, {when}"), &actions);
             y += 50.0;
         }

@@ -19,7 +19,7 @@ use tltl_examples::study::{FAMILIES, GRID, GridTask, PAPER, at, layout, mean, pu
 
 const GAMMA: f64 = 0.95;
 const LAYOUTS: u64 = 100;
-const LEARNED: u64 = 2_000_000;
+const LEARNED: u64 = 6_000_000;
 
 /// The settings that are compared.
 fn modes() -> [(&'static str, Rewards, f64); 9] {
@@ -113,7 +113,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                     the paper's grid, exactly: regret in P(satisfied) against the largest possible, and \
                     E[steps given success] over the fewest possible (negative where safety is given \
                     away). γ is 0.95, and 0.9999 for `Settings::safe`, which pays acceptance alone: the \
-                    setting to take where a task has a trap; its last row is what it learns from 2 million steps \
+                    setting to take where a task has a trap; its last row is what it learns from 6 million steps \
                     of experience, replayed. Written by `cargo run --release --example \
                     study_rewards`.\n"
         .to_owned();

@@ -134,9 +134,9 @@ impl QTable {
 /// update.
 #[inline]
 pub(crate) fn largest(values: &[f64]) -> f64 {
-    match values {
-        &[a, b, c, d] => more(more(more(a, b), c), d),
-        &[a, b, c, d, e] => more(more(more(more(a, b), c), d), e),
+    match *values {
+        [a, b, c, d] => more(more(more(a, b), c), d),
+        [a, b, c, d, e] => more(more(more(more(a, b), c), d), e),
         _ => largest_of(values),
     }
 }
