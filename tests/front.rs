@@ -134,6 +134,8 @@ fn deep(n: usize) -> Vec<String> {
         "a[".repeat(n),
         "{".repeat(n),
         "f(a, ".repeat(n),
+        "for all x in {a}: ".repeat(n) + "F x",
+        "for some x in {a, b}: ".repeat(n) + "F x",
         "a".repeat(n),
         "\u{25c7}".repeat(n) + "a",
     ]

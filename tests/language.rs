@@ -78,6 +78,29 @@ fn quantifiers_and_arguments_mean_what_they_spell_out() {
 }
 
 #[test]
+fn quantifiers_over_what_a_formula_has() {
+    let spec = |text: &str| {
+        let source = Source::new("<formula>", text);
+        let compiled = compile::formula(&source, Budget::default()).unwrap();
+        compiled.module.tasks[0].spec.to_string()
+    };
+    assert_eq!(spec("for all x in {a, b}: F x"), "F a && F b");
+    assert_eq!(spec("for some v in {1, 2}: X (x < v)"), "X (x < 1) || X (x < 2)");
+    let (near, far) = (|x: &f64| 1.0 - x, |x: &f64| x - 5.0);
+    let both = tltl! { for all p in {near, far}: F p };
+    assert!(both.satisfied(&[0.0, 9.0]).unwrap());
+    assert!(!both.satisfied(&[0.0, 2.0]).unwrap());
+}
+
+#[test]
+fn what_is_written_out_is_bounded() {
+    let names: Vec<_> = (0..20).map(|i| format!("for all x{i} in {{a, b}}: ")).collect();
+    let source = Source::new("<formula>", names.concat() + "F (x0 && x19)");
+    let errors = compile::formula(&source, Budget::default()).unwrap_err();
+    assert_eq!(errors.first().kind().name(), "budget");
+}
+
+#[test]
 fn a_place_has_one_value() {
     let states = |formula: &str| {
         let compiled = compiled(&format!("{WORLD}task t(r: Room) = {formula}"));

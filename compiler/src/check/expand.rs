@@ -193,9 +193,9 @@ impl Expansion<'_, '_> {
                 break;
             }
             let mut inner = Vec::clone(environment);
-            if !taken {
-                inner.push((self.from.source().slice(name).to_owned(), value));
-            }
+            // What is called like something else is that, and binds nothing; it still counts as deep.
+            let text = if taken { "" } else { self.from.source().slice(name) };
+            inner.push((text.to_owned(), value));
             let copy = self.copy(body, &Rc::new(inner));
             joined = Some(match joined {
                 None => copy,

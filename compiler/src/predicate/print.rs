@@ -115,7 +115,7 @@ impl Printed<'_> {
     fn term(&self, term: &Term) -> (u8, Vec<Piece>) {
         use Piece::{Term as Inner, Text, Word};
         match term {
-            Term::Number(Number(value)) => (12, vec![Word(value.to_string())]),
+            Term::Number(Number(value)) => (12, vec![Word(number(*value))]),
             Term::Variable(name) | Term::Variant { name, .. } | Term::Parameter { name, .. } => {
                 (12, vec![Word(name.clone())])
             }
@@ -148,6 +148,13 @@ impl Printed<'_> {
             bindings.iter().map(|(name, term)| (name.as_str(), print(*term))).collect();
         Piece::Word(crate::parse::renamed(text, &words))
     }
+}
+
+/// A number in its shorter form, which reads as the same number.
+fn number(value: f64) -> String {
+    let plain = value.to_string();
+    let short = format!("{value:e}");
+    if plain.len() > 17 && short.len() < plain.len() { short } else { plain }
 }
 
 fn place(steps: &[Step]) -> Vec<Piece> {
