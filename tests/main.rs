@@ -3,6 +3,7 @@
 mod corpus;
 mod evaluate;
 mod factored;
+mod foreign;
 mod forms;
 mod front;
 mod grammar;

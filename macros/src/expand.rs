@@ -7,6 +7,7 @@ use quote::{quote, quote_spanned};
 use tltl_compiler::compile::{self, Compiled};
 use tltl_compiler::emit::rust::{self, Options};
 use tltl_compiler::error::{Error, Errors, Style};
+use tltl_compiler::hoa;
 use tltl_compiler::source::Source;
 use tltl_compiler::translate::Budget;
 
@@ -32,7 +33,7 @@ pub(crate) fn inline(input: TokenStream) -> TokenStream {
     }
 }
 
-/// `include_tltl!("path")`, with `state = Type`, `mod = name` and `crate = path` after it.
+/// `include_tltl!("path")` of a task file or of an automaton in HOA, with `state = Type`, `mod = name` and `crate = path` after it.
 pub(crate) fn include(input: TokenStream) -> TokenStream {
     let arguments = match Arguments::parse(input) {
         Ok(arguments) => arguments,
@@ -50,19 +51,29 @@ pub(crate) fn include(input: TokenStream) -> TokenStream {
         }
     };
     let source = Source::new(arguments.path.as_str(), text);
+    let options =
+        |host| Options { runtime: arguments.runtime.clone(), state: arguments.state.clone(), host };
+    if arguments.path.ends_with(".hoa") {
+        let code = match hoa::read(&source) {
+            Ok(read) => {
+                let name = read.name.unwrap_or_else(|| arguments.stem());
+                rust::automaton(&name, &read.dfa, &options(&|_| TokenStream::new()))
+            }
+            Err(error) => failure(&Errors::from(error), &source, span),
+        };
+        return arguments.module(&code);
+    }
     let code = match compile::file(&source, Budget::default()) {
-        Ok(compiled) => {
-            let host = |_| TokenStream::new();
-            let Arguments { runtime, state, .. } = &arguments;
-            let options = Options { runtime: runtime.clone(), state: state.clone(), host: &host };
-            emit(&compiled, &options)
-        }
-        Err(errors) => {
-            let message = format!("\n{}", errors.render(&source, Style::Plain));
-            quote_spanned! { span => ::core::compile_error! { #message } }
-        }
+        Ok(compiled) => emit(&compiled, &options(&|_| TokenStream::new())),
+        Err(errors) => failure(&errors, &source, span),
     };
     arguments.module(&code)
+}
+
+/// The mistakes of a file, with its own lines and carets, at the path that names it.
+fn failure(errors: &Errors, source: &Source, span: Span) -> TokenStream {
+    let message = format!("\n{}", errors.render(source, Style::Plain));
+    quote_spanned! { span => ::core::compile_error! { #message } }
 }
 
 /// A bare formula is an expression, declarations are items.

@@ -5,7 +5,7 @@
 //! automaton always moves on Booleans. NaN is an error of the caller and is reported, never taken
 //! as false.
 
-use crate::automaton::Guard;
+use crate::automaton::{Automaton, Guard};
 
 /// A predicate met a value that is not a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -173,6 +173,44 @@ pub fn trajectory<E>(
         next.copy_from_slice(now);
     }
     Ok(formula.len().checked_sub(1).map_or(f64::NEG_INFINITY, |last| now[last]))
+}
+
+/// Robustness of a whole trajectory of `length` states by an automaton of which there is no
+/// formula: the best run's worst guard, max over the runs into the accepting state, min over the
+/// guards on the way. Positive only for trajectories that are accepted, negative only for others.
+/// O(length × edges) time; `now` and `next` are scratch space, one cell a state.
+///
+/// # Errors
+/// The first error of `rho`.
+pub fn best_run<E>(
+    automaton: &Automaton,
+    length: usize,
+    now: &mut [f64],
+    next: &mut [f64],
+    mut rho: impl FnMut(usize, usize) -> Result<f64, E>,
+) -> Result<f64, E> {
+    now.fill(f64::NEG_INFINITY);
+    now[Automaton::INITIAL as usize] = f64::INFINITY;
+    for t in 0..length {
+        next.fill(f64::NEG_INFINITY);
+        for edge in automaton.edges {
+            let mut error = None;
+            let taken = guard(edge.guard, |i| {
+                rho(i, t).unwrap_or_else(|e| {
+                    error = Some(e);
+                    f64::NEG_INFINITY
+                })
+            });
+            if let Some(error) = error {
+                return Err(error);
+            }
+            let to = &mut next[edge.to as usize];
+            *to = max(*to, min(now[edge.from as usize], taken));
+        }
+        now.copy_from_slice(next);
+    }
+    let accepting = automaton.accepting.filter(|_| length > 0);
+    Ok(accepting.map_or(f64::NEG_INFINITY, |q| now[q as usize]))
 }
 
 #[inline]

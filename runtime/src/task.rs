@@ -10,7 +10,8 @@ use crate::robustness::{self, NotANumber, Op, Predicates};
 pub struct Formula {
     /// The formula as its author wrote it.
     pub text: &'static str,
-    /// Its operators in negation normal form; the last one is the formula itself.
+    /// Its operators in negation normal form; the last one is the formula itself. None: the
+    /// automaton came without a formula.
     pub ops: &'static [Op],
 }
 
@@ -134,7 +135,8 @@ impl<P> Task<P> {
         nan.map_or(Ok(rho), |i| Err(self.nan(i)))
     }
 
-    /// Robustness of a whole trajectory, ρ(s_{0:T}, φ), in O(N) time; -∞ for an empty one.
+    /// Robustness of a whole trajectory, ρ(s_{0:T}, φ), in O(N) time; -∞ for an empty one. Of an
+    /// automaton that came without a formula it is that of the [best run](robustness::best_run).
     ///
     /// # Errors
     /// If a predicate is not a number: which, and at which instant.
@@ -146,9 +148,14 @@ impl<P> Task<P> {
             let rho = self.predicates.robustness(i, &trajectory[t]);
             if rho.is_nan() { Err(Error { instant: Some(t), ..self.nan(i) }) } else { Ok(rho) }
         };
-        let ops = self.formula.ops;
-        self.predicates
-            .with_scratch(|now, next| robustness::trajectory(ops, trajectory.len(), now, next, rho))
+        let (ops, length) = (self.formula.ops, trajectory.len());
+        self.predicates.with_scratch(|now, next| {
+            if ops.is_empty() {
+                robustness::best_run(self.automaton, length, now, next, rho)
+            } else {
+                robustness::trajectory(ops, length, now, next, rho)
+            }
+        })
     }
 
     /// Whether a trajectory satisfies the task; an empty one does not.

@@ -92,6 +92,77 @@ pub fn items(compiled: &Compiled, options: &Options<'_>) -> TokenStream {
     quote! { #(#enums)* #(#structs)* #state #(#predicates)* #(#tasks)* #(#factored)* }
 }
 
+/// An automaton that came without a formula, as items: a function `task` that takes a predicate
+/// for each proposition, in order, and returns the task.
+#[must_use]
+pub fn automaton(name: &str, dfa: &Dfa, options: &Options<'_>) -> TokenStream {
+    let runtime = &options.runtime;
+    let path = runtime.to_string().replace(' ', "");
+    let table = tables::automaton(dfa, &path);
+    let types: Vec<Ident> = (0..dfa.propositions.len()).map(|i| format_ident!("P{}", i)).collect();
+    let places: Vec<Literal> = (0..types.len()).map(Literal::usize_unsuffixed).collect();
+    let (takes, states) = (types.clone(), Literal::usize_unsuffixed(dfa.len()));
+    let arguments: Vec<Ident> = (0..types.len()).map(|i| format_ident!("p{}", i)).collect();
+    let docs = documentation(
+        &[format!("The task of the automaton `{name}`, over one predicate for each proposition:")],
+        &[
+            dfa.propositions.iter().map(|p| format!("`{p}`")).collect::<Vec<_>>().join(", "),
+            sizes(dfa),
+        ],
+    );
+    let call = |method: &str| {
+        let method = identifier(method);
+        quote! {
+            match i {
+                #(#places => #runtime::Predicate::#method(&self.#places, s),)*
+                _ => #runtime::private::no_predicate(i),
+            }
+        }
+    };
+    let (robustness, holds) = (call("robustness"), call("holds"));
+    quote! {
+        #docs
+        #[must_use]
+        pub fn task<#(#takes),*>(#(#arguments: #types),*) -> #runtime::Task<Predicates<#(#types),*>> {
+            static FORMULA: #runtime::Formula = #runtime::Formula { text: #name, ops: &[] };
+            static AUTOMATON: #runtime::Automaton = #table;
+            #runtime::Task::from_parts(#name, &FORMULA, &AUTOMATON, Predicates(#(#arguments),*))
+        }
+
+        /// One predicate for each proposition.
+        #[derive(Clone, Copy, Debug)]
+        pub struct Predicates<#(#types),*>(#(#types),*);
+
+        #[allow(unused_variables, clippy::all)]
+        impl<__S: ?Sized, #(#types: #runtime::Predicate<__S>),*>
+            #runtime::robustness::Predicates<__S> for Predicates<#(#types),*>
+        {
+            #[inline]
+            fn robustness(&self, i: ::core::primitive::usize, s: &__S) -> ::core::primitive::f64 {
+                #robustness
+            }
+            #[inline]
+            fn holds(
+                &self,
+                i: ::core::primitive::usize,
+                s: &__S,
+            ) -> ::core::result::Result<::core::primitive::bool, #runtime::robustness::NotANumber> {
+                #holds
+            }
+            #[inline]
+            fn with_scratch<__R>(
+                &self,
+                f: impl ::core::ops::FnOnce(
+                    &mut [::core::primitive::f64],
+                    &mut [::core::primitive::f64],
+                ) -> __R,
+            ) -> __R {
+                f(&mut [0.0; #states], &mut [0.0; #states])
+            }
+        }
+    }
+}
+
 /// A source as a Rust file, as the macros would generate it, formatted.
 ///
 /// Declarations become items; of a bare formula, whose propositions are free, there are only the
