@@ -1,4 +1,38 @@
 //! Compiles scTLTL task specifications to minimal automata and Rust source.
+//!
+//! # The pipeline
+//!
+//! ```text
+//! Source ─ parse ─> Ast ─ check ─> Module { predicates, tasks: Spec }
+//!                                     │
+//!                     Spec ─ translate ─> Dfa ─ minimize ─> Dfa      (predicates as propositions)
+//!                                     │                      │
+//!                     Module ─ arithmetic ─> possible ─ restrict, minimize ─> Dfa
+//!                                                                            │
+//!                        emit::{rust, text, json, dot, svg, mermaid, hoa} <──┘
+//! ```
+//!
+//! [`compile`] runs it from end to end. A stage is a module, a function and a type; a later stage
+//! never asks whether an earlier one did its work: a [`spec::Spec`] *is* typed, in negation normal
+//! form and co-safe, a minimal [`dfa::Dfa`] *is* canonical. All of it is a function of the source:
+//! no clock, no randomness, no order of hashes. Expressions, formulas and diagrams live in arenas
+//! of ids, operands first, so no pass recurses on what an author nests.
+//!
+//! Beside the pipeline stand [`product`] (automata side by side), [`factor`] (a conjunction taken
+//! apart), [`semantics`] (what a formula means on a trace, the oracle of the tests), [`explain`] and
+//! [`diff`] (what an automaton asks for, and where two differ), and [`hoa`] (automata of other tools).
+//! The compiler never learns, and does not know the runtime: the Rust that it writes is their only
+//! contract.
+//!
+//! ```
+//! use tltl_compiler::{compile, source::Source, translate::Budget};
+//!
+//! let source = Source::new("formula", "F a && F b && F c");
+//! let compiled = compile::formula(&source, Budget::SHOWN)?;
+//! let size = compiled.automata[0].dfa.size();
+//! assert_eq!((size.states, size.edges, size.self_loops), (8, 19, 8));
+//! # Ok::<(), tltl_compiler::error::Errors>(())
+//! ```
 
 pub mod arithmetic;
 pub mod ast;
