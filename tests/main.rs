@@ -15,5 +15,6 @@ mod random;
 mod semantics;
 #[rustfmt::skip]
 mod static_corpus;
+mod stages;
 mod static_corpus_source;
 mod ui;

@@ -31,10 +31,11 @@ pub fn canonical_order(dfa: &Dfa) -> (Dfa, Vec<State>) {
 }
 
 /// The coarsest partition that separates the accepting state from the others and is respected by
-/// all transitions, as the class of each state.
+/// all transitions, as the class of each state. It starts from the distances to acceptance, which
+/// equivalent states share: in a sequence of goals these alone tell all states apart, and without
+/// them it would take as many rounds as there are goals.
 fn classes(dfa: &Dfa) -> Vec<State> {
-    let accepts = |q| dfa.accepting == Some(q) || q == 0 && accepts_at_once(dfa);
-    let mut classes: Vec<State> = dfa.states().map(|q| State::from(accepts(q))).collect();
+    let mut classes = distances(dfa);
     let mut count = 0;
     loop {
         let (refined, refined_count) = refine(dfa, &classes);
@@ -45,10 +46,86 @@ fn classes(dfa: &Dfa) -> Vec<State> {
     }
 }
 
-/// Whether every letter accepts from the initial state. That state then counts as accepting, for a
+/// The least number of letters from each state to acceptance; a number that is no distance where
+/// there is no way. An initial state from which every letter accepts counts as accepting, for a
 /// trajectory has at least one letter; it is never met again, for the accepting state is absorbing.
-fn accepts_at_once(dfa: &Dfa) -> bool {
-    dfa.accepting.is_some_and(|accepting| dfa.transitions[0] == Target::to_state(accepting))
+fn distances(dfa: &Dfa) -> Vec<State> {
+    let never = dfa.len() as State;
+    let mut distances = vec![never; dfa.len()];
+    let above = above(dfa);
+    let mut frontier: Vec<State> = dfa.accepting.into_iter().collect();
+    if dfa.accepting.is_some_and(|q| dfa.transitions[0] == Target::to_state(q)) {
+        frontier.push(0);
+    }
+    frontier.iter().for_each(|&q| distances[q as usize] = 0);
+    let mut seen = vec![false; dfa.diagram.nodes().len()];
+    let mut stack = Vec::new();
+    for distance in 1.. {
+        stack.extend(frontier.drain(..).map(Target::to_state));
+        while let Some(target) = stack.pop() {
+            for &parent in above.of(target) {
+                match (parent.node(), parent.state()) {
+                    (Some(node), _) if !std::mem::replace(&mut seen[node as usize], true) => {
+                        stack.push(parent);
+                    }
+                    (_, Some(q)) if distances[q as usize] == never => {
+                        distances[q as usize] = distance;
+                        frontier.push(q);
+                    }
+                    _ => {}
+                }
+            }
+        }
+        if frontier.is_empty() {
+            break;
+        }
+    }
+    distances
+}
+
+/// The nodes and states that lead to each node and state directly.
+struct Above {
+    states: usize,
+    /// Where the parents of each begin, states first.
+    starts: Vec<u32>,
+    parents: Vec<Target>,
+}
+
+impl Above {
+    fn place(states: usize, target: Target) -> usize {
+        match target.node() {
+            Some(node) => states + node as usize,
+            None => target.state().expect("a node or a state") as usize,
+        }
+    }
+
+    fn of(&self, target: Target) -> &[Target] {
+        let place = Self::place(self.states, target);
+        &self.parents[self.starts[place] as usize..self.starts[place + 1] as usize]
+    }
+}
+
+fn above(dfa: &Dfa) -> Above {
+    let states = dfa.len();
+    let nodes = (0..).zip(dfa.diagram.nodes()).flat_map(|(index, node)| {
+        [node.low, node.high].map(|child| (child, Target::to_node(index)))
+    });
+    let roots = (0..).zip(&dfa.transitions).map(|(q, &root)| (root, Target::to_state(q)));
+    let pairs: Vec<_> = roots.chain(nodes).collect();
+    let mut starts = vec![0; states + dfa.diagram.nodes().len() + 1];
+    pairs.iter().for_each(|&(child, _)| starts[Above::place(states, child)] += 1);
+    let mut total = 0;
+    for start in &mut starts {
+        total += *start;
+        *start = total;
+    }
+    let mut parents = vec![Target::to_state(0); pairs.len()];
+    for (child, parent) in pairs {
+        let start = &mut starts[Above::place(states, child)];
+        *start -= 1;
+        parents[*start as usize] = parent;
+    }
+    Above { states, starts, parents }
 }
 
 fn refine(dfa: &Dfa, classes: &[State]) -> (Vec<State>, usize) {
