@@ -204,22 +204,23 @@ impl<R: Rng + Clone> Learner<R> {
     }
 
     fn episode<E: FiniteEnv>(&mut self, env: &mut E, updates: &Updates<'_>, rng: &mut R) {
+        let settings = self.settings;
         let mut s = env.reset_index(rng);
         self.episodes += 1;
         let mut q = updates.task.start(s);
-        if self.settings.remember {
+        if settings.remember {
             self.experience.start(s);
         }
-        for _ in 0..self.settings.horizon {
+        for _ in 0..settings.horizon {
             if updates.ends[q as usize] {
                 break;
             }
-            let a = self.act(q, s, rng);
+            let a = self.act(&settings, q, s, rng);
             let step = env.step_index(a, rng);
             let Step { state: to, terminated, truncated, .. } = step;
             self.steps += 1;
-            let paid = self.settings.rewards.environment * step.reward;
-            q = self.learn(updates, q, &Seen { s, a, to, paid, terminated });
+            let paid = settings.rewards.environment * step.reward;
+            q = self.learn(&settings, updates, q, &Seen { s, a, to, paid, terminated });
             s = to;
             if terminated || truncated {
                 break;
@@ -229,8 +230,8 @@ impl<R: Rng + Clone> Learner<R> {
 
     /// ε-greedy.
     #[inline]
-    fn act(&self, q: u32, s: usize, rng: &mut R) -> usize {
-        let epsilon = match self.settings.epsilon {
+    fn act(&self, settings: &Settings, q: u32, s: usize, rng: &mut R) -> usize {
+        let epsilon = match settings.epsilon {
             Schedule::Constant(epsilon) => epsilon,
             schedule => schedule.at(self.steps),
         };
@@ -243,12 +244,12 @@ impl<R: Rng + Clone> Learner<R> {
 
     /// Updates the table by one step; the automaton state that follows.
     #[inline(always)]
-    fn learn(&mut self, updates: &Updates<'_>, q: u32, seen: &Seen) -> u32 {
-        if self.settings.remember {
+    fn learn(&mut self, settings: &Settings, updates: &Updates<'_>, q: u32, seen: &Seen) -> u32 {
+        if settings.remember {
             self.experience.push(seen.s, seen.a, seen.to);
         }
-        let layer = if self.settings.counterfactual { 0 } else { q as usize * self.q.states() };
-        let alpha = match self.settings.alpha {
+        let layer = if settings.counterfactual { 0 } else { q as usize * self.q.states() };
+        let alpha = match settings.alpha {
             Schedule::Constant(alpha) => alpha,
             schedule => {
                 let visits = &mut self.visits[(layer + seen.s) * self.q.actions() + seen.a];
@@ -256,7 +257,7 @@ impl<R: Rng + Clone> Learner<R> {
                 schedule.at(u64::from(*visits - 1))
             }
         };
-        if self.settings.counterfactual {
+        if settings.counterfactual {
             for &q in &updates.live {
                 updates.apply(&mut self.q, q, seen, alpha);
             }
