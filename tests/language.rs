@@ -181,6 +181,9 @@ fn a_state_of_ones_own() {
     };
     assert!(own::inspect().satisfied(&[start]).unwrap());
     assert!(!own::empty_hand().satisfied(&[start]).unwrap());
+    assert!(!own::either(own::Receptacle::sink).satisfied(&[start]).unwrap());
+    assert!(own::look_here().satisfied(&[start]).unwrap());
+    assert!(own::come(1.0).satisfied(&[start]).unwrap());
 }
 
 #[derive(Clone, Copy, PartialEq)]
