@@ -2,6 +2,7 @@
 //! learner, no automaton library, only `generated/visit_all.rs`.
 
 #[path = "generated/visit_all.rs"]
+#[allow(dead_code, unreachable_pub, reason = "generated; this program does not use all of it")]
 mod visit_all;
 
 use tltl_examples::grid::{Cell, Grid};
