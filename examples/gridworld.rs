@@ -27,6 +27,9 @@ use tltl_examples::grid::{Cell, Grid};
 
 include_tltl!("tasks/gridworld.tltl", state = tltl_examples::grid::Cell);
 
+/// A predicate as the task file's module has it.
+type Robustness = fn(&Cell) -> f64;
+
 const GAMMA: f64 = 0.95;
 const STEPS: u64 = 8_000_000;
 const SEED: u64 = 1;
@@ -163,15 +166,15 @@ impl World {
     }
 
     fn regions(&self) -> Vec<Region> {
-        let holds: [(&str, fn(&Cell) -> f64); 3] =
+        let predicates: [(&str, Robustness); 3] =
             [("a", gridworld::a), ("b", gridworld::b), ("c", gridworld::c)];
-        let region = |(name, robustness): (&str, fn(&Cell) -> f64)| Region {
+        let region = |(name, robustness): (&str, Robustness)| Region {
             name: name.to_owned(),
             cells: (0..self.grid.states())
                 .filter(|&s| robustness(&self.grid.state(s)) > 0.0)
                 .collect(),
         };
-        holds.map(region).into()
+        predicates.map(region).into()
     }
 }
 

@@ -1,8 +1,8 @@
 //! [`Ast`] to [`Module`]: names, types, negation normal form, co-safety.
 //!
-//! The stages of one expression: [`role`] goes from the root down and decides what each operand
-//! has to be, a number or a formula, and whether it stands under a negation; [`term`] and
-//! [`atom`] go from the leaves up and resolve names and comparisons; [`formula`] builds the
+//! The stages of one expression: `role` goes from the root down and decides what each operand
+//! has to be, a number or a formula, and whether it stands under a negation; `term` and
+//! `atom` go from the leaves up and resolve names and comparisons; `formula` builds the
 //! [`Spec`](crate::spec::Spec). All are loops over the arena. A mistake is noted once, where it is
 //! made, and what depends on it is left alone.
 

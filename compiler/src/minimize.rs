@@ -16,7 +16,7 @@ use crate::dfa::{Dfa, Diagram, State, Target};
 /// The minimal complete automaton with the same language, in canonical numbering.
 ///
 /// Letters that cannot occur ([`Dfa::possible`]) must have been given away beforehand, see
-/// [`restrict`].
+/// [`Possible::restrict`](crate::arithmetic::Possible::restrict).
 #[must_use]
 pub fn minimize(dfa: &Dfa) -> Dfa {
     let classes = classes(dfa);

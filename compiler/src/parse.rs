@@ -1,7 +1,7 @@
 //! Source text to [`Ast`].
 //!
 //! pest recognises the tokens and the shape of items; the operator-precedence parser in
-//! [`expression`] builds the arena. Items are parsed one by one, so that a mistake in one does not
+//! `expression` builds the arena. Items are parsed one by one, so that a mistake in one does not
 //! hide the mistakes in the next. Nothing here looks a name up.
 
 mod expression;
