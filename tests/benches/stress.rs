@@ -2,7 +2,7 @@
 //! semantics at every instant, and the sign of the robustness.
 //!
 //! `cargo bench -p tltl-tests --bench stress [-- COUNT [SEED [OPERATORS]]]`, by default 20,000
-//! formulas of up to 30 operators. A difference becomes a row of `data/found.jsonl`.
+//! formulas of up to 30 operators. A difference becomes a row of the corpus.
 
 #[path = "../random.rs"]
 mod random;

@@ -12,7 +12,7 @@ use proc_macro2::{TokenStream, TokenTree};
 
 fuzz_target!(|text: &str| {
     let Ok(input) = text.parse::<TokenStream>() else { return };
-    let own_rust = text.contains(['{', '[', '|', '(']) || mentions_keyword(input.clone());
+    let own_rust = text.contains(['{', '[', '|', '(', ':']) || mentions_keyword(input.clone());
     let output = expand::inline(input);
     let shown = output.to_string();
     let written = syn::parse2::<syn::File>(output.clone()).is_ok()

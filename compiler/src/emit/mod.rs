@@ -2,18 +2,24 @@
 //!
 //! Every function here is a function of its arguments alone: same automaton, same bytes.
 
+#[cfg(feature = "cli")]
 pub mod dot;
 pub mod edge;
+#[cfg(feature = "cli")]
 pub mod hoa;
 #[cfg(feature = "cli")]
 pub mod json;
+#[cfg(feature = "cli")]
 mod layout;
+#[cfg(feature = "cli")]
 pub mod mermaid;
 #[cfg(feature = "cli")]
 pub mod policy;
 pub mod predicates;
 pub mod rust;
 pub mod sum;
+#[cfg(feature = "cli")]
 pub mod svg;
 pub mod tables;
+#[cfg(feature = "cli")]
 pub mod text;
