@@ -33,10 +33,11 @@ fn defaults_learn_within_one_percent() {
     let (phi1, phi2) = (both(A, B), eventually(C));
     let whole = Product::conjunction(&[&phi1, &phi2]);
     for task in [on_paper(&phi1), on_paper(&phi2), on_paper(&whole)] {
-        for seed in 0..3 {
+        for seed in 0..10 {
             let mut learner = trained(&task, Settings::default(), seed, 1_000_000);
             let online = certified(&task, &learner);
-            assert!(online.satisfied > 0.999 && online.regret_steps.unwrap() < 0.01, "{online:?}");
+            assert!(online.regret_steps.unwrap() < 0.01, "{online:?}");
+            assert!(online.worst_regret_satisfied < 1e-3, "from every start: {online:?}");
             learner.replay(&task).unwrap();
             let replayed = certified(&task, &learner);
             assert!(replayed.worst_regret_satisfied < 1e-3);

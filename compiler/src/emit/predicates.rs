@@ -5,8 +5,8 @@
 //! often, or lies deep, gets a `let` of its own, so the code is as long as the arena and never
 //! nested beyond a fixed depth.
 
-use proc_macro2::{Ident, Literal, Span as TokenSpan, TokenStream};
-use quote::{format_ident, quote};
+use proc_macro2::{Ident, Literal, Span as TokenSpan, TokenStream, TokenTree};
+use quote::{format_ident, quote, quote_spanned};
 use rustc_hash::FxHashMap;
 
 use crate::ast::{Arithmetic, Comparison};
@@ -319,7 +319,9 @@ impl Writer<'_> {
             | Term::Parameter { .. } => (self.leaf(id), 0),
             Term::Place { .. } | Term::Host { .. } => {
                 let place = self.leaf(id);
-                (quote! { #runtime::private::number(#place) }, 0)
+                // Of the wrong type, rustc underlines the author's own expression.
+                let span = first_span(&place);
+                (quote_spanned! { span => #runtime::private::number(#place) }, 0)
             }
             // Only a bare formula has free variables, and it is never written as Rust.
             Term::Variable(_) => (number(f64::NAN), 0),
@@ -390,6 +392,15 @@ impl Writer<'_> {
                 quote! { [#index as ::core::primitive::usize] }
             }
         }
+    }
+}
+
+/// Where the author's tokens begin, within the brackets that were put around them.
+fn first_span(tokens: &TokenStream) -> TokenSpan {
+    match tokens.clone().into_iter().next() {
+        Some(TokenTree::Group(group)) => first_span(&group.stream()),
+        Some(tree) => tree.span(),
+        None => TokenSpan::call_site(),
     }
 }
 

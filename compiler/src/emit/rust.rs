@@ -651,8 +651,8 @@ fn documentation(lines: &[String], paragraphs: &[String]) -> TokenStream {
 fn sizes(dfa: &Dfa) -> String {
     let size = dfa.size();
     let trap = if size.trap { ", one of them the trap" } else { "" };
-    format!(
-        "Minimal automaton: {} states{trap}, {} edges and {} self-loops.",
-        size.states, size.edges, size.self_loops
-    )
+    let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+    let (states, edges) = (count(size.states, "state"), count(size.edges, "edge"));
+    let loops = count(size.self_loops, "self-loop");
+    format!("Minimal automaton: {states}{trap}, {edges} and {loops}.")
 }
