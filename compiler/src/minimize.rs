@@ -7,8 +7,6 @@
 //! breadth-first, letters in lexicographic order, and the diagram is laid out anew in that order: equal
 //! languages over equal propositions give equal automata, byte for byte.
 
-use std::collections::VecDeque;
-
 use rustc_hash::FxHashMap;
 
 use crate::dfa::{Dfa, Diagram, State, Target};
@@ -185,18 +183,28 @@ fn renumber(dfa: &Dfa, classes: &[State]) -> Dfa {
     }
 }
 
-/// The classes that the initial state reaches, breadth-first, letters in lexicographic order.
+/// The classes that the initial state reaches, breadth-first, letters in lexicographic order. A
+/// node that has been walked once leads to nothing new, so the walk is linear in the diagram.
 fn breadth_first(dfa: &Dfa, classes: &[State], representative: &[State]) -> Vec<State> {
     let mut seen = vec![false; representative.len()];
-    let mut order = Vec::new();
-    let mut queue = VecDeque::from([classes[0]]);
+    let mut walked = vec![false; dfa.diagram.nodes().len()];
+    let mut order = vec![classes[0]];
     seen[classes[0] as usize] = true;
-    while let Some(class) = queue.pop_front() {
-        order.push(class);
-        for leaf in dfa.leaves(dfa.transitions[representative[class as usize] as usize]) {
-            let to = classes[leaf as usize];
-            if !std::mem::replace(&mut seen[to as usize], true) {
-                queue.push_back(to);
+    let mut at = 0;
+    while let Some(&class) = order.get(at) {
+        at += 1;
+        let mut stack = vec![dfa.transitions[representative[class as usize] as usize]];
+        while let Some(target) = stack.pop() {
+            if let Some(index) = target.node() {
+                if !std::mem::replace(&mut walked[index as usize], true) {
+                    let node = dfa.diagram.nodes()[index as usize];
+                    stack.extend([node.high, node.low]);
+                }
+            } else if let Some(state) = target.state() {
+                let to = classes[state as usize];
+                if !std::mem::replace(&mut seen[to as usize], true) {
+                    order.push(to);
+                }
             }
         }
     }
