@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use proc_macro2::{Span, TokenStream, TokenTree};
 use quote::{quote, quote_spanned};
 use tltl_compiler::compile::{self, Compiled};
+use tltl_compiler::emit::foreign;
 use tltl_compiler::emit::rust::{self, Options};
 use tltl_compiler::error::{Error, Errors, Style};
 use tltl_compiler::hoa;
@@ -57,7 +58,7 @@ pub(crate) fn include(input: TokenStream) -> TokenStream {
         let code = match hoa::read(&source) {
             Ok(read) => {
                 let name = read.name.unwrap_or_else(|| arguments.stem());
-                rust::automaton(&name, &read.dfa, &options(&|_| TokenStream::new()))
+                foreign::automaton(&name, &read.dfa, &arguments.runtime)
             }
             Err(error) => failure(&Errors::from(error), &source, span),
         };

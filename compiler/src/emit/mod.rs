@@ -5,8 +5,10 @@
 #[cfg(feature = "cli")]
 pub mod dot;
 pub mod edge;
+pub mod foreign;
 #[cfg(feature = "cli")]
 pub mod hoa;
+mod implementation;
 #[cfg(feature = "cli")]
 pub mod json;
 #[cfg(feature = "cli")]

@@ -9,6 +9,7 @@ use quote::{format_ident, quote};
 
 use crate::compile::{Compiled, Factored};
 use crate::dfa::Dfa;
+use crate::emit::implementation::{Implementation, positional};
 pub use crate::emit::predicates::ident as identifier;
 use crate::emit::predicates::{Reading, Scope};
 use crate::emit::tables;
@@ -41,22 +42,8 @@ pub fn expression(compiled: &Compiled, options: &Options<'_>) -> TokenStream {
     let Made { kind, statics, result } = made;
     let values = task.predicates.iter().map(|&predicate| emitter.value(predicate));
     let types: Vec<Ident> = (0..task.predicates.len()).map(|i| format_ident!("P{}", i)).collect();
-    let robustness = (0..types.len()).map(|i| {
-        let place = Literal::usize_unsuffixed(i);
-        quote! { #place => #runtime::Predicate::robustness(&self.#place, s) }
-    });
-    let holds = (0..types.len()).map(|i| {
-        let place = Literal::usize_unsuffixed(i);
-        quote! { #place => #runtime::Predicate::holds(&self.#place, s) }
-    });
-    let implementation = emitter.predicates(
-        &quote! { <__S: ?Sized, #(#types: #runtime::Predicate<__S>),*> },
-        &quote! { __S },
-        &quote! { __TltlPredicates<#(#types),*> },
-        &quote! { #(#robustness,)* },
-        &quote! { #(#holds,)* },
-        task,
-    );
+    let operators = tables::operator_count(&task.spec);
+    let implementation = positional(&types, &identifier("__TltlPredicates"), runtime, operators);
     quote! {{
         #[derive(Clone, Copy)]
         struct __TltlPredicates<#(#types),*>(#(#types),*);
@@ -90,77 +77,6 @@ pub fn items(compiled: &Compiled, options: &Options<'_>) -> TokenStream {
     let tasks = tasks.map(|(task, automata)| emitter.task(task, &automata.dfa));
     let factored = compiled.factored.iter().map(|factored| emitter.factored(factored));
     quote! { #(#enums)* #(#structs)* #state #(#predicates)* #(#tasks)* #(#factored)* }
-}
-
-/// An automaton that came without a formula, as items: a function `task` that takes a predicate
-/// for each proposition, in order, and returns the task.
-#[must_use]
-pub fn automaton(name: &str, dfa: &Dfa, options: &Options<'_>) -> TokenStream {
-    let runtime = &options.runtime;
-    let path = runtime.to_string().replace(' ', "");
-    let table = tables::automaton(dfa, &path);
-    let types: Vec<Ident> = (0..dfa.propositions.len()).map(|i| format_ident!("P{}", i)).collect();
-    let places: Vec<Literal> = (0..types.len()).map(Literal::usize_unsuffixed).collect();
-    let (takes, states) = (types.clone(), Literal::usize_unsuffixed(dfa.len()));
-    let arguments: Vec<Ident> = (0..types.len()).map(|i| format_ident!("p{}", i)).collect();
-    let docs = documentation(
-        &[format!("The task of the automaton `{name}`, over one predicate for each proposition:")],
-        &[
-            dfa.propositions.iter().map(|p| format!("`{p}`")).collect::<Vec<_>>().join(", "),
-            sizes(dfa),
-        ],
-    );
-    let call = |method: &str| {
-        let method = identifier(method);
-        quote! {
-            match i {
-                #(#places => #runtime::Predicate::#method(&self.#places, s),)*
-                _ => #runtime::private::no_predicate(i),
-            }
-        }
-    };
-    let (robustness, holds) = (call("robustness"), call("holds"));
-    quote! {
-        #docs
-        #[must_use]
-        pub fn task<#(#takes),*>(#(#arguments: #types),*) -> #runtime::Task<Predicates<#(#types),*>> {
-            static FORMULA: #runtime::Formula = #runtime::Formula { text: #name, ops: &[] };
-            static AUTOMATON: #runtime::Automaton = #table;
-            #runtime::Task::from_parts(#name, &FORMULA, &AUTOMATON, Predicates(#(#arguments),*))
-        }
-
-        /// One predicate for each proposition.
-        #[derive(Clone, Copy, Debug)]
-        pub struct Predicates<#(#types),*>(#(#types),*);
-
-        #[allow(unused_variables, clippy::all)]
-        impl<__S: ?Sized, #(#types: #runtime::Predicate<__S>),*>
-            #runtime::robustness::Predicates<__S> for Predicates<#(#types),*>
-        {
-            #[inline]
-            fn robustness(&self, i: ::core::primitive::usize, s: &__S) -> ::core::primitive::f64 {
-                #robustness
-            }
-            #[inline]
-            fn holds(
-                &self,
-                i: ::core::primitive::usize,
-                s: &__S,
-            ) -> ::core::result::Result<::core::primitive::bool, #runtime::robustness::NotANumber> {
-                #holds
-            }
-            #[inline]
-            fn with_scratch<__R>(
-                &self,
-                f: impl ::core::ops::FnOnce(
-                    &mut [::core::primitive::f64],
-                    &mut [::core::primitive::f64],
-                ) -> __R,
-            ) -> __R {
-                f(&mut [0.0; #states], &mut [0.0; #states])
-            }
-        }
-    }
 }
 
 /// A source as a Rust file, as the macros would generate it, formatted.
@@ -391,14 +307,17 @@ impl<'a> Emitter<'a> {
             });
             quote! { #(#arms,)* }
         };
-        let implementation = self.predicates(
-            &TokenStream::new(),
-            &state,
-            &quote! { #function },
-            &of(Reading::Robustness),
-            &of(Reading::Truth),
-            task,
-        );
+        let implementation = Implementation {
+            runtime: self.runtime,
+            generics: TokenStream::new(),
+            state,
+            argument: self.scope().state(),
+            name: quote! { #function },
+            robustness: of(Reading::Robustness),
+            holds: of(Reading::Truth),
+            scratch: tables::operator_count(&task.spec),
+        }
+        .tokens();
         let docs = documentation(&task.docs, about_it);
         let about = format!("The predicates of the task `{name}`.");
         let declared = parameters.declared();
@@ -436,54 +355,6 @@ impl<'a> Emitter<'a> {
             quote! { { #code } }
         } else {
             quote! { ::core::result::Result::Ok({ #code }) }
-        }
-    }
-
-    /// The implementation of `Predicates` over the arms of the two `match`es.
-    fn predicates(
-        &self,
-        generics: &TokenStream,
-        state: &TokenStream,
-        name: &TokenStream,
-        robustness: &TokenStream,
-        holds: &TokenStream,
-        task: &Task,
-    ) -> TokenStream {
-        let runtime = self.runtime;
-        let s = if generics.is_empty() { self.scope().state() } else { identifier("s") };
-        let operators = Literal::usize_unsuffixed(tables::operator_count(&task.spec));
-        quote! {
-            #[allow(unused_variables, clippy::all)]
-            impl #generics #runtime::robustness::Predicates<#state> for #name {
-                #[inline]
-                fn robustness(&self, i: ::core::primitive::usize, #s: &#state) -> ::core::primitive::f64 {
-                    match i {
-                        #robustness
-                        _ => #runtime::private::no_predicate(i),
-                    }
-                }
-                #[inline]
-                fn holds(
-                    &self,
-                    i: ::core::primitive::usize,
-                    #s: &#state,
-                ) -> ::core::result::Result<::core::primitive::bool, #runtime::robustness::NotANumber> {
-                    match i {
-                        #holds
-                        _ => #runtime::private::no_predicate(i),
-                    }
-                }
-                #[inline]
-                fn with_scratch<__R>(
-                    &self,
-                    f: impl ::core::ops::FnOnce(
-                        &mut [::core::primitive::f64],
-                        &mut [::core::primitive::f64],
-                    ) -> __R,
-                ) -> __R {
-                    f(&mut [0.0; #operators], &mut [0.0; #operators])
-                }
-            }
         }
     }
 
@@ -640,7 +511,7 @@ impl Parameters {
 }
 
 /// Doc attributes: the author's lines, then the tool's, each a paragraph.
-fn documentation(lines: &[String], paragraphs: &[String]) -> TokenStream {
+pub(super) fn documentation(lines: &[String], paragraphs: &[String]) -> TokenStream {
     let author = lines.iter().map(|line| format!(" {}", line.trim()));
     let lines =
         author.chain(paragraphs.iter().flat_map(|text| [String::new(), format!(" {text}")]));
@@ -648,7 +519,7 @@ fn documentation(lines: &[String], paragraphs: &[String]) -> TokenStream {
     quote! { #(#[doc = #lines])* }
 }
 
-fn sizes(dfa: &Dfa) -> String {
+pub(super) fn sizes(dfa: &Dfa) -> String {
     let size = dfa.size();
     let trap = if size.trap { ", one of them the trap" } else { "" };
     let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });

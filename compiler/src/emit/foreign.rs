@@ -1,0 +1,43 @@
+//! An automaton that came without a formula as Rust: what `include_tltl!` makes of an HOA file.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
+
+use crate::dfa::Dfa;
+use crate::emit::implementation::positional;
+use crate::emit::predicates::ident;
+use crate::emit::rust::{documentation, sizes};
+use crate::emit::tables;
+
+/// The automaton as items: a function `task` that takes a predicate for each proposition, in
+/// order, and returns the task. `runtime` is the path of the runtime crate.
+#[must_use]
+pub fn automaton(name: &str, dfa: &Dfa, runtime: &TokenStream) -> TokenStream {
+    let path = runtime.to_string().replace(' ', "");
+    let table = tables::automaton(dfa, &path);
+    let numbered = |prefix: &str| -> Vec<Ident> {
+        (0..dfa.propositions.len()).map(|i| format_ident!("{prefix}{i}")).collect()
+    };
+    let (types, arguments) = (numbered("P"), numbered("p"));
+    let propositions: Vec<_> = dfa.propositions.iter().map(|p| format!("`{p}`")).collect();
+    let about =
+        format!("The task of the automaton `{name}`, over one predicate for each proposition:");
+    let docs = documentation(&[about], &[propositions.join(", "), sizes(dfa)]);
+    // A run keeps a cell for each state.
+    let implementation = positional(&types, &ident("Predicates"), runtime, dfa.len());
+    quote! {
+        #docs
+        #[must_use]
+        pub fn task<#(#types),*>(#(#arguments: #types),*) -> #runtime::Task<Predicates<#(#types),*>> {
+            static FORMULA: #runtime::Formula = #runtime::Formula { text: #name, ops: &[] };
+            static AUTOMATON: #runtime::Automaton = #table;
+            #runtime::Task::from_parts(#name, &FORMULA, &AUTOMATON, Predicates(#(#arguments),*))
+        }
+
+        /// One predicate for each proposition.
+        #[derive(Clone, Copy, Debug)]
+        pub struct Predicates<#(#types),*>(#(#types),*);
+
+        #implementation
+    }
+}
