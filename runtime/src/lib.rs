@@ -1,4 +1,67 @@
-//! Temporal-logic tasks for reinforcement learning.
+//! Temporal-logic tasks for reinforcement learning: *fetch a, then b, never touch c before that*.
+//!
+//! A task is a formula that `tltl!` (or, from a file, `include_tltl!`) compiles at build time into a
+//! static [`Automaton`] and typed robustness functions; this crate runs it, learns policies for it
+//! and judges them. It never parses. The paper is Li, Ma, Belta: *Automata-Guided Hierarchical
+//! Reinforcement Learning for Skill Composition* (arXiv 1711.00129).
+//!
+//! | module | what it turns into what |
+//! | --- | --- |
+//! | [`automaton`], [`robustness`], [`task`], [`factored`] | states into automaton moves and robustness; no allocation |
+//! | `env`, `model` | a world of yours into an environment, and into exact tables |
+//! | `augmented` | world × task into the FSA-augmented MDP (Definition 3), with rewards by mode |
+//! | `learn`, `q` | experience into action values |
+//! | `product`, `compose` | learned skills into new ones (Algorithm 2), without a step in the world |
+//! | `solve`, `estimate` | any policy into its certificate: P(satisfied), E\[steps\], regret |
+//! | `policy`, `controller`, `shield`, `checkpoint` | results into what runs, is safe, and is kept |
+//!
+//! Features: `std` and `macros` are on; `alloc` is all that owns tables; `serde` saves and loads;
+//! `libm` has `sqrt` and the like without `std`.
+//!
+#![cfg_attr(all(feature = "std", feature = "macros"), doc = "```")]
+#![cfg_attr(not(all(feature = "std", feature = "macros")), doc = "```ignore")]
+//! use tltl::augmented::{Labelled, Rewards};
+//! use tltl::env::ModelEnv;
+//! use tltl::learn::{Learner, Settings};
+//! use tltl::model::FiniteModel;
+//! use tltl::solve::Problem;
+//! use tltl::tltl;
+//!
+//! /// Ten cells in a row; a step goes wrong one time in ten.
+//! struct Row;
+//!
+//! impl FiniteModel for Row {
+//!     type State = i32;
+//!     fn states(&self) -> usize {
+//!         10
+//!     }
+//!     fn actions(&self) -> usize {
+//!         2
+//!     }
+//!     fn state(&self, s: usize) -> i32 {
+//!         s as i32
+//!     }
+//!     fn transitions(&self, s: usize, a: usize, mut outcome: impl FnMut(usize, f64)) {
+//!         let (left, right) = (s.saturating_sub(1), (s + 1).min(9));
+//!         let p = [0.9, 0.1][a];
+//!         outcome(left, p);
+//!         outcome(right, 1.0 - p);
+//!     }
+//! }
+//!
+//! // First the right end, later the left one.
+//! let phi = tltl! { |x: &i32| ({ *x } == 9) T ({ *x } == 0) };
+//! let mut env = ModelEnv::new(Row)?;
+//! let task = Labelled::of_env(&env, &phi)?;
+//! let mut learner = Learner::new(&task, 2, Settings::default(), 1);
+//! learner.train(&mut env, &task, 100_000);
+//!
+//! let problem = Problem::new(env.dynamics(), &task);
+//! let optimum = problem.optimal_q(&Rewards::default(), 0.95);
+//! let certificate = problem.certify(&learner.q().policy(), &optimum);
+//! assert!(certificate.satisfied > 0.999 && certificate.regret_steps < Some(0.01));
+//! # Ok::<(), Box<dyn core::error::Error>>(())
+//! ```
 #![no_std]
 
 #[cfg(feature = "alloc")]
@@ -49,3 +112,8 @@ pub use robustness::{Boolean, Predicate};
 pub use task::{Formula, Monitor, Task};
 #[cfg(feature = "macros")]
 pub use tltl_macros::{include_tltl, tltl};
+
+/// The example of the README runs.
+#[cfg(all(doctest, feature = "std", feature = "macros"))]
+#[doc = include_str!("../../README.md")]
+pub struct Readme;
