@@ -2496,6 +2496,10 @@ impl ::pest::Parser<Rule> for Grammar {
                                                                         })
                                                                 })
                                                         })
+                                                        .and_then(|state| {
+                                                            state
+                                                                .lookahead(false, |state| { self::r#XID_CONTINUE(state) })
+                                                        })
                                                 })
                                         },
                                     )
