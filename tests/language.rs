@@ -10,7 +10,11 @@ use tltl_compiler::translate::Budget;
 include_tltl!("data/kitchen.tltl");
 include_tltl!("data/kitchen.tltl", state = Mine, mod = own);
 
+include_tltl!("data/known.tltl");
+include_tltl!("data/known.tltl", state = Grown, mod = grown);
+
 use kitchen::{Kitchen, Object, Receptacle};
+use known::Known;
 
 const START: Kitchen = Kitchen {
     holding: None,
@@ -29,15 +33,22 @@ fn compiled(text: &str) -> Compiled {
 /// Enumerations and a state for the rows below.
 const WORLD: &str = "enum Room { kitchen, hall, attic }
     enum Object { apple, mug }
-    state House { visited: [bool; Room], room: Room, hand: Object?, x: f64 }
+    state House {
+        visited: [bool; Room], room: Room, hand: Object?, x: f64, n: u8, lit: bool,
+        open: [bool; 4], level: [i8; 4],
+    }
     predicate at(r: Room) = room == r
     predicate near(d: f64) = -d < x < d
     task visit(r: Room) = F at(r)
     task go(a: Room, b: Room) = at(a) T at(b)
+    const two = 2
+    predicate ready(i: u8, dark: bool) = open[i] && (dark || lit)
+    predicate holds(o: Object?) = hand == o
+    task raise(i: u8, by: i8) = F ready(i, false) && F level[i] > by
 ";
 
 /// Formulas and what they mean, in the words of the automaton's propositions.
-const MEANINGS: [(&str, &str); 16] = [
+const MEANINGS: [(&str, &str); 27] = [
     (
         "for all r in Room: F visited[r]",
         "F visited[kitchen] && F visited[hall] && F visited[attic]",
@@ -66,6 +77,20 @@ const MEANINGS: [(&str, &str); 16] = [
     ("F visited[room]", "F visited[room]"),
     ("for all d in {1, 2}: F near(d)", "F near(1) && F near(2)"),
     ("F near(2 * 3)", "F near(6)"),
+    ("F ready(two, true)", "F ready(2, true)"),
+    ("F ready(two, lit)", "F ready(2, lit)"),
+    ("raise(1, -5)", "F ready(1, false) && F (level[1] > -5)"),
+    (
+        "F level[1] > -5 && raise(two - 1, -5)",
+        "F (level[1] > -5) && F ready(1, false) && F (level[1] > -5)",
+    ),
+    ("for all i in 1..3: F open[i]", "F open[1] && F open[2]"),
+    ("for all i in 1..=two: F open[i]", "F open[1] && F open[2]"),
+    ("for some i in 0..two: F (x < i)", "F (x < 0) || F (x < 1)"),
+    ("for all i in 2..4: F ready(i, true)", "F ready(2, true) && F ready(3, true)"),
+    ("F holds(none) && F holds(Object::mug)", "F holds(none) && F holds(mug)"),
+    ("F near(n)", "F near(n)"),
+    ("F open[two]", "F open[2]"),
 ];
 
 #[test]
@@ -214,4 +239,105 @@ fn parameters_of_rust_types() {
     assert!(tour().satisfied(&[at(Room::Kitchen), at(Room::Hall)]).unwrap());
     assert!(!tour().satisfied(&[at(Room::Kitchen)]).unwrap());
     assert_eq!(reach(0.5).robustness(&[at(Room::Hall)]).unwrap(), 0.5);
+}
+
+const NOWHERE: Known =
+    Known { hand: 255, in_view: [false; 64], seen_in: [255; 64], joints: [[0.0; 2]; 6], shift: 0 };
+
+fn seen(o: usize, r: u8) -> Known {
+    let mut known = NOWHERE;
+    known.seen_in[o] = r;
+    known.in_view[o] = r == 0;
+    known
+}
+
+#[test]
+fn numbers_as_parameters() {
+    let way = [NOWHERE, seen(7, 0), seen(7, 45)];
+    for (o, r, done) in [(7, 45, true), (8, 45, false), (7, 44, false), (7, 0, false)] {
+        let task = known::fetch(o, r);
+        assert_eq!(task.satisfied(&way).unwrap(), done, "{o} {r}");
+        assert_eq!(task.robustness(&way).unwrap() >= 0.0, done, "{o} {r}");
+    }
+    assert_eq!(known::fetch(7, 46).robustness(&way).unwrap(), -1.0);
+    assert!(!known::fetch_apple().satisfied(&way).unwrap());
+    let way = [NOWHERE, seen(0, 0), seen(0, 45)];
+    assert!(known::fetch_apple().satisfied(&way).unwrap());
+    assert!(known::any().satisfied(&way).unwrap());
+    assert!(!known::any().satisfied(&[seen(4, 0), seen(4, 45)]).unwrap());
+    assert!(known::see(&Known { hand: 9, ..NOWHERE }, 9) >= 0.0);
+    assert!(known::see { o: 9 }.holds(&Known { hand: 9, ..NOWHERE }).unwrap());
+    let bent =
+        Known { joints: [[0.0; 2], [0.0; 2], [2.0; 2], [0.0; 2], [0.0; 2], [0.0; 2]], ..NOWHERE };
+    assert!(known::bend(2, true).satisfied(&[NOWHERE, bent]).unwrap());
+    assert!(!known::bend(0, true).satisfied(&[NOWHERE, bent]).unwrap());
+    assert_eq!(known::stretch().robustness(&[bent]).unwrap(), -1.0);
+    assert!(known::r#move(5).satisfied(&[NOWHERE, Known { shift: 6, ..NOWHERE }]).unwrap());
+    assert!(known::same(63).satisfied(&[NOWHERE]).unwrap());
+}
+
+/// A state of the user's own, with more room.
+struct Grown {
+    hand: u8,
+    in_view: Vec<bool>,
+    seen_in: Vec<u8>,
+    joints: [[f64; 2]; 6],
+    shift: i64,
+}
+
+#[test]
+fn numbers_as_indices_of_a_state_of_ones_own() {
+    let grown = |o: usize, r: u8| {
+        let mut state = Grown {
+            hand: 255,
+            in_view: vec![true; 64],
+            seen_in: vec![0; 64],
+            joints: [[0.0; 2]; 6],
+            shift: 0,
+        };
+        state.seen_in[o] = r;
+        state
+    };
+    assert!(grown::fetch(3, 45).satisfied(&[grown(0, 0), grown(3, 45)]).unwrap());
+    assert!(!grown::stretch().satisfied(&[grown(0, 0)]).unwrap());
+    assert!(!grown::r#move(1).satisfied(&[grown(0, 0)]).unwrap());
+}
+
+#[test]
+#[should_panic(expected = "`o` is an index of an array of 64 elements: `in_view[o]`")]
+fn an_index_beyond_its_array_is_refused_where_the_task_is_made() {
+    let _ = known::fetch(64, 45);
+}
+
+tltl! {
+    state s: Known;
+    predicate held(o: u8, wanted: bool) = { (s.hand == o) == wanted };
+    predicate near(by: i16) = s.shift > by && { s.shift < 2 * by };
+    task take(o: u8) = held(o, false) T held(o, true);
+    task take_three = take(3) && for some i in 0..2: F s.joints[i][0] > i && F { s.joints[i][1] > 1.0 };
+    task approach(by: i16) = F near(by) && F near(-4);
+}
+
+#[test]
+fn numbers_as_parameters_of_the_macro() {
+    let hold = |hand| Known { hand, ..NOWHERE };
+    assert!(take(3).satisfied(&[NOWHERE, hold(3)]).unwrap());
+    assert!(!take(4).satisfied(&[NOWHERE, hold(3)]).unwrap());
+    assert!(!take_three().satisfied(&[NOWHERE, hold(3)]).unwrap());
+    assert!(!approach(3).satisfied(&[Known { shift: 4, ..NOWHERE }]).unwrap());
+}
+
+#[test]
+fn parameters_are_unknown_to_arithmetic() {
+    let states = |formula: &str| {
+        let compiled = compiled(&format!("{WORLD}task t(i: u8, j: u8, b: bool) = {formula}"));
+        compiled.automata.last().unwrap().dfa.size().states
+    };
+    // i and j may be the same place, or not.
+    assert_eq!(states("X (n == i) && X (n == j)"), 4);
+    assert_eq!(states("X (level[i] > 3) && X (level[j] < 3)"), 4);
+    // One parameter is one number, and no u8 is above 255.
+    assert_eq!(states("F (n == i && n < i || n < 3)"), 2);
+    assert_eq!(states("F (i > 254 && i != 255 || n < 3)"), 2);
+    assert_eq!(states("F (b && n < 3)"), 2);
 }

@@ -133,8 +133,11 @@ pub enum Node {
         name: Span,
         /// What it ranges over.
         set: Span,
-        /// The elements, if the set lists them: a range of [`Ast::arguments`].
+        /// The elements, if the set lists them, or the ends of a range of numbers: a range of
+        /// [`Ast::arguments`].
         elements: Range<u32>,
+        /// Whether it is a range of numbers, and then whether the last is one of them.
+        range: Option<bool>,
         /// The formula.
         body: NodeId,
     },
@@ -303,6 +306,15 @@ impl Ast {
     #[must_use]
     pub fn arguments(&self, range: &Range<u32>) -> &[NodeId] {
         &self.arguments[range.start as usize..range.end as usize]
+    }
+
+    /// Whether the name stands in one of the expressions.
+    #[must_use]
+    pub fn mentions(&self, name: &str) -> bool {
+        let is_it = |entry: &Entry| {
+            matches!(entry.node, Node::Name) && self.source.slice(entry.span) == name
+        };
+        self.entries.iter().any(is_it)
     }
 
     /// The operands of an expression, left to right.

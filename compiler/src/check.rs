@@ -228,6 +228,10 @@ impl<'a> Checker<'a> {
                 _ => continue,
             };
             let name = self.ast.source().slice(item.name);
+            // A number may also be an index, or the end of a range.
+            if what == "constant" && self.written.mentions(name) {
+                continue;
+            }
             if !self.used.contains(&index) && self.scope.item(name) == Some(index) {
                 let message = format!("{what} `{name}` is never used");
                 self.mistakes.push(Error::new(Kind::Unused, message, item.name).warning());

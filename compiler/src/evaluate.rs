@@ -280,6 +280,7 @@ impl<'a> Evaluator<'a> {
             Term::Number(Number(value)) => value,
             Term::Variant { number, .. } => f64::from(number),
             Term::Absent => -1.0,
+            Term::Truth(value) => f64::from(u8::from(value)),
             Term::Place { .. } | Term::Variable(_) | Term::Host { .. } | Term::Parameter { .. } => {
                 of(id)
             }

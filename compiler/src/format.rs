@@ -97,7 +97,8 @@ impl<'a> Layout<'a> {
         match token.text {
             _ if token.kind == Kind::Rust => !symbol("("),
             "," | ";" | ":" | "?" => false,
-            "." | "::" => false,
+            "." | "::" | ".." | "..=" => false,
+            _ if symbol("..") || symbol("..=") => false,
             ")" | "]" => false,
             "}" => closes_block && !symbol("{"),
             "{" => true,
@@ -152,6 +153,8 @@ mod tests {
             ("task t = F a\n&& F b\n// last", "task t = F a\n    && F b\n// last\n"),
             ("task t = (\nF a &&\nF b\n)", "task t = (\n    F a &&\n    F b\n)\n"),
             ("task t = for all r in rooms:F seen[r]", "task t = for all r in rooms: F seen[r]\n"),
+            ("task t = for all i in 0 .. n:F a", "task t = for all i in 0..n: F a\n"),
+            ("task t = for all i in 1..= 6 : F a", "task t = for all i in 1..=6: F a\n"),
             (
                 "  \n//! File.  \n/// Doc\ntask t=a // why\n",
                 "//! File.\n/// Doc\ntask t = a // why\n",

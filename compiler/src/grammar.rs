@@ -58,6 +58,9 @@ pub enum Rule {
     r#quantifier,
     r#set,
     r#element,
+    r#range,
+    r#end,
+    r#inclusive,
     r#word_for,
     r#word_all,
     r#word_some,
@@ -155,6 +158,9 @@ impl Rule {
             Rule::r#quantifier,
             Rule::r#set,
             Rule::r#element,
+            Rule::r#range,
+            Rule::r#end,
+            Rule::r#inclusive,
             Rule::r#word_for,
             Rule::r#word_all,
             Rule::r#word_some,
@@ -1920,6 +1926,7 @@ impl ::pest::Parser<Rule> for Grammar {
                                             .and_then(|state| { super::hidden::skip(state) })
                                             .and_then(|state| { state.match_string("}") })
                                     })
+                                    .or_else(|state| { self::r#range(state) })
                                     .or_else(|state| { self::r#identifier(state) })
                             },
                         )
@@ -1939,6 +1946,57 @@ impl ::pest::Parser<Rule> for Grammar {
                                     .or_else(|state| { self::r#path(state) })
                             },
                         )
+                }
+                #[inline]
+                #[allow(non_snake_case, unused_variables)]
+                pub fn r#range(
+                    state: ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                ) -> ::pest::ParseResult<
+                    ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                > {
+                    state
+                        .rule(
+                            Rule::r#range,
+                            |state| {
+                                state
+                                    .sequence(|state| {
+                                        self::r#end(state)
+                                            .and_then(|state| { super::hidden::skip(state) })
+                                            .and_then(|state| { state.match_string("..") })
+                                            .and_then(|state| { super::hidden::skip(state) })
+                                            .and_then(|state| {
+                                                state.optional(|state| { self::r#inclusive(state) })
+                                            })
+                                            .and_then(|state| { super::hidden::skip(state) })
+                                            .and_then(|state| { self::r#end(state) })
+                                    })
+                            },
+                        )
+                }
+                #[inline]
+                #[allow(non_snake_case, unused_variables)]
+                pub fn r#end(
+                    state: ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                ) -> ::pest::ParseResult<
+                    ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                > {
+                    state
+                        .rule(
+                            Rule::r#end,
+                            |state| {
+                                self::r#digits(state)
+                                    .or_else(|state| { self::r#identifier(state) })
+                            },
+                        )
+                }
+                #[inline]
+                #[allow(non_snake_case, unused_variables)]
+                pub fn r#inclusive(
+                    state: ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                ) -> ::pest::ParseResult<
+                    ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                > {
+                    state.rule(Rule::r#inclusive, |state| { state.match_string("=") })
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -3233,6 +3291,9 @@ impl ::pest::Parser<Rule> for Grammar {
                     Rule::r#quantifier => rules::r#quantifier(state),
                     Rule::r#set => rules::r#set(state),
                     Rule::r#element => rules::r#element(state),
+                    Rule::r#range => rules::r#range(state),
+                    Rule::r#end => rules::r#end(state),
+                    Rule::r#inclusive => rules::r#inclusive(state),
                     Rule::r#word_for => rules::r#word_for(state),
                     Rule::r#word_all => rules::r#word_all(state),
                     Rule::r#word_some => rules::r#word_some(state),

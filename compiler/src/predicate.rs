@@ -60,6 +60,23 @@ impl Scalar {
         NUMBERS.into_iter().find(|number| *number == name).map(Self::Number)
     }
 
+    /// The least and the greatest of its values if they are whole numbers. The values of an
+    /// enumeration are not numbers here.
+    #[must_use]
+    pub fn whole(self) -> Option<(i128, i128)> {
+        let Self::Number(name) = self else { return None };
+        let signed = match name.chars().next()? {
+            'i' => true,
+            'u' => false,
+            _ => return None,
+        };
+        let bits: u32 = name[1..].parse().ok()?;
+        Some(match signed {
+            true => (-(1 << (bits - 1)), (1 << (bits - 1)) - 1),
+            false => (0, (1 << bits) - 1),
+        })
+    }
+
     /// What Rust calls it; a value of an enumeration is called by what the source calls that.
     #[must_use]
     pub const fn name(self) -> &'static str {
@@ -157,6 +174,13 @@ pub enum Step {
     Index(u32),
     /// The element of a table for a value of its enumeration.
     Element(TermId),
+    /// The element of an array at a number that is not known.
+    At {
+        /// The number: a parameter, or a place.
+        index: TermId,
+        /// How many elements there are.
+        length: u32,
+    },
 }
 
 /// The type of a parameter.
@@ -166,6 +190,17 @@ pub enum ParameterType {
     Scalar(Scalar),
     /// A Rust type of the user's, where the source has it.
     Host(Span),
+}
+
+impl ParameterType {
+    /// The type of the source's own that it is.
+    #[must_use]
+    pub const fn scalar(self) -> Option<Scalar> {
+        match self {
+            Self::Scalar(scalar) => Some(scalar),
+            Self::Host(_) => None,
+        }
+    }
 }
 
 /// What a predicate or a task takes when it is used.
@@ -181,6 +216,17 @@ pub struct Parameter {
 
 /// What the names of parameters stand for.
 pub type Arguments = Vec<(String, TermId)>;
+
+/// What a name in a Rust expression stands for.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Binding {
+    /// The name.
+    pub name: String,
+    /// Its type, if it is a parameter with a type of the source's own.
+    pub scalar: Option<Scalar>,
+    /// What it stands for.
+    pub term: TermId,
+}
 
 /// A function of numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -304,7 +350,7 @@ pub enum Term {
         /// Where it stands first.
         span: Span,
         /// What the names of parameters in it stand for.
-        bindings: Arguments,
+        bindings: Vec<Binding>,
         /// Whether it is a value that is no number.
         value: bool,
     },
@@ -317,9 +363,11 @@ pub enum Term {
         /// What that is called.
         name: String,
     },
+    /// A truth value, as an argument.
+    Truth(bool),
     /// `none`: what an optional place holds if it holds no value.
     Absent,
-    /// A parameter of the predicate or task around it; a number, or a value.
+    /// A parameter of the predicate or task around it; a number, a truth value, or a value.
     Parameter {
         /// Its name.
         name: String,
@@ -367,7 +415,7 @@ pub enum Condition {
         /// Where it stands first.
         span: Span,
         /// What the names of parameters in it stand for.
-        bindings: Arguments,
+        bindings: Vec<Binding>,
     },
     /// A free proposition of a bare formula: nothing is known of it but the predicate's name.
     Free(String),
@@ -380,7 +428,7 @@ pub struct Arena {
     terms: Vec<Term>,
     known_conditions: HashMap<Condition, ConditionId>,
     known_terms: HashMap<Term, TermId>,
-    hosts: HashMap<(String, Arguments, bool), TermId>,
+    hosts: HashMap<(String, Vec<Binding>, bool), TermId>,
 }
 
 impl Arena {

@@ -135,25 +135,13 @@ fn integer_range(module: &Module, term: TermId) -> Option<(i128, i128)> {
     else {
         return None;
     };
-    let name = match *scalar {
-        Scalar::Number(name) => name,
-        Scalar::Bool => return None,
+    match *scalar {
         Scalar::Enum { of, optional } => {
             let values = module.enums[of as usize].variants.len() as i128;
-            return Some((-i128::from(optional), values - 1));
+            Some((-i128::from(optional), values - 1))
         }
-    };
-    Some(match name {
-        "i8" => (i8::MIN.into(), i8::MAX.into()),
-        "i16" => (i16::MIN.into(), i16::MAX.into()),
-        "i32" => (i32::MIN.into(), i32::MAX.into()),
-        "i64" => (i64::MIN.into(), i64::MAX.into()),
-        "u8" => (0, u8::MAX.into()),
-        "u16" => (0, u16::MAX.into()),
-        "u32" => (0, u32::MAX.into()),
-        "u64" => (0, u64::MAX.into()),
-        _ => return None,
-    })
+        scalar => scalar.whole(),
+    }
 }
 
 /// A sum of variables with coefficients, and a constant; all over one denominator.

@@ -1,11 +1,12 @@
 //! Predicates and tasks with arguments.
 
-use super::Checker;
 use super::atom::Atom;
 use super::role::Roles;
+use super::term::{Place, a_type, elements};
+use super::{Checker, Names};
 use crate::ast::{Arithmetic, ItemKind, Node, NodeId};
 use crate::error::{Error, Kind};
-use crate::predicate::{Arguments, Parameter, ParameterType, Scalar, Term, TermId};
+use crate::predicate::{Arguments, Number, Parameter, ParameterType, Scalar, Step, Term, TermId};
 
 impl Checker<'_> {
     /// The callee and the item that the call `id` applies: a predicate, a task or a constant.
@@ -33,15 +34,97 @@ impl Checker<'_> {
         }
         let of = |argument: NodeId| terms[roles.position(argument)];
         let mut given = Vec::new();
-        for (parameter, argument) in parameters.iter().zip(arguments) {
+        for (parameter, &argument) in parameters.iter().zip(&arguments) {
             given.push(match parameter.ty {
-                ParameterType::Scalar(Scalar::Number(_)) => of(argument),
-                ParameterType::Scalar(Scalar::Enum { of, .. }) => self.value_of(argument, of),
-                _ => self.value(argument, None),
+                ParameterType::Scalar(scalar @ Scalar::Number(_)) => {
+                    of(argument).and_then(|term| self.number_argument(argument, term, scalar))
+                }
+                ParameterType::Scalar(Scalar::Bool) => self.truth_argument(argument),
+                ParameterType::Scalar(Scalar::Enum { of, optional }) => {
+                    self.value_of(argument, of, optional)
+                }
+                ParameterType::Host(_) => self.value(argument, None),
             });
         }
         let given: Option<Vec<_>> = given.into_iter().collect();
-        self.instance(id, item, &parameters, given?)
+        let given: Vec<_> = arguments.into_iter().zip(given?).collect();
+        self.instance(id, item, &parameters, &given)
+    }
+
+    /// The number `term` as an argument of this type: for a type of whole numbers a constant that
+    /// it has, or what is always one of its values.
+    fn number_argument(&mut self, id: NodeId, term: TermId, ty: Scalar) -> Option<TermId> {
+        let Some((least, most)) = ty.whole() else { return Some(term) };
+        let known = self.module.arena.term(term);
+        let within = |(low, high): (i128, i128)| least <= low && high <= most;
+        let fits = match known {
+            Term::Number(Number(value)) => {
+                value.fract() == 0.0 && within((*value as i128, *value as i128))
+            }
+            Term::Place { scalar, .. }
+            | Term::Parameter { ty: ParameterType::Scalar(scalar), .. } => {
+                scalar.whole().is_some_and(within)
+            }
+            Term::Host { .. } => true,
+            _ => false,
+        };
+        if fits {
+            return Some(term);
+        }
+        let (text, wanted) = (self.ast.quote(id), a_type(ty));
+        let what = match known {
+            Term::Number(Number(value)) if value.fract() == 0.0 => format!("`{text}` is beyond it"),
+            Term::Number(_) => format!("`{text}` is not whole"),
+            Term::Place { scalar, .. }
+            | Term::Parameter { ty: ParameterType::Scalar(scalar), .. } => {
+                format!("`{text}` is {}", a_type(*scalar))
+            }
+            _ => format!("`{text}` is calculated"),
+        };
+        let message = format!("{wanted} is needed here, and {what}");
+        self.mistakes.push(
+            Error::new(Kind::Type, message, self.ast.span(id))
+                .help(format!("its values are the whole numbers from {least} to {most}")),
+        );
+        None
+    }
+
+    /// The truth value `id` as an argument.
+    fn truth_argument(&mut self, id: NodeId) -> Option<TermId> {
+        let node = self.ast.node(id);
+        let named = matches!(node, Node::Name | Node::Field { .. } | Node::Index { .. });
+        let rust = named || matches!(node, Node::Call { .. } | Node::Verbatim);
+        let is_item = self.item(id).is_some() || self.applied(id).is_some();
+        let term = match (node, self.parameter(id)) {
+            (Node::Truth(value), _) => Some(Term::Truth(*value)),
+            (_, Some(Parameter { name, ty: ty @ ParameterType::Scalar(Scalar::Bool), .. })) => {
+                Some(Term::Parameter { name: name.clone(), ty: *ty })
+            }
+            (_, None) if self.names == Names::Host && rust && !is_item => {
+                return Some(self.host_term(id, false));
+            }
+            (_, None) if self.names == Names::Declared && named && !is_item => {
+                match self.place(id)? {
+                    Place { steps, scalar: Scalar::Bool } => {
+                        Some(Term::Place { steps, scalar: Scalar::Bool })
+                    }
+                    _ => None,
+                }
+            }
+            _ => None,
+        };
+        if let Some(term) = term {
+            return Some(self.module.arena.add_term(term));
+        }
+        if let Some(item) = self.item(id) {
+            self.used.insert(item);
+        }
+        let message = format!("a `bool` is needed here, and `{}` is none", self.ast.quote(id));
+        self.mistakes.push(
+            Error::new(Kind::Type, message, self.ast.span(id))
+                .help("it is `true`, `false`, or a parameter or a field of that type"),
+        );
+        None
     }
 
     fn instance(
@@ -49,9 +132,10 @@ impl Checker<'_> {
         id: NodeId,
         item: usize,
         parameters: &[Parameter],
-        arguments: Vec<TermId>,
+        given: &[(NodeId, TermId)],
     ) -> Option<Atom> {
         let names = parameters.iter().map(|parameter| parameter.name.clone());
+        let arguments: Vec<_> = given.iter().map(|(_, term)| *term).collect();
         let bound: Arguments = names.zip(arguments.iter().copied()).collect();
         let known = self.module.arena.terms().len();
         let atom = match self.ast.items()[item].kind {
@@ -69,7 +153,7 @@ impl Checker<'_> {
             }
             _ => return None,
         };
-        if let Some(error) = self.no_number(id, known) {
+        if let Some(error) = self.no_number(id, known).or_else(|| self.no_element(known, given)) {
             self.mistakes.push(error);
             return None;
         }
@@ -91,6 +175,40 @@ impl Checker<'_> {
         let text = self.module.display_term(TermId(u32::try_from(place).ok()?));
         let message = format!("with these arguments, `{text}` is not a number");
         Some(Error::new(Kind::Number, message, self.ast.span(id)))
+    }
+
+    /// The error if one of the terms since `known` is an element of an array that there is not, or
+    /// may not be.
+    fn no_element(&self, known: usize, given: &[(NodeId, TermId)]) -> Option<Error> {
+        let arena = &self.module.arena;
+        let made = (known..arena.terms().len()).filter_map(|at| u32::try_from(at).ok());
+        for place in made.map(TermId) {
+            let Term::Place { steps, .. } = arena.term(place) else { continue };
+            for step in steps {
+                let Step::At { index, length } = *step else { continue };
+                let first = given.first().map(|(argument, _)| *argument);
+                let of =
+                    given.iter().find(|(_, term)| *term == index).map(|(argument, _)| *argument);
+                let argument = of.or(first)?;
+                match arena.term(index) {
+                    Term::Number(_) => {
+                        let text = self.module.display_term(place);
+                        let message = format!("`{text}` is beyond an array of {length} elements");
+                        let error = Error::new(Kind::Type, message, self.ast.span(argument));
+                        return Some(error.help(elements(length)));
+                    }
+                    Term::Place { scalar, .. }
+                        if scalar
+                            .whole()
+                            .is_none_or(|(least, most)| least < 0 || most >= length.into()) =>
+                    {
+                        return Some(self.not_an_index(argument, *scalar, length, true));
+                    }
+                    _ => {}
+                }
+            }
+        }
+        None
     }
 
     /// The error for the use of `item` without the arguments that it takes.
@@ -138,8 +256,11 @@ impl Checker<'_> {
 
     fn type_name(&self, ty: ParameterType) -> String {
         match ty {
-            ParameterType::Scalar(Scalar::Enum { of, .. }) => format!("`{}`", self.enum_name(of)),
-            ParameterType::Scalar(_) => "a number".to_owned(),
+            ParameterType::Scalar(Scalar::Enum { of, optional }) => {
+                format!("`{}{}`", self.enum_name(of), if optional { "?" } else { "" })
+            }
+            ParameterType::Scalar(Scalar::Number("f64")) => "a number".to_owned(),
+            ParameterType::Scalar(scalar) => format!("`{}`", scalar.name()),
             ParameterType::Host(span) => format!("`{}`", self.ast.source().slice(span)),
         }
     }

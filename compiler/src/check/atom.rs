@@ -5,7 +5,9 @@ use super::term::Place;
 use super::{Checker, Names};
 use crate::ast::{Comparison, Infix, ItemKind, Node, NodeId, Prefix};
 use crate::error::{Error, Kind};
-use crate::predicate::{Arguments, Condition, ConditionId, Scalar, TaskId, Term, TermId};
+use crate::predicate::{
+    Arguments, Condition, ConditionId, ParameterType, Scalar, TaskId, Term, TermId,
+};
 use crate::source::Span;
 
 /// What a leaf of a formula is.
@@ -53,6 +55,14 @@ impl Checker<'_> {
     /// A condition that is not compared: a field, a free proposition, a Rust expression.
     fn place_condition(&mut self, id: NodeId) -> Option<Condition> {
         let span = self.ast.span(id);
+        if let Some(ParameterType::Scalar(scalar @ (Scalar::Bool | Scalar::Number(_)))) =
+            self.parameter(id).map(|parameter| parameter.ty)
+        {
+            return self.truth(id, scalar).then(|| {
+                let (name, ty) = (self.ast.text(id).to_owned(), ParameterType::Scalar(scalar));
+                Condition::Bool(self.module.arena.add_term(Term::Parameter { name, ty }))
+            });
+        }
         if let Some(sort) = self.sort(id) {
             let error = self.value_instead(id, sort, "a formula");
             self.mistakes.push(error);
@@ -71,22 +81,26 @@ impl Checker<'_> {
             }
             Names::Declared => {
                 let Place { steps, scalar } = self.place(id)?;
-                if scalar != Scalar::Bool {
-                    let text = self.ast.quote(id);
-                    let message = format!(
-                        "`{text}` is a number ({}), but a formula is needed here",
-                        scalar.name()
-                    );
-                    self.mistakes.push(
-                        Error::new(Kind::Type, message, span)
-                            .help(format!("compare it with something, such as `{text} < 1`")),
-                    );
+                if !self.truth(id, scalar) {
                     return None;
                 }
                 let term = self.module.arena.add_term(Term::Place { steps, scalar });
                 Some(Condition::Bool(term))
             }
         }
+    }
+
+    /// Whether the place or parameter `id` is true or false; a number is a mistake.
+    fn truth(&mut self, id: NodeId, scalar: Scalar) -> bool {
+        if scalar != Scalar::Bool {
+            let (text, name) = (self.ast.quote(id), scalar.name());
+            let message = format!("`{text}` is a number ({name}), but a formula is needed here");
+            self.mistakes.push(
+                Error::new(Kind::Type, message, self.ast.span(id))
+                    .help(format!("compare it with something, such as `{text} < 1`")),
+            );
+        }
+        scalar == Scalar::Bool
     }
 
     fn formula_item(&mut self, id: NodeId, item: usize) -> Option<Atom> {

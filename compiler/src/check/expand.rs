@@ -25,6 +25,8 @@ pub(super) enum Bound {
     Variant(u32, u32),
     /// An element of a listed set, a name or a number of the source.
     Element(NodeId),
+    /// A number of a range.
+    Number(f64),
 }
 
 /// The bound names around an expression, innermost last.
@@ -160,6 +162,9 @@ impl Expansion<'_, '_> {
                 let element = self.from.entry(element);
                 self.to.push(element.node.clone(), element.span, element.operator)
             }
+            Some(Bound::Number(value)) => {
+                self.to.push(Node::Number(value), entry.span, entry.operator)
+            }
             None => self.to.push(node, entry.span, entry.operator),
         };
         if entry.is_bracketed() {
@@ -179,13 +184,20 @@ impl Expansion<'_, '_> {
     /// All copies of the body, joined.
     fn quantifier(&mut self, id: NodeId, environment: &Environment) -> NodeId {
         let entry = self.from.entry(id);
-        let Node::Quantified { all, name, set, ref elements, body } = entry.node else { return id };
+        let Node::Quantified { all, name, set, ref elements, range, body } = entry.node else {
+            return id;
+        };
         let (span, operator) = (entry.span, entry.operator);
         let refused = self.refused(name, environment);
         let taken = refused.is_some();
         self.mistakes.extend(refused);
         let listed = self.from.arguments(elements).to_vec();
-        let values = self.values(set, &listed, environment);
+        let values = match (range, &listed[..]) {
+            (Some(inclusive), &[first, end]) => {
+                self.numbers(set, [first, end], inclusive, environment)
+            }
+            _ => self.values(set, &listed, environment),
+        };
         let op = if all { Infix::And } else { Infix::Or };
         let mut joined = None;
         for value in values {
@@ -251,6 +263,57 @@ impl Expansion<'_, '_> {
             self.mistakes.push(error);
         }
         Vec::new()
+    }
+
+    /// The numbers of a range; not many more than can be written out.
+    fn numbers(
+        &mut self,
+        set: Span,
+        ends: [NodeId; 2],
+        inclusive: bool,
+        environment: &Environment,
+    ) -> Vec<Bound> {
+        let ends = ends.map(|end| self.end(end, environment));
+        let [Some(first), Some(end)] = ends else { return Vec::new() };
+        let end = if inclusive { end + 1.0 } else { end };
+        if first >= end {
+            let message = format!("no number is in `{}`", self.from.source().slice(set));
+            self.mistakes.push(
+                Error::new(Kind::Type, message, set)
+                    .help("`0..6` is from 0 to 5, and `0..=6` from 0 to 6"),
+            );
+        }
+        let numbers = std::iter::successors(Some(first), |at| Some(at + 1.0));
+        let numbers = numbers.take_while(|at| *at < end).take(MOST_NODES + 1);
+        numbers.map(Bound::Number).collect()
+    }
+
+    /// The whole number that an end of a range is: written there, or what its name stands for.
+    fn end(&mut self, id: NodeId, environment: &Environment) -> Option<f64> {
+        let (text, span) = (self.from.text(id), self.from.span(id));
+        let mut node = self.from.node(id);
+        match self.lookup(id, environment) {
+            Some(Bound::Number(value)) => return Some(value),
+            Some(Bound::Element(element)) => node = self.from.node(element),
+            Some(Bound::Variant(..)) => {}
+            None => {
+                if let Some(item) = self.scope.item(text)
+                    && let ItemKind::Constant(root) = self.from.items()[item].kind
+                {
+                    node = self.from.node(root);
+                }
+            }
+        }
+        if let Node::Number(value) = *node
+            && value.fract() == 0.0
+        {
+            return Some(value);
+        }
+        let message = format!("`{}` cannot be the end of a range", crate::ast::quoted(text));
+        self.mistakes.push(Error::new(Kind::Type, message, span).help(
+            "a range goes from one whole number to another, or to a constant that is written as one",
+        ));
+        None
     }
 
     fn not_a_set(&self, text: &str, set: Span) -> Option<Error> {

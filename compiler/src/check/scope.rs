@@ -233,14 +233,14 @@ impl<'a> Scope<'a> {
             return Ok(ParameterType::Host(written.span));
         }
         match self.resolve(ast, written)? {
-            Type::Scalar(
-                scalar @ (Scalar::Number("f64") | Scalar::Enum { optional: false, .. }),
-            ) => Ok(ParameterType::Scalar(scalar)),
+            Type::Scalar(scalar) if scalar != Scalar::Number("f32") => {
+                Ok(ParameterType::Scalar(scalar))
+            }
             _ => {
                 let text = ast.source().slice(written.span);
                 let message = format!("`{text}` cannot be the type of a parameter");
                 Err(Error::new(Kind::Type, message, written.span)
-                    .help("a parameter is a value of an enumeration, or a number (`f64`)"))
+                    .help("a parameter is a number (f64, i8 to i64, u8 to u64), a bool, or a value of an enumeration"))
             }
         }
     }

@@ -23,6 +23,8 @@ pub(super) enum Pending {
     Step(Step),
     /// The element of a table at an index, of an enumeration.
     Element(NodeId, u32),
+    /// The element at an index, which is no constant, of an array of this length.
+    At(NodeId, u32),
 }
 
 /// The deepest nesting of indices.
@@ -70,7 +72,7 @@ impl Checker<'_> {
         }
     }
 
-    fn number(&mut self, value: f64) -> TermId {
+    pub(super) fn number(&mut self, value: f64) -> TermId {
         // One zero: the sign of zero is no part of any meaning here.
         self.module.arena.add_term(Term::Number(Number(value + 0.0)))
     }
@@ -152,9 +154,17 @@ impl Checker<'_> {
     /// A number that is not calculated: a constant, a place, a variable, a Rust expression.
     fn number_leaf(&mut self, id: NodeId) -> Option<TermId> {
         if let Some(parameter) = self.parameter(id) {
-            if let ParameterType::Scalar(Scalar::Number(_)) = parameter.ty {
-                let term = Term::Parameter { name: parameter.name.clone(), ty: parameter.ty };
-                return Some(self.module.arena.add_term(term));
+            let term = Term::Parameter { name: parameter.name.clone(), ty: parameter.ty };
+            match parameter.ty {
+                ParameterType::Scalar(Scalar::Number(_)) => {
+                    return Some(self.module.arena.add_term(term));
+                }
+                ParameterType::Scalar(Scalar::Bool) => {
+                    let error = self.truth_instead(id);
+                    self.mistakes.push(error);
+                    return None;
+                }
+                _ => {}
             }
         } else if let (Node::Name, Some(item)) = (self.ast.node(id), self.item(id)) {
             return self.number_item(id, item);
@@ -175,13 +185,8 @@ impl Checker<'_> {
             Names::Declared => {
                 let place = self.place(id)?;
                 if place.scalar == Scalar::Bool {
-                    let text = self.ast.quote(id);
-                    let message = format!("`{text}` is true or false, but a number is needed here");
-                    self.mistakes.push(
-                        Error::new(Kind::Type, message, self.ast.span(id)).help(format!(
-                            "it is a formula by itself: write `{text}` or `!{text}`"
-                        )),
-                    );
+                    let error = self.truth_instead(id);
+                    self.mistakes.push(error);
                     return None;
                 }
                 let Place { steps, scalar } = place;
@@ -192,6 +197,14 @@ impl Checker<'_> {
                 Some(self.module.arena.add_term(Term::Variable(text)))
             }
         }
+    }
+
+    /// The error for a truth value where a number should stand.
+    fn truth_instead(&self, id: NodeId) -> Error {
+        let text = self.ast.quote(id);
+        let message = format!("`{text}` is true or false, but a number is needed here");
+        Error::new(Kind::Type, message, self.ast.span(id))
+            .help(format!("it is a formula by itself: write `{text}` or `!{text}`"))
     }
 
     fn number_item(&mut self, id: NodeId, item: usize) -> Option<TermId> {
@@ -362,8 +375,7 @@ impl Checker<'_> {
                 Err(Error::new(Kind::Nesting, message, span))
             }
             Some(Type::Array(element, length)) => {
-                let index = self.array_index(index, *length)?;
-                Ok((Pending::Step(Step::Index(index)), element))
+                Ok((self.array_step(index, *length, depth)?, element))
             }
             _ => {
                 let message = format!("`{}` indexes what is not an array", self.ast.quote(id));
@@ -387,6 +399,65 @@ impl Checker<'_> {
         })
     }
 
+    /// The step to an element of an array: at a known number, or at one that is known when the
+    /// program runs.
+    fn array_step(&self, index: NodeId, length: u32, depth: usize) -> Result<Pending, Error> {
+        let named =
+            matches!(self.ast.node(index), Node::Name | Node::Field { .. } | Node::Index { .. });
+        let scalar = match self.parameter(index) {
+            Some(parameter) => parameter.ty.scalar(),
+            None if named && depth < INDICES && self.item(index).is_none() => {
+                self.find_place(index, depth + 1).ok().map(|(_, scalar)| scalar)
+            }
+            None => None,
+        };
+        let Some(scalar) = scalar else {
+            return self.array_index(index, length).map(|at| Pending::Step(Step::Index(at)));
+        };
+        match scalar.whole() {
+            Some(_) if self.parameter(index).is_some() => Ok(Pending::At(index, length)),
+            Some((0.., last)) if last < length.into() => Ok(Pending::At(index, length)),
+            found => Err(self.not_an_index(index, scalar, length, found.is_some())),
+        }
+    }
+
+    /// The error for a place, or a parameter, that an array of `length` is not indexed by.
+    pub(super) fn not_an_index(
+        &self,
+        index: NodeId,
+        scalar: Scalar,
+        length: u32,
+        whole: bool,
+    ) -> Error {
+        let (text, span) = (self.ast.quote(index), self.ast.span(index));
+        if !whole {
+            let message = format!("`{text}` is {}, and an index is a whole number", a_type(scalar));
+            let error = Error::new(Kind::Type, message, span);
+            return match self.parameter(index) {
+                Some(_) => error.help(format!("declare it as a whole number: `{text}: u8`")),
+                None => error.help("an index is a whole number, a constant or a parameter"),
+            };
+        }
+        let ty = scalar.name();
+        let message = format!(
+            "`{text}` may be beyond an array of {length} elements: it is {}",
+            a_type(scalar)
+        );
+        Error::new(Kind::Type, message, span).help(format!(
+            "index by a parameter, whose value the program vouches for: `predicate p(i: {ty}) = …[i]`"
+        ))
+    }
+
+    /// The parameter or the place that is an index.
+    pub(super) fn index_term(&mut self, id: NodeId) -> Option<TermId> {
+        if let Some(parameter) = self.parameter(id) {
+            let term = Term::Parameter { name: parameter.name.clone(), ty: parameter.ty };
+            return Some(self.module.arena.add_term(term));
+        }
+        let Place { steps, scalar } = self.place(id)?;
+        Some(self.module.arena.add_term(Term::Place { steps, scalar }))
+    }
+
     fn array_index(&self, index: NodeId, length: u32) -> Result<u32, Error> {
         let (text, span) = (self.ast.text(index), self.ast.span(index));
         let value = match self.ast.node(index) {
@@ -400,15 +471,12 @@ impl Checker<'_> {
         let Some(value) = value.filter(|value| value.fract() == 0.0 && *value >= 0.0) else {
             let message = format!("`{text}` cannot be an index");
             return Err(Error::new(Kind::Type, message, span).help(
-                "an index is a whole number or a constant; declare the array as `[…; Room]` to index it by an enumeration",
+                "an index is a whole number, a constant or a parameter; declare the array as `[…; Room]` to index it by an enumeration",
             ));
         };
         if value >= f64::from(length) {
             let message = format!("index {value} is beyond an array of {length} elements");
-            return Err(Error::new(Kind::Type, message, span).help(format!(
-                "the elements are numbered from 0 to {}",
-                length.saturating_sub(1)
-            )));
+            return Err(Error::new(Kind::Type, message, span).help(elements(length)));
         }
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked above")]
         Ok(value as u32)
@@ -449,6 +517,23 @@ impl Checker<'_> {
         } else {
             error.help("declare the state first: `state Name { x: f64 }`")
         }
+    }
+}
+
+/// How the elements of an array are numbered.
+pub(super) fn elements(length: u32) -> String {
+    format!("the elements are numbered from 0 to {}", length.saturating_sub(1))
+}
+
+/// A type as a sentence has it.
+pub(super) fn a_type(scalar: Scalar) -> String {
+    let name = scalar.name();
+    match scalar {
+        Scalar::Number("i8" | "i16" | "i32" | "i64") => format!("an `{name}`"),
+        Scalar::Number("f64" | "f32") => format!("an `{name}`"),
+        Scalar::Number(_) => format!("a `{name}`"),
+        Scalar::Bool => "true or false".to_owned(),
+        Scalar::Enum { .. } => "a value of an enumeration".to_owned(),
     }
 }
 

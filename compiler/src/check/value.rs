@@ -5,7 +5,7 @@ use super::{Checker, Names, name};
 use crate::ast::{Comparison, Node, NodeId};
 use crate::error::{Error, Kind};
 use crate::predicate::{
-    Arguments, ConditionId, Parameter, ParameterType, Scalar, Step, Term, TermId,
+    Binding, ConditionId, Parameter, ParameterType, Scalar, Step, Term, TermId,
 };
 use crate::source::Span;
 
@@ -158,13 +158,14 @@ impl Checker<'_> {
     }
 
     /// What the parameters and the bound names stand for that the Rust expression `id` mentions.
-    pub(super) fn bindings(&mut self, id: NodeId) -> Arguments {
+    pub(super) fn bindings(&mut self, id: NodeId) -> Vec<Binding> {
         let text = self.compact(id);
         let mentioned = |name: &str| crate::parse::mentions(&text, name);
-        let mut bindings = Arguments::new();
+        let mut bindings = Vec::new();
         for parameter in self.parameters.iter().filter(|known| mentioned(&known.name)) {
-            let term = Term::Parameter { name: parameter.name.clone(), ty: parameter.ty };
-            bindings.push((parameter.name.clone(), self.module.arena.add_term(term)));
+            let (name, ty) = (parameter.name.clone(), parameter.ty);
+            let term = self.module.arena.add_term(Term::Parameter { name: name.clone(), ty });
+            bindings.push(Binding { name, scalar: ty.scalar(), term });
         }
         let Some(environment) = self.bound.get(&id).cloned() else { return bindings };
         for (name, bound) in environment.iter().filter(|(name, _)| mentioned(name)) {
@@ -176,8 +177,9 @@ impl Checker<'_> {
                     let term = Term::Host { text, span, bindings: Vec::new(), value: true };
                     self.module.arena.add_term(term)
                 }
+                Bound::Number(value) => self.number(value),
             };
-            bindings.push((name.clone(), term));
+            bindings.push(Binding { name: name.clone(), scalar: None, term });
         }
         bindings
     }
@@ -238,11 +240,15 @@ impl Checker<'_> {
         }
     }
 
-    /// The value `id` where one of the enumeration `of` must stand: an index or an argument.
-    pub(super) fn value_of(&mut self, id: NodeId, of: u32) -> Option<TermId> {
+    /// The value `id` where one of the enumeration `of` must stand, or `none` if that may be: an
+    /// index or an argument.
+    pub(super) fn value_of(&mut self, id: NodeId, of: u32, or_none: bool) -> Option<TermId> {
         let term = self.value(id, Some(of))?;
         let error = match self.term_sort(term) {
-            Some(Sort::Enum { of: found, optional: false }) if found == of => return Some(term),
+            Some(Sort::Enum { of: found, optional }) if found == of && (or_none || !optional) => {
+                return Some(term);
+            }
+            Some(Sort::Absent) if or_none => return Some(term),
             None if self.names == Names::Host => return Some(term),
             sort => self.not_this_value(id, of, sort),
         };
@@ -269,7 +275,11 @@ impl Checker<'_> {
             .into_iter()
             .map(|step| match step {
                 Pending::Step(step) => Some(step),
-                Pending::Element(index, of) => self.value_of(index, of).map(Step::Element),
+                Pending::Element(index, of) => self.value_of(index, of, false).map(Step::Element),
+                Pending::At(index, length) => {
+                    let index = self.index_term(index)?;
+                    Some(Step::At { index, length })
+                }
             })
             .collect()
     }

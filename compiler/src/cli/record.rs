@@ -171,14 +171,7 @@ fn typed(text: &str, ty: &str) -> Option<f64> {
     let (least, most) = match ty {
         "f64" => return text.parse().ok(),
         "f32" => return text.parse::<f32>().ok().map(f64::from),
-        "i8" => (i128::from(i8::MIN), i128::from(i8::MAX)),
-        "i16" => (i128::from(i16::MIN), i128::from(i16::MAX)),
-        "i32" => (i128::from(i32::MIN), i128::from(i32::MAX)),
-        "i64" => (i128::from(i64::MIN), i128::from(i64::MAX)),
-        "u8" => (0, i128::from(u8::MAX)),
-        "u16" => (0, i128::from(u16::MAX)),
-        "u32" => (0, i128::from(u32::MAX)),
-        _ => (0, i128::from(u64::MAX)),
+        _ => Scalar::named(ty)?.whole()?,
     };
     // Other programs write whole numbers as `3.0`.
     let whole = text.split_once('.').filter(|(_, rest)| rest.bytes().all(|digit| digit == b'0'));

@@ -11,8 +11,8 @@ use rustc_hash::FxHashMap;
 
 use crate::ast::{Arithmetic, Comparison};
 use crate::predicate::{
-    Arguments, Condition, ConditionId, Module, Number, PredicateId, Scalar, State, Step, Term,
-    TermId,
+    Binding, Condition, ConditionId, Module, Number, ParameterType, PredicateId, Scalar, State,
+    Step, Term, TermId,
 };
 use crate::source::Span;
 
@@ -171,22 +171,50 @@ impl Writer<'_> {
         let predicate = &self.scope.module.predicates[predicate.0 as usize];
         let mut given = Vec::new();
         for (parameter, argument) in predicate.parameters.iter().zip(arguments) {
-            given.push((ident(&parameter.name), self.term(*argument).0));
+            let value = self.typed(*argument, parameter.ty.scalar());
+            given.push((ident(&parameter.name), value));
         }
         (ident(&predicate.name), given)
     }
 
     /// A Rust expression with what the names of parameters in it stand for.
-    fn bound(&self, bindings: &Arguments, code: TokenStream) -> TokenStream {
+    fn bound(&mut self, bindings: &[Binding], code: TokenStream) -> TokenStream {
         let arena = &self.scope.module.arena;
-        let itself = |(name, term): &(String, TermId)| matches!(arena.term(*term), Term::Parameter { name: own, .. } if own == name);
+        let itself = |one: &Binding| matches!(arena.term(one.term), Term::Parameter { name, .. } if *name == one.name);
         if bindings.iter().all(itself) {
             return code;
         }
         // Each is read before any is bound, for one may be called like what another stands for.
-        let (names, values): (Vec<_>, Vec<_>) =
-            bindings.iter().map(|(name, term)| (ident(name), self.leaf(*term))).unzip();
+        let names = bindings.iter().map(|one| ident(&one.name));
+        let values = bindings.iter().map(|one| self.typed(one.term, one.scalar));
+        let values: Vec<_> = values.collect();
         quote! { { let (#(#names,)*) = (#(#values,)*); #code } }
+    }
+
+    /// A term as a value of this type; of its own type if none is given.
+    fn typed(&mut self, id: TermId, scalar: Option<Scalar>) -> TokenStream {
+        let term = self.scope.module.arena.term(id);
+        let own = match term {
+            Term::Place { scalar, .. } => Some(*scalar),
+            Term::Parameter { ty, .. } => ty.scalar(),
+            _ => None,
+        };
+        match (term, scalar) {
+            (Term::Number(Number(value)), Some(Scalar::Number(name))) if name != "f64" => {
+                whole(*value, name)
+            }
+            (Term::Number(Number(value)), None) if value.fract() == 0.0 => whole(*value, ""),
+            (_, Some(Scalar::Number("f64"))) => self.term(id).0,
+            (_, Some(wanted @ Scalar::Number(name))) if own.is_some_and(|own| own != wanted) => {
+                let (name, value) = (ident(name), self.leaf(id));
+                quote! { ::core::primitive::#name::from(#value) }
+            }
+            (_, Some(Scalar::Enum { optional: true, .. })) if !self.is_optional(id) => {
+                let value = self.leaf(id);
+                quote! { ::core::option::Option::Some(#value) }
+            }
+            _ => self.leaf(id),
+        }
     }
 
     fn unary(&mut self, a: ConditionId) -> Written {
@@ -251,7 +279,7 @@ impl Writer<'_> {
     }
 
     /// Whether two values are equal: ±1.
-    fn value_comparison(&self, comparison: Comparison, a: TermId, b: TermId) -> Written {
+    fn value_comparison(&mut self, comparison: Comparison, a: TermId, b: TermId) -> Written {
         let optional = [a, b].map(|side| self.is_optional(side));
         let [a, b] = [(a, optional[1]), (b, optional[0])].map(|(side, other)| {
             let value = self.leaf(side);
@@ -273,10 +301,14 @@ impl Writer<'_> {
 
     /// Whether a value is an `Option` in the code.
     fn is_optional(&self, term: TermId) -> bool {
-        matches!(
-            self.scope.module.arena.term(term),
-            Term::Absent | Term::Place { scalar: Scalar::Enum { optional: true, .. }, .. }
-        )
+        match self.scope.module.arena.term(term) {
+            Term::Absent => true,
+            Term::Place { scalar, .. }
+            | Term::Parameter { ty: ParameterType::Scalar(scalar), .. } => {
+                matches!(scalar, Scalar::Enum { optional: true, .. })
+            }
+            _ => false,
+        }
     }
 
     /// A term, and first everything that it needs.
@@ -315,9 +347,15 @@ impl Writer<'_> {
             Term::Place { scalar: Scalar::Number("f64") | Scalar::Enum { .. }, .. }
             | Term::Variant { .. }
             | Term::Absent
+            | Term::Truth(_)
             | Term::Host { value: true, .. }
-            | Term::Parameter { .. } => (self.leaf(id), 0),
-            Term::Place { .. } | Term::Host { .. } => {
+            | Term::Parameter {
+                ty:
+                    ParameterType::Host(_)
+                    | ParameterType::Scalar(Scalar::Number("f64") | Scalar::Bool | Scalar::Enum { .. }),
+                ..
+            } => (self.leaf(id), 0),
+            Term::Place { .. } | Term::Host { .. } | Term::Parameter { .. } => {
                 let place = self.leaf(id);
                 // Of the wrong type, rustc underlines the author's own expression.
                 let span = first_span(&place);
@@ -351,12 +389,12 @@ impl Writer<'_> {
     }
 
     /// A place within the state, a value, or a Rust expression.
-    fn leaf(&self, id: TermId) -> TokenStream {
+    fn leaf(&mut self, id: TermId) -> TokenStream {
         let module = self.scope.module;
         match module.arena.term(id) {
             Term::Place { steps, .. } => {
                 let state = self.scope.state();
-                let steps = steps.iter().map(|step| self.step(step));
+                let steps: Vec<_> = steps.iter().map(|step| self.step(step)).collect();
                 quote! { #state #(#steps)* }
             }
             Term::Host { span, bindings, .. } => {
@@ -368,6 +406,7 @@ impl Writer<'_> {
                 quote! { #of::#name }
             }
             Term::Absent => quote! { ::core::option::Option::None },
+            Term::Truth(value) => quote! { #value },
             Term::Parameter { name, .. } => {
                 let name = ident(name);
                 quote! { #name }
@@ -377,7 +416,7 @@ impl Writer<'_> {
         }
     }
 
-    fn step(&self, step: &Step) -> TokenStream {
+    fn step(&mut self, step: &Step) -> TokenStream {
         match step {
             Step::Field(name) => {
                 let name = ident(name);
@@ -387,7 +426,7 @@ impl Writer<'_> {
                 let index = Literal::u32_unsuffixed(*index);
                 quote! { [#index] }
             }
-            Step::Element(index) => {
+            Step::Element(index) | Step::At { index, .. } => {
                 let index = self.leaf(*index);
                 quote! { [#index as ::core::primitive::usize] }
             }
@@ -418,6 +457,18 @@ fn number(value: f64) -> TokenStream {
     }
     let literal = Literal::f64_suffixed(value.abs());
     if value.is_sign_negative() {
+        quote! { (-#literal) }
+    } else {
+        quote! { #literal }
+    }
+}
+
+/// A whole number as Rust writes it, of the type `name`; of whatever type is needed if that is
+/// empty.
+fn whole(value: f64, name: &str) -> TokenStream {
+    let literal = format!("{}{name}", value.abs());
+    let literal: Literal = literal.parse().unwrap_or_else(|_| Literal::f64_suffixed(value.abs()));
+    if value < 0.0 {
         quote! { (-#literal) }
     } else {
         quote! { #literal }

@@ -322,18 +322,43 @@ impl<'a> Emitter<'a> {
         let about = format!("The predicates of the task `{name}`.");
         let declared = parameters.declared();
         let structure = parameters.structure(&function, &about);
+        let (called, checks) = self.indices(task);
         quote! {
             #docs
             #[allow(non_snake_case)]
+            #called
             #[must_use]
             pub const fn #function(#declared) -> #kind<#function> {
                 #statics
+                #checks
                 #result
             }
 
             #structure
 
             #implementation
+        }
+    }
+
+    /// The assertions that the parameters of a task are within the arrays that they index, and the
+    /// attribute that lets a failure be told where the task is made.
+    fn indices(&self, task: &Task) -> (TokenStream, TokenStream) {
+        let module = &self.compiled.module;
+        let mut checks = TokenStream::new();
+        for parameter in &task.parameters {
+            let name = &parameter.name;
+            let Some((length, place)) = module.shortest_array(task, name) else { continue };
+            let place = module.display_term(place);
+            let message =
+                format!("`{name}` is an index of an array of {length} elements: `{place}`");
+            let (name, length) = (identifier(name), Literal::u32_unsuffixed(length));
+            checks.extend(quote! {
+                ::core::assert!((#name as ::core::primitive::usize) < #length, #message);
+            });
+        }
+        match checks.is_empty() {
+            true => (checks.clone(), checks),
+            false => (quote! { #[track_caller] }, checks),
         }
     }
 

@@ -40,8 +40,8 @@ impl Token<'_> {
     }
 }
 
-const SYMBOLS: [&str; 12] =
-    ["<=>", "<->", "=>", "->", "&&", "||", "==", "!=", "<=", ">=", "<>", "::"];
+const SYMBOLS: [&str; 14] =
+    ["<=>", "<->", "..=", "..", "=>", "->", "&&", "||", "==", "!=", "<=", ">=", "<>", "::"];
 
 /// The tokens of a task file.
 pub(super) fn lex(text: &str) -> Vec<Token<'_>> {

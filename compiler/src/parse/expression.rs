@@ -29,8 +29,9 @@ enum Pending {
         all: bool,
         name: Span,
         set: Span,
-        /// The listed elements, by their place among the arguments.
+        /// The listed elements, or the ends of a range, by their place among the arguments.
         elements: (u32, u32),
+        range: Option<bool>,
         span: Span,
     },
     Infix(Infix, Span),
@@ -74,24 +75,31 @@ impl Yard<'_> {
     fn quantifier(&mut self, token: Pair<'_>) -> Result<Pending, Error> {
         let span = place(&token, self.at);
         let (mut all, mut name, mut set) = (false, span, span);
-        let mut listed = Vec::new();
+        let (mut listed, mut range) = (Vec::new(), None);
         for part in token.into_inner() {
             match part.as_rule() {
                 Rule::word_all => all = true,
                 Rule::identifier => name = place(&part, self.at),
                 Rule::set => {
                     set = place(&part, self.at);
-                    let elements = part.into_inner().filter(|part| part.as_rule() == Rule::element);
-                    listed = elements.map(|part| self.element(&part)).collect::<Result<_, _>>()?;
+                    for part in part.into_inner().flat_map(with_ends) {
+                        match part.as_rule() {
+                            Rule::range => range = Some(false),
+                            Rule::inclusive => range = Some(true),
+                            Rule::element | Rule::end => listed.push(self.element(&part)?),
+                            _ => {}
+                        }
+                    }
                 }
                 _ => {}
             }
         }
         let elements = self.ast.push_arguments(&listed);
-        Ok(Pending::Quantifier { all, name, set, elements: (elements.start, elements.end), span })
+        let elements = (elements.start, elements.end);
+        Ok(Pending::Quantifier { all, name, set, elements, range, span })
     }
 
-    /// An element of a listed set.
+    /// An element of a listed set, or an end of a range.
     fn element(&mut self, element: &Pair<'_>) -> Result<NodeId, Error> {
         let span = place(element, self.at);
         let node = match element.as_str().starts_with(|c: char| c.is_ascii_digit()) {
@@ -273,11 +281,11 @@ impl Yard<'_> {
                 let whole = self.outer(left).to(self.outer(right));
                 self.push(Node::Infix(op, left, right), whole, span);
             }
-            Some(Pending::Quantifier { all, name, set, elements, span }) => {
+            Some(Pending::Quantifier { all, name, set, elements, range, span }) => {
                 let body = self.pop();
                 let whole = span.to(self.outer(body));
                 let elements = elements.0..elements.1;
-                self.push(Node::Quantified { all, name, set, elements, body }, whole, span);
+                self.push(Node::Quantified { all, name, set, elements, range, body }, whole, span);
             }
             _ => {}
         }
@@ -349,6 +357,12 @@ fn bracket(open: Pending) -> (Span, char, char) {
             (span, '(', ')')
         }
     }
+}
+
+/// A part of a set, and the ends of a range.
+fn with_ends(part: Pair<'_>) -> Vec<Pair<'_>> {
+    let ends = if part.as_rule() == Rule::range { Some(part.clone().into_inner()) } else { None };
+    std::iter::once(part).chain(ends.into_iter().flatten()).collect()
 }
 
 /// The largest whole number up to which a double counts exactly.

@@ -234,7 +234,7 @@ fn rule_name(rule: Rule) -> Option<&'static str> {
         Rule::field_type => "a type such as `f64`",
         Rule::header_type | Rule::host_type => "a type",
         Rule::array_close => "`; 6]`",
-        Rule::digits => "a number",
+        Rule::digits | Rule::end => "a number",
         Rule::parameters => "`(`",
         Rule::expression => "a formula",
         _ => return None,

@@ -3,8 +3,10 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use super::{Arena, Arguments, Condition, ConditionId, Number, Scalar, Step, Term, TermId};
-use super::{ParameterType, PredicateId};
+use super::{
+    Arena, Arguments, Binding, Condition, ConditionId, Number, Scalar, Step, Term, TermId,
+};
+use super::{Module, ParameterType, PredicateId, Task};
 use crate::ast::Comparison;
 
 impl Arena {
@@ -79,7 +81,9 @@ impl Arena {
         match self.term(id) {
             Term::Variant { .. } | Term::Absent | Term::Host { value: true, .. } => true,
             Term::Place { scalar, .. } => matches!(scalar, Scalar::Enum { .. }),
-            Term::Parameter { ty, .. } => !matches!(ty, ParameterType::Scalar(Scalar::Number(_))),
+            Term::Parameter { ty, .. } => {
+                matches!(ty, ParameterType::Host(_) | ParameterType::Scalar(Scalar::Enum { .. }))
+            }
             _ => false,
         }
     }
@@ -129,10 +133,15 @@ impl Arena {
             }
             Condition::Bool(term) => {
                 let term = self.replace(term, arguments);
-                self.add_condition(Condition::Bool(term))
+                self.add_condition(match self.term(term) {
+                    Term::Truth(value) => Condition::Truth(*value),
+                    _ => Condition::Bool(term),
+                })
             }
             Condition::Value { text, span, bindings } => {
-                let bindings = self.rebound(bindings, arguments);
+                let replace =
+                    |one: Binding| Binding { term: self.replace(one.term, arguments), ..one };
+                let bindings = bindings.into_iter().map(replace).collect();
                 self.add_condition(Condition::Value { text, span, bindings })
             }
             Condition::Apply { predicate, arguments: old, meaning } => {
@@ -172,14 +181,17 @@ impl Arena {
             }
             Term::Place { mut steps, scalar } => {
                 for step in &mut steps {
-                    if let Step::Element(index) = step {
-                        *index = done[index];
+                    match step {
+                        Step::Element(index) => *index = done[index],
+                        Step::At { index, length } => *step = self.at(done[index], *length),
+                        Step::Field(_) | Step::Index(_) => {}
                     }
                 }
                 Term::Place { steps, scalar }
             }
             Term::Host { text, span, bindings, value } => {
-                let bindings = bindings.into_iter().map(|(name, term)| (name, done[&term]));
+                let bindings =
+                    bindings.into_iter().map(|one| Binding { term: done[&one.term], ..one });
                 Term::Host { text, span, bindings: bindings.collect(), value }
             }
             Term::Negate(a) => return self.folded(Term::Negate(done[&a])),
@@ -213,9 +225,65 @@ impl Arena {
         }
     }
 
-    fn rebound(&mut self, bindings: Arguments, arguments: &Arguments) -> Arguments {
-        let replace = |(name, term)| (name, self.replace(term, arguments));
-        bindings.into_iter().map(replace).collect()
+    /// The step to the element of an array of `length` at a number; it stays unknown if there is
+    /// no such element.
+    pub fn at(&self, index: TermId, length: u32) -> Step {
+        let fits = |value: &f64| value.fract() == 0.0 && 0.0 <= *value && *value < length.into();
+        match self.constant(index).filter(fits) {
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it fits")]
+            Some(value) => Step::Index(value as u32),
+            None => Step::At { index, length },
+        }
+    }
+}
+
+impl Module {
+    /// The least length of an array that a parameter of a task is an index of, and the place that
+    /// it is part of.
+    #[must_use]
+    pub fn shortest_array(&self, task: &Task, parameter: &str) -> Option<(u32, TermId)> {
+        let is_it = |index: TermId| matches!(self.arena.term(index), Term::Parameter { name, .. } if name == parameter);
+        let mut shortest: Option<(u32, TermId)> = None;
+        for place in self.needed_terms(task) {
+            let Term::Place { steps, .. } = self.arena.term(place) else { continue };
+            for step in steps {
+                if let Step::At { index, length } = *step
+                    && is_it(index)
+                    && shortest.is_none_or(|(known, _)| length < known)
+                {
+                    shortest = Some((length, place));
+                }
+            }
+        }
+        shortest
+    }
+
+    /// All terms that the predicates of a task read.
+    fn needed_terms(&self, task: &Task) -> BTreeSet<TermId> {
+        let condition = |id: &PredicateId| self.predicates[id.0 as usize].condition;
+        let mut conditions: Vec<_> = task.predicates.iter().map(condition).collect();
+        let mut terms = Vec::new();
+        let mut seen = BTreeSet::new();
+        while let Some(id) = conditions.pop() {
+            if !seen.insert(id) {
+                continue;
+            }
+            match self.arena.condition(id) {
+                Condition::Not(a) | Condition::Apply { meaning: a, .. } => conditions.push(*a),
+                Condition::And(a, b) | Condition::Or(a, b) => conditions.extend([*a, *b]),
+                Condition::Is(predicate) => conditions.push(condition(predicate)),
+                Condition::Compare(_, a, b) => terms.extend([*a, *b]),
+                Condition::Bool(place) => terms.push(*place),
+                Condition::Truth(_) | Condition::Value { .. } | Condition::Free(_) => {}
+            }
+        }
+        let mut needed = BTreeSet::new();
+        while let Some(id) = terms.pop() {
+            if needed.insert(id) {
+                terms.extend(self.arena.term(id).operands());
+            }
+        }
+        needed
     }
 }
 
@@ -227,11 +295,11 @@ impl Term {
             Self::Negate(a) => vec![*a],
             Self::Calculate(_, a, b) => vec![*a, *b],
             Self::Call(_, a, b) => std::iter::once(*a).chain(*b).collect(),
-            Self::Host { bindings, .. } => bindings.iter().map(|(_, term)| *term).collect(),
+            Self::Host { bindings, .. } => bindings.iter().map(|one| one.term).collect(),
             Self::Place { steps, .. } => {
                 let index = |step: &Step| match step {
-                    Step::Element(term) => Some(*term),
-                    _ => None,
+                    Step::Element(index) | Step::At { index, .. } => Some(*index),
+                    Step::Field(_) | Step::Index(_) => None,
                 };
                 steps.iter().filter_map(index).collect()
             }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::{Arena, Arguments, Condition, ConditionId, Module, Number, Predicate, PredicateId};
+use super::{Arena, Binding, Condition, ConditionId, Module, Number, Predicate, PredicateId};
 use super::{Step, Term, TermId};
 use crate::ast::{Arithmetic, Prefix};
 
@@ -120,6 +120,7 @@ impl Printed<'_> {
                 (12, vec![Word(name.clone())])
             }
             Term::Absent => (12, vec![Text("none")]),
+            Term::Truth(value) => (12, vec![Text(if *value { "true" } else { "false" })]),
             Term::Host { text, bindings, .. } => (12, vec![self.host(text, bindings)]),
             Term::Place { steps, .. } => (12, place(steps)),
             Term::Negate(a) => (9, vec![Text(Prefix::Minus.symbol()), Inner(*a, 10)]),
@@ -139,13 +140,13 @@ impl Printed<'_> {
     }
 
     /// A Rust expression with what its parameters stand for.
-    fn host(&self, text: &str, bindings: &Arguments) -> Piece {
+    fn host(&self, text: &str, bindings: &[Binding]) -> Piece {
         let print = |root| {
             let root = Piece::Term(root, 0);
             Printed { arena: self.arena, predicates: self.predicates, root }.to_string()
         };
         let words: Vec<_> =
-            bindings.iter().map(|(name, term)| (name.as_str(), print(*term))).collect();
+            bindings.iter().map(|one| (one.name.as_str(), print(one.term))).collect();
         Piece::Word(crate::parse::renamed(text, &words))
     }
 }
@@ -164,8 +165,8 @@ fn place(steps: &[Step]) -> Vec<Piece> {
             Step::Field(name) if i == 0 => pieces.push(Piece::Word(name.clone())),
             Step::Field(name) => pieces.push(Piece::Word(format!(".{name}"))),
             Step::Index(index) => pieces.push(Piece::Word(format!("[{index}]"))),
-            Step::Element(term) => {
-                pieces.extend([Piece::Text("["), Piece::Term(*term, 0), Piece::Text("]")]);
+            Step::Element(index) | Step::At { index, .. } => {
+                pieces.extend([Piece::Text("["), Piece::Term(*index, 0), Piece::Text("]")]);
             }
         }
     }
