@@ -24,6 +24,7 @@ use rand::Rng;
 use serde::{Deserialize, Serialize};
 
 use crate::env::{Env, FiniteEnv, Step};
+use crate::learn::episode::{Move, World};
 use crate::model::FiniteModel;
 use crate::task::{Error, Monitor};
 
@@ -186,20 +187,29 @@ impl<E: Env, M: Monitor<E::State>> Augmented<E, M> {
         rng: &mut R,
     ) -> Result<Step<(E::State, u32)>, Error> {
         let step = self.env.step(action, rng);
-        let from = self.q;
+        let Move { to, paid, over } = self.read(self.q, &step.state)?;
+        self.q = to;
+        Ok(Step {
+            state: (step.state, to),
+            reward: paid + self.rewards.environment * step.reward,
+            terminated: step.terminated || over,
+            truncated: step.truncated,
+        })
+    }
+
+    /// What reading `s` does at any automaton state `q`, not only the current one.
+    ///
+    /// # Errors
+    /// If a predicate is not a number at `s`.
+    pub fn read(&self, q: u32, s: &E::State) -> Result<Move, Error> {
         let robustness = if self.rewards.needs_robustness() {
-            self.monitor.progress_robustness(from, &step.state)?
+            self.monitor.progress_robustness(q, s)?
         } else {
             0.0
         };
-        self.q = self.monitor.next(from, &step.state)?;
-        let paid = self.rewards.pays(&self.ends, from, self.q, self.gamma, robustness);
-        Ok(Step {
-            state: (step.state, self.q),
-            reward: paid + self.rewards.environment * step.reward,
-            terminated: step.terminated || self.end().is_some(),
-            truncated: step.truncated,
-        })
+        let to = self.monitor.next(q, s)?;
+        let paid = self.rewards.pays(&self.ends, q, to, self.gamma, robustness);
+        Ok(Move { to, paid, over: self.ends.of(to).is_some() })
     }
 
     /// How the task has ended, if it has.
@@ -220,6 +230,29 @@ impl<E: Env, M: Monitor<E::State>> Augmented<E, M> {
     /// The task.
     pub const fn monitor(&self) -> &M {
         &self.monitor
+    }
+}
+
+/// Its states as they are. The loop of episodes holds q itself: reset before stepping by hand again.
+impl<E: Env, M: Monitor<E::State>> World for Augmented<E, M> {
+    type State = E::State;
+    type Error = Error;
+
+    fn reset<R: Rng + ?Sized>(&mut self, rng: &mut R) -> Result<E::State, Error> {
+        Ok(self.env.reset(rng))
+    }
+
+    fn step<R: Rng + ?Sized>(
+        &mut self,
+        action: usize,
+        rng: &mut R,
+    ) -> Result<Step<E::State>, Error> {
+        let step = self.env.step(action, rng);
+        Ok(Step { reward: self.rewards.environment * step.reward, ..step })
+    }
+
+    fn read(&self, q: u32, s: &E::State) -> Result<Move, Error> {
+        Self::read(self, q, s)
     }
 }
 

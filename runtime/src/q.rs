@@ -65,6 +65,11 @@ impl QTable {
         &self.values
     }
 
+    /// All values, to change them.
+    pub(crate) fn values_mut(&mut self) -> &mut [f64] {
+        &mut self.values
+    }
+
     /// Q(s, q, ·).
     #[inline]
     #[must_use]
@@ -141,9 +146,10 @@ pub(crate) fn largest(values: &[f64]) -> f64 {
     }
 }
 
+/// The larger; which one it is cannot be guessed, so it is not to become a branch.
 #[inline]
 fn more(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
+    core::hint::select_unpredictable(a > b, a, b)
 }
 
 fn largest_of(values: &[f64]) -> f64 {

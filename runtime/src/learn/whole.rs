@@ -6,12 +6,13 @@
 
 use alloc::vec::Vec;
 
-use rand::SeedableRng;
 use rand::rngs::Xoshiro256PlusPlus;
+use rand::{Rng, SeedableRng};
 
 use super::Settings;
+use super::episode::{self, Agent, Done, Move, Seen, World};
 use crate::augmented::{End, Labelled};
-use crate::env::{FiniteEnv, below, unit};
+use crate::env::{FiniteEnv, Step, below, unit};
 use crate::q::QTable;
 use crate::task::{Error, Monitor};
 
@@ -40,7 +41,7 @@ pub struct WholeLearner {
     q: QTable,
     visits: Vec<u32>,
     rng: Xoshiro256PlusPlus,
-    steps: u64,
+    done: Done,
 }
 
 impl WholeLearner {
@@ -58,7 +59,7 @@ impl WholeLearner {
         let rng = Xoshiro256PlusPlus::seed_from_u64(seed);
         let visits = alloc::vec![0; task.pairs() * actions];
         let q = QTable::filled(task, actions, settings.initial);
-        Self { settings, terminal, automaton, q, visits, rng, steps: 0 }
+        Self { settings, terminal, automaton, q, visits, rng, done: Done::default() }
     }
 
     /// Runs whole episodes until `total` environment steps have been taken since the beginning.
@@ -76,83 +77,18 @@ impl WholeLearner {
         total: u64,
     ) -> Result<(), Error> {
         assert_eq!(env.states(), task.states(), "a task is labelled on its own world");
-        while self.steps < total {
-            self.episode(env, monitor, task)?;
-        }
-        Ok(())
-    }
-
-    fn episode<E: FiniteEnv, M: Monitor<E::State>>(
-        &mut self,
-        env: &mut E,
-        monitor: &M,
-        task: &Labelled,
-    ) -> Result<(), Error> {
-        let mut trajectory = alloc::vec![env.reset(&mut self.rng)];
-        let mut s = env.state_index();
-        let mut q = task.start(s);
-        // Episodes that are over at once count, so that training ends whatever the task.
-        self.steps += u64::from(task.end(q).is_some());
-        for t in 1..=self.settings.horizon {
-            if task.end(q).is_some() {
-                return Ok(());
-            }
-            let a = self.act(self.seen(q), s);
-            let step = env.step(a, &mut self.rng);
-            trajectory.push(step.state);
-            let (from, to) = (self.seen(q), env.state_index());
-            q = task.next(q, to);
-            self.steps += 1;
-            let cut = step.terminated || step.truncated || t == self.settings.horizon;
-            let last = cut || task.end(q).is_some();
-            let target = if last {
-                self.pays(monitor, &trajectory, task.end(q))?
-            } else {
-                self.settings.gamma * self.q.max(self.seen(q), to)
-            };
-            self.learn(from, s, a, target);
-            s = to;
-            if last {
-                return Ok(());
-            }
-        }
-        Ok(())
+        let Settings { horizon, .. } = self.settings;
+        let (terminal, trajectory) = (self.terminal, Vec::new());
+        let mut world = Whole { env, monitor, task, terminal, horizon, trajectory, q: 0 };
+        let (mut rng, mut done) = (self.rng.clone(), self.done);
+        let result = episode::run(&mut world, self, &mut done, horizon, total, &mut rng);
+        (self.rng, self.done) = (rng, done);
+        result
     }
 
     /// The automaton state as the learner sees it.
     const fn seen(&self, q: u32) -> u32 {
         if self.automaton { q } else { 0 }
-    }
-
-    fn pays<S, M: Monitor<S>>(
-        &self,
-        monitor: &M,
-        trajectory: &[S],
-        end: Option<End>,
-    ) -> Result<f64, Error> {
-        match self.terminal {
-            Terminal::Satisfaction => Ok(f64::from(u8::from(end == Some(End::Accepted)))),
-            Terminal::Robustness { bound } => {
-                Ok(monitor.trajectory_robustness(trajectory)?.clamp(-bound, bound))
-            }
-        }
-    }
-
-    fn act(&mut self, q: u32, s: usize) -> usize {
-        let epsilon = self.settings.epsilon.at(self.steps);
-        if epsilon >= 1.0 || unit(&mut self.rng) < epsilon {
-            below(self.q.actions(), &mut self.rng)
-        } else {
-            self.q.greedy(q, s) as usize
-        }
-    }
-
-    fn learn(&mut self, q: u32, s: usize, a: usize, target: f64) {
-        let visits = &mut self.visits[(q as usize * self.q.states() + s) * self.q.actions() + a];
-        let alpha = self.settings.alpha.at(u64::from(*visits));
-        *visits = visits.saturating_add(1);
-        let value = &mut self.q.row_mut(q, s)[a];
-        *value += alpha * (target - *value);
     }
 
     /// The greedy policy, indexed `q * states + s`.
@@ -166,6 +102,91 @@ impl WholeLearner {
     /// Environment steps so far.
     #[must_use]
     pub const fn steps(&self) -> u64 {
-        self.steps
+        self.done.steps
+    }
+}
+
+impl Agent for WholeLearner {
+    type State = usize;
+
+    /// ε-greedy.
+    fn act<R: Rng + ?Sized>(&mut self, &s: &usize, q: u32, steps: u64, rng: &mut R) -> usize {
+        let epsilon = self.settings.epsilon.at(steps);
+        if epsilon >= 1.0 || unit(rng) < epsilon {
+            below(self.q.actions(), rng)
+        } else {
+            self.q.greedy(self.seen(q), s) as usize
+        }
+    }
+
+    fn learn<W: World<State = usize>, R: Rng + ?Sized>(
+        &mut self,
+        _world: &W,
+        seen: &Seen<'_, usize>,
+        _rng: &mut R,
+    ) -> Result<(), W::Error> {
+        let (q, to) = (self.seen(seen.q), self.seen(seen.read.to));
+        let best = if seen.terminated { 0.0 } else { self.q.max(to, *seen.to) };
+        let target = seen.paid + self.settings.gamma * best;
+        let entry = (q as usize * self.q.states() + seen.s) * self.q.actions() + seen.action;
+        let visits = &mut self.visits[entry];
+        let alpha = self.settings.alpha.at(u64::from(*visits));
+        *visits = visits.saturating_add(1);
+        let value = &mut self.q.row_mut(q, *seen.s)[seen.action];
+        *value += alpha * (target - *value);
+        Ok(())
+    }
+}
+
+/// A finite environment that pays for whole trajectories.
+struct Whole<'a, E: FiniteEnv, M> {
+    env: &'a mut E,
+    monitor: &'a M,
+    task: &'a Labelled,
+    terminal: Terminal,
+    horizon: u32,
+    trajectory: Vec<E::State>,
+    q: u32,
+}
+
+impl<E: FiniteEnv, M: Monitor<E::State>> Whole<'_, E, M> {
+    fn pays(&self, end: Option<End>) -> Result<f64, Error> {
+        match self.terminal {
+            Terminal::Satisfaction => Ok(f64::from(u8::from(end == Some(End::Accepted)))),
+            Terminal::Robustness { bound } => {
+                Ok(self.monitor.trajectory_robustness(&self.trajectory)?.clamp(-bound, bound))
+            }
+        }
+    }
+}
+
+impl<E: FiniteEnv, M: Monitor<E::State>> World for Whole<'_, E, M> {
+    type State = usize;
+    type Error = Error;
+
+    fn reset<R: Rng + ?Sized>(&mut self, rng: &mut R) -> Result<usize, Error> {
+        self.trajectory.clear();
+        self.trajectory.push(self.env.reset(rng));
+        let s = self.env.state_index();
+        self.q = self.task.start(s);
+        Ok(s)
+    }
+
+    /// The last step of an episode pays for all of it, and nothing can be had after it.
+    fn step<R: Rng + ?Sized>(&mut self, action: usize, rng: &mut R) -> Result<Step<usize>, Error> {
+        let Step { state, terminated, truncated, .. } = self.env.step(action, rng);
+        self.trajectory.push(state);
+        let s = self.env.state_index();
+        self.q = self.task.next(self.q, s);
+        let end = self.task.end(self.q);
+        let cut = terminated || truncated || self.trajectory.len() > self.horizon as usize;
+        let last = cut || end.is_some();
+        let reward = if last { self.pays(end)? } else { 0.0 };
+        Ok(Step { state: s, reward, terminated: last, truncated: false })
+    }
+
+    fn read(&self, q: u32, &s: &usize) -> Result<Move, Error> {
+        let to = self.task.next(q, s);
+        Ok(Move { to, paid: 0.0, over: self.task.end(to).is_some() })
     }
 }
