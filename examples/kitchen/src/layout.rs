@@ -270,6 +270,16 @@ impl Layout {
         self.accepts[r as usize] >> o & 1 == 1
     }
 
+    /// The objects that may be put into receptacle `r`, as a set of ids.
+    pub(crate) const fn allowed(&self, r: u8) -> u64 {
+        self.accepts[r as usize]
+    }
+
+    /// Sets how many objects receptacle `r` holds.
+    pub(crate) const fn set_capacity(&mut self, r: u8, capacity: u8) {
+        self.capacity[r as usize] = capacity;
+    }
+
     /// Whether `object` can be wanted in `receptacle`: its type is allowed there, and there are
     /// starts in which it stands elsewhere.
     #[inline]

@@ -12,6 +12,8 @@
 //! | [`truth`] | a situation and an action into the next situation: the rules |
 //! | [`known`] | the truth into what the agent has observed, which predicates and learners read |
 //! | [`world`] | the rules into an environment with goals, starts and time limits |
+//! | [`tasks`] | the task file into specifications |
+//! | [`planner`] | a start and a specification into a shortest plan, by one who sees everything |
 //!
 //! # What is known, and what is reconstructed
 //!
@@ -32,6 +34,9 @@ pub mod action;
 pub mod format;
 pub mod known;
 pub mod layout;
+pub mod planner;
+mod relaxed;
+pub mod tasks;
 pub mod truth;
 pub mod world;
 
