@@ -25,7 +25,8 @@ use crate::ast::{Ast, ItemKind, NodeId};
 use crate::error::{Error, Errors, Kind};
 use crate::parse;
 use crate::predicate::{
-    Arena, ConditionId, Constant, Module, Parameter, Predicate, PredicateId, State, Task, TaskId,
+    Arena, ConditionId, Constant, Module, Parameter, ParameterType, Predicate, PredicateId, Scalar,
+    State, Task, TaskId,
 };
 use crate::source::{Source, Span};
 use expand::{Environment, Expanded};
@@ -221,6 +222,10 @@ impl<'a> Checker<'a> {
         if !self.ast.items().iter().any(|item| matches!(item.kind, ItemKind::Task(..))) {
             return;
         }
+        let takes_number =
+            |known: &Parameter| matches!(known.ty, ParameterType::Scalar(Scalar::Number(_)));
+        let mut tasks = self.tasks.iter().flatten();
+        let given = tasks.any(|task| task.parameters.iter().any(takes_number));
         for (index, item) in self.ast.items().iter().enumerate() {
             let what = match item.kind {
                 ItemKind::Predicate(..) => "predicate",
@@ -228,8 +233,8 @@ impl<'a> Checker<'a> {
                 _ => continue,
             };
             let name = self.ast.source().slice(item.name);
-            // A number may also be an index, or the end of a range.
-            if what == "constant" && self.written.mentions(name) {
+            // A number may also be an index or the end of a range, or be there to be given to a task.
+            if what == "constant" && (given || self.written.mentions(name)) {
                 continue;
             }
             if !self.used.contains(&index) && self.scope.item(name) == Some(index) {

@@ -60,10 +60,7 @@ impl fmt::Display for Unreadable {
             Self::Rust(text) => {
                 write!(f, "`{text}` is Rust code, which only a Rust program can run")
             }
-            Self::Parameter(name) => write!(
-                f,
-                "the task takes `{name}`: declare one with a value for it, such as `task t = …(…)`"
-            ),
+            Self::Parameter(name) => write!(f, "the task takes `{name}`, which has no value"),
             Self::Element(text) => {
                 write!(f, "the index in `{text}` is a field, which only a Rust program can follow")
             }

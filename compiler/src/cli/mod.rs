@@ -3,6 +3,7 @@
 //! Exit codes: 0 all is well; 1 a source has mistakes, two tasks differ, a trajectory does not
 //! satisfy its task, or a file is not laid out; 2 the arguments or a file are at fault.
 
+mod arguments;
 mod automaton;
 mod input;
 mod layout;
@@ -133,7 +134,8 @@ struct Run {
     /// The trajectory, CSV or JSON Lines, one state a row; `-` is the standard input. Columns have
     /// the names of the state's fields: `x`, `pose.x`, `joints[2]`; others are ignored.
     trace: PathBuf,
-    /// The task of the file; may be left out if there is only one.
+    /// The task of the file, with what it takes: `deliver(apple, fridge)`; may be left out if there
+    /// is only one.
     #[arg(long)]
     task: Option<String>,
     /// The form to write.

@@ -12,21 +12,28 @@ use tltl_compiler::predicate::{Module, Task};
 use tltl_compiler::semantics;
 
 use super::subject::{self, Subject};
-use super::{MISTAKEN, Outcome, RowFormat, Run, input, print, record};
+use super::{MISTAKEN, Outcome, RowFormat, Run, arguments, input, print, record};
 
 /// Runs the trajectory that the arguments name, and shows what becomes of the task.
-pub(super) fn run(arguments: &Run) -> Outcome {
-    let (compiled, place) = match subject::read(&arguments.subject, arguments.task.as_deref())? {
+pub(super) fn run(run: &Run) -> Outcome {
+    let (subject, task) = subject::split(&run.subject);
+    let (name, given) = match task.or(run.task.as_deref()) {
+        Some(task) => arguments::split(task).map(|(name, given)| (Some(name), given))?,
+        None => (None, None),
+    };
+    let (mut compiled, place) = match subject::read(subject, name)? {
         None => return Ok(ExitCode::from(MISTAKEN)),
         Some(Subject::Task(compiled, place)) => (compiled, place),
         Some(Subject::Automaton(_)) => {
             return Err("an automaton does not say how its propositions read a state".into());
         }
     };
-    let (task, automata) = (&compiled.module.tasks[place], &compiled.automata[place]);
-    let result = judge(&compiled.module, task, automata, &arguments.trace)?;
-    print(&match arguments.format {
-        RowFormat::Text => text(task, &result),
+    let task = &compiled.module.tasks[place].clone();
+    arguments::bind(&mut compiled.module, task, given.as_deref().unwrap_or_default())?;
+    let automata = &compiled.automata[place];
+    let result = judge(&compiled.module, task, automata, &run.trace)?;
+    print(&match run.format {
+        RowFormat::Text => text(task, given.as_deref(), &result),
         RowFormat::Csv => csv(&result),
         RowFormat::Json => json(&result),
     })?;
@@ -103,10 +110,17 @@ fn verdict(dfa: &Dfa, q: State) -> Verdict {
     }
 }
 
-fn text(task: &Task, judged: &Judged) -> String {
-    let mut text = match &task.name {
-        Some(name) => format!("{name} = {}\n\n", task.text),
-        None => format!("{}\n\n", task.text),
+fn text(task: &Task, given: Option<&[&str]>, judged: &Judged) -> String {
+    let given = given.filter(|given| !given.is_empty());
+    let mut text = match (&task.name, given) {
+        (Some(name), Some(given)) => {
+            let names = task.parameters.iter().map(|known| known.name.as_str());
+            let with: Vec<_> =
+                names.zip(given).map(|(name, value)| format!("{name} = {value}")).collect();
+            format!("{name} = {}\nwith {}\n\n", task.text, with.join(", "))
+        }
+        (Some(name), None) => format!("{name} = {}\n\n", task.text),
+        (None, _) => format!("{}\n\n", task.text),
     };
     let _ = writeln!(text, "{:>6}  {:>5}  {:>12}", "row", "state", "progress");
     for (t, row) in judged.rows.iter().enumerate() {
@@ -121,7 +135,8 @@ fn text(task: &Task, judged: &Judged) -> String {
         Verdict::Open => writeln!(text, "\nnot satisfied yet, and not lost"),
         verdict => writeln!(text, "\n{} at row {since}", verdict.word()),
     };
-    let _ = writeln!(text, "robustness {}", judged.robustness);
+    // Zero has no sign here.
+    let _ = writeln!(text, "robustness {}", judged.robustness + 0.0);
     text.push_str(
         "\nstate: the automaton's state after the row is read\n\
          progress: by how much the row moves the automaton on, from the state before it\n",
@@ -131,7 +146,7 @@ fn text(task: &Task, judged: &Judged) -> String {
 
 /// A number as it fits into a column.
 fn short(value: f64) -> String {
-    let exact = value.to_string();
+    let exact = (value + 0.0).to_string();
     if exact.len() <= 12 { exact } else { format!("{value:.5e}") }
 }
 
@@ -139,7 +154,7 @@ fn csv(judged: &Judged) -> String {
     let mut text = String::from("row,state,progress,verdict\n");
     for (t, row) in judged.rows.iter().enumerate() {
         let verdict = judged.verdicts[t].word();
-        let _ = writeln!(text, "{t},{},{},{verdict}", row.state, row.progress);
+        let _ = writeln!(text, "{t},{},{},{verdict}", row.state, row.progress + 0.0);
     }
     text
 }
@@ -166,14 +181,17 @@ fn json(judged: &Judged) -> String {
     let rows = rows.map(|(t, (row, &verdict))| JsonRow {
         row: t,
         state: row.state,
-        progress: row.progress,
+        progress: row.progress + 0.0,
         verdict,
     });
     for row in rows {
         text.push_str(&serde_json::to_string(&row).unwrap_or_default());
         text.push('\n');
     }
-    let end =
-        JsonEnd { verdict: judged.last(), since: judged.since(), robustness: judged.robustness };
+    let end = JsonEnd {
+        verdict: judged.last(),
+        since: judged.since(),
+        robustness: judged.robustness + 0.0,
+    };
     text + &serde_json::to_string(&end).unwrap_or_default() + "\n"
 }

@@ -21,10 +21,7 @@ pub(super) enum Subject {
 
 /// Reads `FILE`, `FILE:TASK` or a formula, and reports its mistakes; `None` if it has any.
 pub(super) fn read(text: &str, task: Option<&str>) -> Result<Option<Subject>, String> {
-    let (path, named) = match text.rsplit_once(':') {
-        Some((path, name)) if !exists(text) && looks_like_file(path) => (path, Some(name)),
-        _ => (text, None),
-    };
+    let (path, named) = split(text);
     if exists(path) || looks_like_file(path) || task.is_some() {
         return file(path, named.or(task));
     }
@@ -32,6 +29,18 @@ pub(super) fn read(text: &str, task: Option<&str>) -> Result<Option<Subject>, St
     let compiled = compile::formula(&source, Budget::SHOWN);
     let compiled = input::reported(&source, compiled, Report::Human)?;
     Ok(compiled.map(|compiled| Subject::Task(Box::new(compiled), 0)))
+}
+
+/// `FILE:TASK` in its two parts; what is no such thing is the first of them. What a task takes may
+/// stand after it in brackets.
+pub(super) fn split(text: &str) -> (&str, Option<&str>) {
+    let named = text.split_once('(').map_or(text, |(named, _)| named);
+    match named.rfind(':') {
+        Some(colon) if !exists(text) && looks_like_file(&text[..colon]) => {
+            (&text[..colon], Some(&text[colon + 1..]))
+        }
+        _ => (text, None),
+    }
 }
 
 fn exists(path: &str) -> bool {

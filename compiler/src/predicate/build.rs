@@ -258,6 +258,18 @@ impl Module {
         shortest
     }
 
+    /// An element of an array, of this length, that the predicates of a task read and there is not.
+    #[must_use]
+    pub fn missing_element(&self, task: &Task) -> Option<(TermId, u32)> {
+        self.needed_terms(task).into_iter().find_map(|place| {
+            let Term::Place { steps, .. } = self.arena.term(place) else { return None };
+            steps.iter().find_map(|step| match *step {
+                Step::At { index, length } => self.arena.constant(index).map(|_| (place, length)),
+                _ => None,
+            })
+        })
+    }
+
     /// All terms that the predicates of a task read.
     fn needed_terms(&self, task: &Task) -> BTreeSet<TermId> {
         let condition = |id: &PredicateId| self.predicates[id.0 as usize].condition;
