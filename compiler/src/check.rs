@@ -141,6 +141,7 @@ impl<'a> Checker<'a> {
             constants: Vec::new(),
             predicates: Vec::new(),
             arena: Arena::default(),
+            places: Vec::new(),
             tasks: Vec::new(),
             warnings: Vec::new(),
         };

@@ -176,6 +176,12 @@ impl Error {
         self.span
     }
 
+    /// What stands beside the place of the mistake; empty if nothing does.
+    #[must_use]
+    pub fn place_label(&self) -> &str {
+        &self.label
+    }
+
     /// The other places that matter, each with what it is.
     #[must_use]
     pub fn places(&self) -> &[(Span, String)] {

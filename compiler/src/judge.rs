@@ -32,7 +32,7 @@ pub(crate) fn task(
     automata: &Automata,
 ) -> Vec<Error> {
     let mut mistakes = predicates(module, task, possible);
-    mistakes.extend(formula(task, possible, automata));
+    mistakes.extend(formula(module, task, possible, automata));
     if task.name.is_none() {
         mistakes = mistakes.into_iter().map(Error::warning).collect();
     }
@@ -45,37 +45,54 @@ fn predicates(module: &Module, task: &Task, possible: &mut Possible) -> Vec<Erro
     for (proposition, &id) in (0..).zip(&task.predicates) {
         let predicate = &module.predicates[id.0 as usize];
         let (name, condition) = (&predicate.name, predicate.condition);
-        mistakes.extend(match possible.values(proposition) {
-            (true, true) => None,
-            (false, _) => {
+        let (can_hold, can_fail) = possible.values(proposition);
+        if can_hold && can_fail {
+            continue;
+        }
+        let core = contradiction(module, &[(condition, can_fail, predicate.span)]);
+        let error = match can_hold {
+            false => {
                 let message = format!("the predicate `{name}` can never hold");
-                let error = Error::new(Kind::Unsatisfiable, message, predicate.span);
-                Some(error.label(never(module, condition)))
+                Error::new(Kind::Unsatisfiable, message, predicate.span).label(never(&core))
             }
-            (true, false) => {
+            true => {
                 let message = format!("the predicate `{name}` always holds");
-                let error = Error::new(Kind::Valid, message, predicate.span).warning();
-                Some(error.label(always(module, condition)))
+                Error::new(Kind::Valid, message, predicate.span).warning().label(always(&core))
             }
-        });
+        };
+        mistakes.push(pointing(error, &core));
     }
     mistakes
 }
 
-fn never(module: &Module, condition: ConditionId) -> String {
-    match contradiction(module, condition, true).as_slice() {
+/// The error with the places of what contradicts each other.
+fn pointing(error: Error, core: &[Part]) -> Error {
+    let several = core.iter().filter(|_| core.len() > 1);
+    several.fold(error, |error, part| match (part.place, part.holds) {
+        (None, _) => error,
+        (Some(place), true) => error.related(place, part.text.clone()),
+        (Some(place), false) => error.related(place, format!("{} where this fails", part.text)),
+    })
+}
+
+fn never(core: &[Part]) -> String {
+    match core {
         [] => "no state satisfies this".to_owned(),
-        [one] => format!("no value of its type satisfies {one}"),
-        all => excluding(all),
+        [one] => format!("no value of its type satisfies {}", one.text),
+        all => excluding(&texts(all)),
     }
 }
 
-fn always(module: &Module, condition: ConditionId) -> String {
-    match contradiction(module, condition, false).as_slice() {
+fn always(core: &[Part]) -> String {
+    match core {
         [] => "every state satisfies this".to_owned(),
-        [one] => format!("it fails only for {one}, which no value of its type satisfies"),
-        all => format!("it fails only where {}", failing(all)),
+        [one] => format!("it fails only for {}, which no value of its type satisfies", one.text),
+        all => format!("it fails only where {}", failing(&texts(all))),
     }
+}
+
+fn texts(parts: &[Part]) -> Vec<String> {
+    parts.iter().map(|part| part.text.clone()).collect()
 }
 
 /// Why things cannot hold together.
@@ -100,38 +117,73 @@ fn listed(all: &[String]) -> String {
     }
 }
 
-/// The parts of a condition, or of its negation, that contradict each other; none if it is a
-/// constant, or if the contradiction is not one of its parts alone.
-fn contradiction(module: &Module, condition: ConditionId, holds: bool) -> Vec<String> {
-    let parts = parts(module, condition, holds);
-    let roots: Vec<_> = parts.iter().map(|(part, _)| *part).collect();
-    let mut possible = arithmetic::possible_conditions(module, &roots);
-    let literals: Vec<_> = (0..).zip(parts.iter().map(|(_, holds)| *holds)).collect();
-    let core = core(&mut possible, literals);
-    let text = |(place, holds): (u32, bool)| part_text(module, roots[place as usize], holds);
-    core.into_iter().map(text).collect()
+/// A part of a contradiction: a condition that has to hold, or to fail.
+struct Part {
+    id: ConditionId,
+    holds: bool,
+    /// What has to hold.
+    text: String,
+    /// Where the source says so.
+    place: Option<Span>,
 }
 
-/// What has to hold, or to fail, for a condition to have a value: a conjunction.
-fn parts(module: &Module, root: ConditionId, holds: bool) -> Vec<(ConditionId, bool)> {
-    let mut parts = Vec::new();
-    let mut open = vec![(root, holds)];
-    while let Some((id, holds)) = open.pop() {
+/// The parts of some conditions, or of their negations, that contradict each other; none if one is
+/// a constant, or if the contradiction is not one of their parts alone.
+fn contradiction(module: &Module, conditions: &[(ConditionId, bool, Span)]) -> Vec<Part> {
+    let mut parts = parts(module, conditions);
+    let roots: Vec<_> = parts.iter().map(|part| part.id).collect();
+    let mut possible = arithmetic::possible_conditions(module, &roots);
+    let literals: Vec<_> = (0..).zip(parts.iter().map(|part| part.holds)).collect();
+    let core = core(&mut possible, literals);
+    let mut place = 0..;
+    parts.retain(|_| place.next().is_some_and(|at| core.iter().any(|(kept, _)| *kept == at)));
+    parts
+}
+
+/// What has to hold, or to fail, for conditions to have these values: a conjunction. Each condition
+/// comes with the place of the predicate that it is.
+fn parts(module: &Module, conditions: &[(ConditionId, bool, Span)]) -> Vec<Part> {
+    let mut parts: Vec<Part> = Vec::new();
+    let open = conditions.iter().rev().map(|&(id, holds, from)| (id, holds, from, None));
+    let mut open: Vec<(ConditionId, bool, Span, Option<Span>)> = open.collect();
+    while let Some((id, holds, from, applied)) = open.pop() {
+        let place = || applied.or_else(|| place(module, id, from));
         match (module.arena.condition(id), holds) {
-            (Condition::Not(a), _) => open.push((*a, !holds)),
+            (Condition::Not(a), _) => open.push((*a, !holds, from, applied)),
             (Condition::And(a, b), true) | (Condition::Or(a, b), false) => {
-                open.extend([(*b, holds), (*a, holds)]);
+                open.extend([(*b, holds, from, applied), (*a, holds, from, applied)]);
             }
             (Condition::Is(id), _) => {
-                open.push((module.predicates[id.0 as usize].condition, holds));
+                let predicate = &module.predicates[id.0 as usize];
+                open.push((predicate.condition, holds, predicate.span, applied));
             }
-            (Condition::Apply { meaning, .. }, _) => open.push((*meaning, holds)),
+            (Condition::Apply { meaning, .. }, _) => open.push((*meaning, holds, from, place())),
             (Condition::Truth(_), _) => {}
-            _ if parts.contains(&(id, holds)) => {}
-            _ => parts.push((id, holds)),
+            _ if parts.iter().any(|part| (part.id, part.holds) == (id, holds)) => {}
+            _ => {
+                let text = part_text(module, id, holds);
+                parts.push(Part { id, holds, text, place: place() });
+            }
         }
     }
     parts
+}
+
+/// Where the source has a condition: the first place from there on, or the first of all.
+fn place(module: &Module, id: ConditionId, from: Span) -> Option<Span> {
+    let same = |known: ConditionId| known == id || negates(module, known, id);
+    let places = || module.places.iter().filter(|(known, _)| same(*known)).map(|(_, span)| *span);
+    places().filter(|span| span.start >= from.start).min().or_else(|| places().min())
+}
+
+/// Whether two comparisons are each other's negation.
+fn negates(module: &Module, a: ConditionId, b: ConditionId) -> bool {
+    match (module.arena.condition(a), module.arena.condition(b)) {
+        (Condition::Compare(one, x, y), Condition::Compare(other, u, v)) => {
+            (one.negated(), x, y) == (*other, u, v)
+        }
+        _ => false,
+    }
 }
 
 fn part_text(module: &Module, part: ConditionId, holds: bool) -> String {
@@ -166,7 +218,12 @@ fn core(possible: &mut Possible, mut literals: Vec<(u32, bool)>) -> Vec<(u32, bo
 }
 
 /// A formula that no trajectory satisfies, or every one.
-fn formula(task: &Task, possible: &mut Possible, automata: &Automata) -> Option<Error> {
+fn formula(
+    module: &Module,
+    task: &Task,
+    possible: &mut Possible,
+    automata: &Automata,
+) -> Option<Error> {
     let what = task.name.as_ref().map_or("the formula".to_owned(), |name| format!("task `{name}`"));
     match automata.dfa.accepting {
         None => {
@@ -176,7 +233,17 @@ fn formula(task: &Task, possible: &mut Possible, automata: &Automata) -> Option<
             match obstacle(possible, &automata.propositional).as_deref() {
                 // The predicate itself is told of.
                 Some([_]) => None,
-                Some(all) => Some(error.help(format!("at one instant it needs {}", failing(all)))),
+                Some(all) => {
+                    let condition = |&(proposition, holds): &(u32, bool)| {
+                        let id = task.predicates[proposition as usize];
+                        let predicate = &module.predicates[id.0 as usize];
+                        (predicate.condition, holds, predicate.span)
+                    };
+                    let conditions: Vec<_> = all.iter().map(condition).collect();
+                    let error = pointing(error, &contradiction(module, &conditions));
+                    let names: Vec<_> = all.iter().map(|one| name(task, *one)).collect();
+                    Some(error.help(format!("at one instant it needs {}", failing(&names))))
+                }
                 None => Some(error),
             }
         }
@@ -193,7 +260,7 @@ fn formula(task: &Task, possible: &mut Possible, automata: &Automata) -> Option<
 }
 
 /// What a formula asks for at one instant that no state has.
-fn obstacle(possible: &mut Possible, dfa: &Dfa) -> Option<Vec<String>> {
+fn obstacle(possible: &mut Possible, dfa: &Dfa) -> Option<Vec<(u32, bool)>> {
     dfa.accepting?;
     let distances = dfa.distances();
     let nearer = |from: u32, to: u32| distances[to as usize] < distances[from as usize];
@@ -201,14 +268,15 @@ fn obstacle(possible: &mut Possible, dfa: &Dfa) -> Option<Vec<String>> {
         let cubes = edge.guard.iter().map(|cube| core(possible, cube.clone()));
         let cores: Vec<_> = cubes.collect();
         if let (Some(first), true) = (cores.first(), cores.iter().all(|core| !core.is_empty())) {
-            let name = |&(proposition, holds): &(u32, bool)| {
-                let name = &dfa.propositions[proposition as usize];
-                if holds { format!("`{name}`") } else { format!("`!({name})`") }
-            };
-            return Some(first.iter().map(name).collect());
+            return Some(first.clone());
         }
     }
     None
+}
+
+fn name(task: &Task, (proposition, holds): (u32, bool)) -> String {
+    let name = &task.spec.propositions()[proposition as usize];
+    if holds { format!("`{name}`") } else { format!("`!({name})`") }
 }
 
 /// A warning for each largest part of a task's formula that could as well be left out.

@@ -585,6 +585,9 @@ pub struct Module {
     pub predicates: Vec<Predicate>,
     /// Their conditions and terms.
     pub arena: Arena,
+    /// Where the source has comparisons and applied predicates, in the order in which they are
+    /// checked; one may stand at several places.
+    pub places: Vec<(ConditionId, Span)>,
     /// The tasks, in source order.
     pub tasks: Vec<Task>,
     /// What the author should look at.

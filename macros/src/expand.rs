@@ -7,7 +7,7 @@ use quote::{quote, quote_spanned};
 use tltl_compiler::compile::{self, Compiled};
 use tltl_compiler::emit::foreign;
 use tltl_compiler::emit::rust::{self, Options};
-use tltl_compiler::error::{Error, Errors, Style};
+use tltl_compiler::error::{Error, Errors, Kind, Style};
 use tltl_compiler::hoa;
 use tltl_compiler::source::Source;
 use tltl_compiler::translate::Budget;
@@ -102,7 +102,12 @@ fn message(error: &Error, source: &Source, flat: &Flat) -> TokenStream {
     if flat.is_literal() {
         text = format!("\n{}", Errors::from(error.clone()).render(source, Style::Plain));
     } else {
-        for (span, label) in error.places().iter().skip(1) {
+        // rustc underlines one place; why something can never hold stands beside several.
+        let never = error.kind() == Kind::Unsatisfiable;
+        if never {
+            text.push_str(&format!("\n= note: {}", error.place_label()));
+        }
+        for (span, label) in error.places().iter().skip(1).filter(|_| !never) {
             let quoted = source.text().get(span.start..span.end).unwrap_or_default();
             text.push_str(&format!("\n= note: `{quoted}`: {label}"));
         }

@@ -144,7 +144,8 @@ impl Checker<'_> {
                 let condition = self.module.predicates[predicate.0 as usize].condition;
                 let arena = &mut self.module.arena;
                 let meaning = arena.substitute(condition, &bound);
-                Atom::Conditions(vec![arena.apply(predicate, arguments, meaning)])
+                let applied = arena.apply(predicate, arguments, meaning);
+                Atom::Conditions(vec![self.placed(applied, self.ast.span(id))])
             }
             ItemKind::Task(..) => {
                 let task = self.task_id(item)?;

@@ -33,6 +33,7 @@ impl Checker<'_> {
                 if roles.of(left) == Role::Part && roles.of(right) == Role::Part =>
             {
                 let condition = self.compare_values(id, op, [left, right])?;
+                self.placed(condition, self.ast.span(id));
                 return Some(Atom::Conditions(vec![condition]));
             }
             Node::Infix(Infix::Compare(_), ..) => {
@@ -49,7 +50,14 @@ impl Checker<'_> {
                 _ => self.place_condition(id)?,
             },
         };
-        Some(Atom::Conditions(vec![self.module.arena.add_condition(condition)]))
+        let condition = self.module.arena.add_condition(condition);
+        Some(Atom::Conditions(vec![self.placed(condition, self.ast.span(id))]))
+    }
+
+    /// Notes where a condition stands.
+    pub(super) fn placed(&mut self, condition: ConditionId, span: Span) -> ConditionId {
+        self.module.places.push((condition, span));
+        condition
     }
 
     /// A condition that is not compared: a field, a free proposition, a Rust expression.
@@ -162,7 +170,9 @@ impl Checker<'_> {
         let of = |operand: NodeId| terms[roles.position(operand)];
         let mut conditions = Vec::new();
         for (op, left, right, _) in links {
-            conditions.push(self.module.arena.compare(op, of(left)?, of(right)?));
+            let condition = self.module.arena.compare(op, of(left)?, of(right)?);
+            let [from, to] = [left, right].map(|side| self.ast.entry(side).outer);
+            conditions.push(self.placed(condition, from.to(to)));
         }
         Some(self.without_constants(conditions))
     }
