@@ -39,6 +39,7 @@ fn explanations() {
     for (name, formula) in [
         ("order", "(!d U a) && (a T b T c)"),
         ("choice", "F(a && (b || !c)) || X X a"),
+        ("change", "F (a && X !a) && F b"),
         ("always", "a || !a"),
         ("never", "a && !a"),
     ] {

@@ -205,8 +205,8 @@ pub enum ItemKind {
     Predicate(Vec<Declaration>, NodeId),
     /// `task name = formula`; a bare formula is one whose name is empty
     Task(Vec<Declaration>, NodeId),
-    /// It could not be parsed; only its name is known
-    Broken,
+    /// It could not be parsed; only its name is known, and perhaps what it takes
+    Broken(Vec<Declaration>),
 }
 
 /// `#[name(setting = number, …)]` before an item or a formula.

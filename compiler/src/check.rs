@@ -80,6 +80,8 @@ pub fn fragment(source: &Source) -> Result<Module, Errors> {
 
 fn finish(ast: &Ast, names: Names, mistakes: Vec<Error>) -> Result<Module, Errors> {
     let broken = !mistakes.is_empty();
+    let numbers = mistakes.iter().filter(|mistake| mistake.kind() == Kind::Number);
+    let numbers: Vec<Span> = numbers.map(Error::span).collect();
     let mut mistakes = mistakes;
     let scope = Scope::new(ast, names, &mut mistakes);
     let expanded = expand::expand(ast, &scope, &mut mistakes);
@@ -88,7 +90,9 @@ fn finish(ast: &Ast, names: Names, mistakes: Vec<Error>) -> Result<Module, Error
     if !broken {
         checker.warn_unused();
     }
-    let Checker { mut module, mistakes, tasks, .. } = checker;
+    let Checker { mut module, mut mistakes, tasks, .. } = checker;
+    // What stands in the place of a number that is none is not its author's.
+    mistakes.retain(|mistake| mistake.kind() == Kind::Number || !numbers.contains(&mistake.span()));
     module.warnings = Errors::split(mistakes)?;
     module.tasks = tasks.into_iter().flatten().collect();
     Ok(module)
@@ -171,12 +175,21 @@ impl<'a> Checker<'a> {
         let order = order::order(self.ast, &self.scope, &mut self.mistakes);
         for item in order {
             self.parameters = self.scope.parameters(item).to_vec();
+            let known = self.mistakes.len();
             match self.ast.items()[item].kind {
                 ItemKind::Constant(root) => self.constant(item, root),
                 ItemKind::Predicate(_, root) => self.predicate(item, root),
                 ItemKind::Task(_, root) => self.task(item, root),
                 _ => {}
             }
+            // What is said of a parameter without a type follows from that.
+            let unclear = self.scope.unclear(item);
+            let source = self.ast.source();
+            let follows = |name: &str| unclear.iter().any(|known| known == name);
+            let mut place = 0..;
+            self.mistakes.retain(|mistake| {
+                place.next().is_none_or(|at| at < known) || !follows(source.slice(mistake.span()))
+            });
         }
     }
 

@@ -103,16 +103,20 @@ fn state(dfa: &Dfa, edges: &[Edge], distances: &[Option<u32>], q: State) -> Stat
     }
 }
 
-/// The literals without which acceptance cannot be reached from `q`.
+/// The literals without which acceptance cannot be reached from `q`. If a proposition and its
+/// negation both are, one instant cannot give them, and that is told.
 fn needs(dfa: &Dfa, q: State) -> Vec<String> {
     let mut literals = Vec::new();
     for proposition in 0..dfa.propositions.len() as u32 {
-        for value in [true, false] {
-            if !reaches(dfa, q, (proposition, !value)) {
-                let cubes = [vec![(proposition, value)]];
-                literals.push(Sum::new(&dfa.propositions, &cubes).to_string());
-            }
-        }
+        let literal = |value: bool| {
+            let cubes = [vec![(proposition, value)]];
+            let needed = !reaches(dfa, q, (proposition, !value));
+            needed.then(|| Sum::new(&dfa.propositions, &cubes).to_string())
+        };
+        literals.extend(match (literal(true), literal(false)) {
+            (Some(yes), Some(no)) => Some(format!("{yes} at one instant and {no} at another")),
+            (one, other) => one.or(other),
+        });
     }
     literals
 }

@@ -18,6 +18,7 @@ pub enum Rule {
     r#fragment,
     r#prologue,
     r#next,
+    r#heading,
     r#item,
     r#boundary,
     r#attribute,
@@ -118,6 +119,7 @@ impl Rule {
             Rule::r#fragment,
             Rule::r#prologue,
             Rule::r#next,
+            Rule::r#heading,
             Rule::r#item,
             Rule::r#boundary,
             Rule::r#attribute,
@@ -479,6 +481,51 @@ impl ::pest::Parser<Rule> for Grammar {
                                 .and_then(|state| {
                                     self::r#item(state).or_else(|state| { self::r#EOI(state) })
                                 })
+                        })
+                }
+                #[inline]
+                #[allow(non_snake_case, unused_variables)]
+                pub fn r#heading(
+                    state: ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                ) -> ::pest::ParseResult<
+                    ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                > {
+                    state
+                        .sequence(|state| {
+                            self::r#SOI(state)
+                                .and_then(|state| { super::hidden::skip(state) })
+                                .and_then(|state| {
+                                    state
+                                        .sequence(|state| {
+                                            state
+                                                .optional(|state| {
+                                                    self::r#doc(state)
+                                                        .or_else(|state| { self::r#attribute(state) })
+                                                        .and_then(|state| {
+                                                            state
+                                                                .repeat(|state| {
+                                                                    state
+                                                                        .sequence(|state| {
+                                                                            super::hidden::skip(state)
+                                                                                .and_then(|state| {
+                                                                                    self::r#doc(state)
+                                                                                        .or_else(|state| { self::r#attribute(state) })
+                                                                                })
+                                                                        })
+                                                                })
+                                                        })
+                                                })
+                                        })
+                                })
+                                .and_then(|state| { super::hidden::skip(state) })
+                                .and_then(|state| {
+                                    self::r#word_predicate(state)
+                                        .or_else(|state| { self::r#word_task(state) })
+                                })
+                                .and_then(|state| { super::hidden::skip(state) })
+                                .and_then(|state| { self::r#identifier(state) })
+                                .and_then(|state| { super::hidden::skip(state) })
+                                .and_then(|state| { self::r#parameters(state) })
                         })
                 }
                 #[inline]
@@ -3251,6 +3298,7 @@ impl ::pest::Parser<Rule> for Grammar {
                     Rule::r#fragment => rules::r#fragment(state),
                     Rule::r#prologue => rules::r#prologue(state),
                     Rule::r#next => rules::r#next(state),
+                    Rule::r#heading => rules::r#heading(state),
                     Rule::r#item => rules::r#item(state),
                     Rule::r#boundary => rules::r#boundary(state),
                     Rule::r#attribute => rules::r#attribute(state),

@@ -117,15 +117,14 @@ fn one(source: &Source, rule: Rule) -> (Ast, Vec<Error>) {
         match pair.as_rule() {
             Rule::attribute => attributes.push(item::attribute(pair, 0)),
             Rule::header => item::header(&mut ast, &pair),
-            Rule::expression => match expression::build(&mut ast, pair, 0) {
-                Ok(root) => {
+            Rule::expression => {
+                if let Some(root) = expression::build(&mut ast, pair, 0, &mut mistakes) {
                     let (name, span) = (Span::default(), ast.entry(root).span);
                     let kind = ItemKind::Task(Vec::new(), root);
                     let attributes = std::mem::take(&mut attributes);
                     ast.push_item(Item { attributes, docs: Vec::new(), name, kind, span });
                 }
-                Err(error) => mistakes.push(error),
-            },
+            }
             _ => {}
         }
     }
@@ -157,7 +156,7 @@ fn items(source: &Source) -> (Ast, Vec<Error>) {
                     Ok(pairs) => pairs
                         .filter(|pair| pair.as_rule() == Rule::item)
                         .for_each(|pair| item::build(&mut ast, pair, at, &mut mistakes)),
-                    Err(_) => item::broken(&mut ast, Span::new(at, next)),
+                    Err(_) => item::broken(&mut ast, Span::new(at, next), &mut mistakes),
                 }
                 mistakes.push(mistake);
                 next

@@ -25,6 +25,10 @@ impl Checker<'_> {
     ) -> Option<Atom> {
         let (callee, item) = self.applied(id)?;
         self.used.insert(item);
+        let broken = matches!(self.ast.items()[item].kind, ItemKind::Broken(_));
+        if broken || !self.scope.unclear(item).is_empty() {
+            return None;
+        }
         let parameters = self.scope.parameters(item).to_vec();
         let Node::Call { arguments, .. } = self.ast.node(id) else { return None };
         let arguments = self.ast.arguments(arguments).to_vec();
@@ -101,6 +105,7 @@ impl Checker<'_> {
                 Some(Term::Parameter { name: name.clone(), ty: *ty })
             }
             (_, None) if self.names == Names::Host && rust && !is_item => {
+                self.refuse_rust_words(id)?;
                 return Some(self.host_term(id, false));
             }
             (_, None) if self.names == Names::Declared && named && !is_item => {

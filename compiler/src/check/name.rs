@@ -36,3 +36,8 @@ fn distance(a: &str, b: &str) -> usize {
     }
     rows[a.len()][b.len()]
 }
+
+/// Whether Rust has taken a word, and a name of the same letters is written with `r#`.
+pub(super) fn is_rust_word(word: &str) -> bool {
+    crate::emit::predicates::KEYWORDS.contains(&word) && !matches!(word, "true" | "false")
+}

@@ -22,6 +22,8 @@ pub(super) struct Scope<'a> {
     variants: HashMap<&'a str, Vec<(u32, u32)>>,
     /// What predicates and tasks take, by item.
     parameters: BTreeMap<usize, Vec<Parameter>>,
+    /// The parameters whose types have mistakes, by item.
+    unclear: BTreeMap<usize, Vec<String>>,
     /// Whether an item of types could not be read.
     incomplete: bool,
 }
@@ -37,6 +39,7 @@ impl<'a> Scope<'a> {
             fields: BTreeMap::new(),
             variants: HashMap::new(),
             parameters: BTreeMap::new(),
+            unclear: BTreeMap::new(),
             incomplete: false,
         };
         scope.declare(ast, mistakes);
@@ -76,6 +79,11 @@ impl<'a> Scope<'a> {
     /// What the item takes when it is used.
     pub(super) fn parameters(&self, item: usize) -> &[Parameter] {
         self.parameters.get(&item).map_or(&[], Vec::as_slice)
+    }
+
+    /// The parameters of the item whose types have mistakes: nothing is known of them.
+    pub(super) fn unclear(&self, item: usize) -> &[String] {
+        self.unclear.get(&item).map_or(&[], Vec::as_slice)
     }
 
     /// Whether `name` is unknown only because its declaration has a mistake.
@@ -186,27 +194,37 @@ impl<'a> Scope<'a> {
 
     fn declare_parameters(&mut self, ast: &'a Ast, names: Names, mistakes: &mut Vec<Error>) {
         for (item, entry) in ast.items().iter().enumerate() {
-            let (ItemKind::Predicate(declared, _) | ItemKind::Task(declared, _)) = &entry.kind
+            let (ItemKind::Predicate(declared, _)
+            | ItemKind::Task(declared, _)
+            | ItemKind::Broken(declared)) = &entry.kind
             else {
                 continue;
             };
             let mut parameters: Vec<Parameter> = Vec::new();
+            let mut unclear = Vec::new();
+            let mut first: BTreeMap<&str, Span> = BTreeMap::new();
             for declaration in declared {
-                let name = ast.source().slice(declaration.name).to_owned();
-                let before = parameters.iter().find(|known| known.name == name);
-                if let Some(before) = before {
-                    mistakes.push(duplicate(&name, declaration.name, before.span));
+                let text = ast.source().slice(declaration.name);
+                if let Some(before) = first.insert(text, declaration.name) {
+                    mistakes.push(duplicate(text, declaration.name, before));
                     continue;
                 }
+                let name = text.to_owned();
                 if let Some(error) = self.shadowed(ast, declaration.name) {
                     mistakes.push(error);
                 }
                 match self.parameter_type(ast, names, &declaration.ty) {
                     Ok(ty) => parameters.push(Parameter { name, ty, span: declaration.name }),
-                    Err(error) => mistakes.push(error),
+                    Err(error) => {
+                        mistakes.push(error);
+                        unclear.push(name);
+                    }
                 }
             }
             self.parameters.insert(item, parameters);
+            if !unclear.is_empty() {
+                self.unclear.insert(item, unclear);
+            }
         }
     }
 
@@ -362,14 +380,14 @@ fn index(at: usize) -> u32 {
 
 fn is_broken_type(ast: &Ast, item: &Item) -> bool {
     let text = ast.source().slice(item.span);
-    matches!(item.kind, ItemKind::Broken)
+    matches!(item.kind, ItemKind::Broken(_))
         && (["state", "struct", "enum"].iter().any(|word| text.contains(word)))
 }
 
 fn is_value(kind: &ItemKind) -> bool {
     matches!(
         kind,
-        ItemKind::Constant(_) | ItemKind::Predicate(..) | ItemKind::Task(..) | ItemKind::Broken
+        ItemKind::Constant(_) | ItemKind::Predicate(..) | ItemKind::Task(..) | ItemKind::Broken(_)
     )
 }
 

@@ -181,7 +181,10 @@ impl Checker<'_> {
             return None;
         }
         match self.names {
-            Names::Host => Some(self.host_term(id, false)),
+            Names::Host => {
+                self.refuse_rust_words(id)?;
+                Some(self.host_term(id, false))
+            }
             Names::Declared => {
                 let place = self.place(id)?;
                 if place.scalar == Scalar::Bool {

@@ -78,7 +78,10 @@ impl Checker<'_> {
         };
         match found {
             Ok(Some((of, number))) => Some(self.add_variant(of, number)),
-            Ok(None) if self.names == Names::Host => Some(self.host_term(id, true)),
+            Ok(None) if self.names == Names::Host => {
+                self.refuse_rust_words(id)?;
+                Some(self.host_term(id, true))
+            }
             Ok(None) if self.ast.text(id) == "none" => {
                 Some(self.module.arena.add_term(Term::Absent))
             }
@@ -155,6 +158,27 @@ impl Checker<'_> {
         let (text, bindings) = (self.compact(id), self.bindings(id));
         let term = Term::Host { text, span: self.ast.span(id), bindings, value };
         self.module.arena.add_term(term)
+    }
+
+    /// Refuses a word that Rust has for itself in the name or the path `id`.
+    pub(super) fn refuse_rust_words(&mut self, id: NodeId) -> Option<()> {
+        for at in (self.ast.first(id).0..=id.0).map(NodeId) {
+            let span = match *self.ast.node(at) {
+                Node::Name => self.ast.span(at),
+                Node::Field { field, .. } => field,
+                _ => continue,
+            };
+            let text = self.ast.source().slice(span);
+            let words = text.split("::").map(str::trim);
+            if let Some(word) = words.into_iter().find(|word| name::is_rust_word(word)) {
+                let message = format!("`{word}` is a keyword of Rust, and no name");
+                let error = Error::new(Kind::Keyword, message, span);
+                self.mistakes
+                    .push(error.help(format!("what is called so in Rust is written `r#{word}`")));
+                return None;
+            }
+        }
+        Some(())
     }
 
     /// What the parameters and the bound names stand for that the Rust expression `id` mentions.

@@ -489,7 +489,7 @@ pub fn ident(name: &str) -> Ident {
 }
 
 /// Rust's strict and reserved words that a raw identifier may be.
-const KEYWORDS: [&str; 48] = [
+pub(crate) const KEYWORDS: [&str; 48] = [
     "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "do", "dyn",
     "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let",
     "loop", "macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref", "return",

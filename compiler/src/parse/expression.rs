@@ -11,14 +11,17 @@ use crate::error::{Error, Kind};
 use crate::grammar::Rule;
 use crate::source::Span;
 
-/// Builds the expression of `pair`, whose text starts at byte `at`, and returns its root.
-pub(super) fn build(ast: &mut Ast, pair: Pair<'_>, at: usize) -> Result<NodeId, Error> {
-    let mut yard = Yard { ast, at, operands: Vec::new(), pending: Vec::new() };
-    let mut operand_next = true;
-    for token in pair.into_inner() {
-        operand_next = if operand_next { yard.prefix(token) } else { yard.infix(token) }?;
-    }
-    yard.finish()
+/// Builds the expression of `pair`, whose text starts at byte `at`, and returns its root; nothing
+/// if it has no shape. A number that is none is a mistake, and something else in its place.
+pub(super) fn build(
+    ast: &mut Ast,
+    pair: Pair<'_>,
+    at: usize,
+    mistakes: &mut Vec<Error>,
+) -> Option<NodeId> {
+    let mut yard = Yard { ast, at, operands: Vec::new(), pending: Vec::new(), mistakes };
+    let root = yard.expression(pair);
+    root.map_err(|error| mistakes.push(error)).ok()
 }
 
 /// An operator that waits for its right operand, or a bracket that waits for its end.
@@ -49,9 +52,25 @@ struct Yard<'a> {
     at: usize,
     operands: Vec<NodeId>,
     pending: Vec<Pending>,
+    mistakes: &'a mut Vec<Error>,
 }
 
 impl Yard<'_> {
+    fn expression(&mut self, pair: Pair<'_>) -> Result<NodeId, Error> {
+        let mut operand_next = true;
+        for token in pair.into_inner() {
+            operand_next = if operand_next { self.prefix(token) } else { self.infix(token) }?;
+        }
+        self.finish()
+    }
+
+    fn number(&mut self, text: &str, span: Span) -> Node {
+        Node::Number(number(text, span).unwrap_or_else(|error| {
+            self.mistakes.push(error);
+            1.0
+        }))
+    }
+
     /// Reads a token where an operand may start; answers whether one is still due.
     fn prefix(&mut self, token: Pair<'_>) -> Result<bool, Error> {
         let span = place(&token, self.at);
@@ -61,9 +80,9 @@ impl Yard<'_> {
             Rule::next_op => Pending::Prefix(Prefix::Next, span),
             Rule::minus => Pending::Prefix(Prefix::Minus, span),
             Rule::open => Pending::Open(span),
-            Rule::quantifier => self.quantifier(token)?,
+            Rule::quantifier => self.quantifier(token),
             _ => {
-                let node = self.primary(&token, span)?;
+                let node = self.primary(&token, span);
                 self.push(node, span, span);
                 return Ok(false);
             }
@@ -72,7 +91,7 @@ impl Yard<'_> {
         Ok(true)
     }
 
-    fn quantifier(&mut self, token: Pair<'_>) -> Result<Pending, Error> {
+    fn quantifier(&mut self, token: Pair<'_>) -> Pending {
         let span = place(&token, self.at);
         let (mut all, mut name, mut set) = (false, span, span);
         let (mut listed, mut range) = (Vec::new(), None);
@@ -86,7 +105,7 @@ impl Yard<'_> {
                         match part.as_rule() {
                             Rule::range => range = Some(false),
                             Rule::inclusive => range = Some(true),
-                            Rule::element | Rule::end => listed.push(self.element(&part)?),
+                            Rule::element | Rule::end => listed.push(self.element(&part)),
                             _ => {}
                         }
                     }
@@ -96,28 +115,28 @@ impl Yard<'_> {
         }
         let elements = self.ast.push_arguments(&listed);
         let elements = (elements.start, elements.end);
-        Ok(Pending::Quantifier { all, name, set, elements, range, span })
+        Pending::Quantifier { all, name, set, elements, range, span }
     }
 
     /// An element of a listed set, or an end of a range.
-    fn element(&mut self, element: &Pair<'_>) -> Result<NodeId, Error> {
+    fn element(&mut self, element: &Pair<'_>) -> NodeId {
         let span = place(element, self.at);
         let node = match element.as_str().starts_with(|c: char| c.is_ascii_digit()) {
-            true => Node::Number(number(element.as_str(), span)?),
+            true => self.number(element.as_str(), span),
             false => Node::Name,
         };
-        Ok(self.ast.push(node, span, span))
+        self.ast.push(node, span, span)
     }
 
-    fn primary(&self, token: &Pair<'_>, span: Span) -> Result<Node, Error> {
-        Ok(match token.as_rule() {
+    fn primary(&mut self, token: &Pair<'_>, span: Span) -> Node {
+        match token.as_rule() {
             Rule::truth => Node::Truth(true),
             Rule::falsity => Node::Truth(false),
-            Rule::number => Node::Number(number(token.as_str(), span)?),
+            Rule::number => self.number(token.as_str(), span),
             Rule::verbatim => Node::Verbatim,
             Rule::text => Node::Text,
             _ => Node::Name,
-        })
+        }
     }
 
     /// Reads a token after an operand; answers whether another operand is due.
@@ -229,7 +248,7 @@ impl Yard<'_> {
         Ok(())
     }
 
-    fn finish(mut self) -> Result<NodeId, Error> {
+    fn finish(&mut self) -> Result<NodeId, Error> {
         self.reduce_all();
         match self.pending.pop() {
             None => Ok(self.pop()),

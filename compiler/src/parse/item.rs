@@ -1,9 +1,11 @@
 //! Items: what stands around expressions.
 
+use pest::Parser;
+
 use super::{Pair, expression, token};
 use crate::ast::{Ast, Attribute, Declaration, FieldType, Item, ItemKind};
 use crate::error::{Error, Kind};
-use crate::grammar::Rule;
+use crate::grammar::{Grammar, Rule};
 use crate::source::Span;
 
 /// Adds the item of `pair`, whose text starts at byte `at` of the source.
@@ -53,12 +55,16 @@ pub(super) fn attribute(pair: Pair<'_>, at: usize) -> Attribute {
     Attribute { name, settings }
 }
 
-/// Adds an item of which no more than the name can be read, so that its uses are no mistakes.
-pub(super) fn broken(ast: &mut Ast, span: Span) {
-    if let Some(name) = token::item_name(ast.source().text(), span) {
-        let (attributes, docs) = (Vec::new(), Vec::new());
-        ast.push_item(Item { attributes, docs, name, kind: ItemKind::Broken, span });
-    }
+/// Adds an item of which no more than the name can be read, so that its uses are no mistakes, and
+/// perhaps what it takes.
+pub(super) fn broken(ast: &mut Ast, span: Span, mistakes: &mut Vec<Error>) {
+    let Some(name) = token::item_name(ast.source().text(), span) else { return };
+    let source = ast.source().clone();
+    let heading = Grammar::parse(Rule::heading, source.slice(span)).ok();
+    let mut takes = heading.into_iter().flatten().filter(|part| part.as_rule() == Rule::parameters);
+    let fields = takes.next().map(|part| declarations(ast, part, span.start, mistakes));
+    let kind = ItemKind::Broken(fields.unwrap_or_default());
+    ast.push_item(Item { attributes: Vec::new(), docs: Vec::new(), name, kind, span });
 }
 
 /// The text of a doc comment: no slashes, no blank in front.
@@ -91,10 +97,7 @@ fn declaration(
             Rule::identifier => names.push(place(&part, at)),
             Rule::fields | Rule::parameters => fields = declarations(ast, part, at, mistakes),
             Rule::host_type => host = Some(trimmed(ast, place(&part, at))),
-            Rule::expression => match expression::build(ast, part, at) {
-                Ok(node) => root = Some(node),
-                Err(error) => mistakes.push(error),
-            },
+            Rule::expression => root = expression::build(ast, part, at, mistakes),
             _ => {}
         }
     }
@@ -106,7 +109,7 @@ fn declaration(
         (Rule::constant, Some(root), _) => ItemKind::Constant(root),
         (Rule::predicate, Some(root), _) => ItemKind::Predicate(fields, root),
         (Rule::task, Some(root), _) => ItemKind::Task(fields, root),
-        _ => ItemKind::Broken,
+        _ => ItemKind::Broken(fields),
     };
     (name, kind)
 }
