@@ -14,6 +14,7 @@
 //! | [`world`] | the rules into an environment with goals, starts and time limits |
 //! | [`tasks`] | the task file into specifications |
 //! | [`planner`] | a start and a specification into a shortest plan, by one who sees everything |
+//! | [`searcher`] | knowledge into an action, by rules of thumb: a fair policy |
 //!
 //! # What is known, and what is reconstructed
 //!
@@ -36,6 +37,7 @@ pub mod known;
 pub mod layout;
 pub mod planner;
 mod relaxed;
+pub mod searcher;
 pub mod tasks;
 pub mod truth;
 pub mod world;

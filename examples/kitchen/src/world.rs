@@ -269,7 +269,7 @@ fn check(layout: &Layout, Goal { object, receptacle }: Goal) -> Result<(), GoalE
 }
 
 /// Puts the objects somewhere, and opens doors; `None` if an object was left without room.
-fn arrange<R: Rng + ?Sized>(layout: &Layout, rng: &mut R) -> Option<Truth> {
+pub(crate) fn arrange<R: Rng + ?Sized>(layout: &Layout, rng: &mut R) -> Option<Truth> {
     let mut truth = Truth::at_rest(layout);
     let mut room = ids_below(layout.ids()) & !ids_below(layout.objects());
     let mut held = [0; crate::MAX_IDS];
