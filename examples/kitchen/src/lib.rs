@@ -15,6 +15,7 @@
 //! | [`tasks`] | the task file into specifications |
 //! | [`planner`] | a start and a specification into a shortest plan, by one who sees everything |
 //! | [`searcher`] | knowledge into an action, by rules of thumb: a fair policy |
+//! | [`show`], [`strip`] | an episode into text, and into a strip of pictures |
 //!
 //! # What is known, and what is reconstructed
 //!
@@ -38,6 +39,8 @@ pub mod layout;
 pub mod planner;
 mod relaxed;
 pub mod searcher;
+pub mod show;
+pub mod strip;
 pub mod tasks;
 pub mod truth;
 pub mod world;
