@@ -3,4 +3,5 @@
 pub mod chart;
 pub mod figure;
 pub mod grid;
+pub mod spread;
 pub mod study;

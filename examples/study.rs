@@ -1,10 +1,18 @@
 //! What the studies share: layouts, families of specifications, judgement, where results go.
 
+use std::error::Error;
+use std::fmt::Debug;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
+use indicatif::{ProgressBar, ProgressStyle};
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
 use tltl::augmented::End;
+use tltl::checkpoint;
+use tltl::learn::seeds;
 use tltl::rand::{Rng, SeedableRng, rngs::Xoshiro256PlusPlus};
 use tltl::solve::Problem;
 use tltl::{Monitor, tltl};
@@ -121,15 +129,122 @@ pub fn capped_steps(problem: &Problem<'_>, policy: &[u32], horizon: u32) -> f64 
 /// The grid of all studies.
 pub const GRID: Grid = Grid::PAPER;
 
-/// Writes a result of a study under `docs/studies`, and says where.
+/// A study: cases worked on one after the other, kept as they are done, and what is published.
 ///
-/// # Errors
-/// If it cannot be written.
-pub fn publish(name: &str, content: &str) -> io::Result<()> {
-    let folder: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/studies");
-    fs::create_dir_all(&folder)?;
-    fs::write(folder.join(name), content)?;
-    writeln!(io::stdout(), "docs/studies/{name}")
+/// After every few cases the results so far are a checkpoint beside what will be published: a study
+/// that is killed at any point, by `kill -9` too, goes on where it was and ends as if it had not
+/// been. A checkpoint of a study that was set up otherwise is refused.
+pub struct Study {
+    name: &'static str,
+    folder: PathBuf,
+    setup: String,
+}
+
+/// What is done of a study.
+#[derive(Serialize, Deserialize)]
+struct Done<T> {
+    setup: String,
+    results: Vec<T>,
+}
+
+impl Study {
+    /// Cases between two checkpoints.
+    const INTERVAL: u64 = 8;
+
+    /// The study `name`, published under `docs/studies`; `setup` is all that its results depend on
+    /// beside the library.
+    #[must_use]
+    pub fn new(name: &'static str, setup: &impl Debug) -> Self {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/studies");
+        Self::at(folder, name, setup)
+    }
+
+    /// The same, published elsewhere.
+    #[must_use]
+    pub fn at(folder: PathBuf, name: &'static str, setup: &impl Debug) -> Self {
+        Self { name, folder, setup: format!("{setup:?}") }
+    }
+
+    /// Where the checkpoint is while the study goes on.
+    #[must_use]
+    pub fn checkpoint(&self) -> PathBuf {
+        self.folder.join(format!("{}.checkpoint", self.name))
+    }
+
+    /// The results of cases `0..count`, in order; those that are done already come from the
+    /// checkpoint, the others from `work`, on the cores that there are. A progress bar shows how
+    /// far it is, silent in a pipe.
+    ///
+    /// # Errors
+    /// If the checkpoint cannot be written, is broken, or is of another study or setup.
+    pub fn run<T: Serialize + DeserializeOwned + Send>(
+        &self,
+        count: u64,
+        work: impl Fn(u64) -> T + Sync,
+    ) -> Result<Vec<T>, Box<dyn Error>> {
+        fs::create_dir_all(&self.folder)?;
+        let (path, kind) = (self.checkpoint(), format!("study-{}", self.name));
+        let mut done = self.resume(&path, &kind)?;
+        let style = ProgressStyle::with_template("{wide_bar} {pos}/{len}, {per_sec}, {eta} left")?;
+        let bar = ProgressBar::new(count).with_style(style);
+        bar.set_position(done.results.len() as u64);
+        while (done.results.len() as u64) < count {
+            let from = done.results.len() as u64;
+            let results = seeds(from..count.min(from + Self::INTERVAL), |case| {
+                let result = work(case);
+                bar.inc(1);
+                result
+            });
+            done.results.extend(results);
+            checkpoint::write(&path, &kind, &serde_json::to_vec(&done)?)?;
+        }
+        bar.finish_and_clear();
+        Ok(done.results)
+    }
+
+    fn resume<T: DeserializeOwned>(
+        &self,
+        path: &Path,
+        kind: &str,
+    ) -> Result<Done<T>, Box<dyn Error>> {
+        let Some(content) = checkpoint::read(path, kind)? else {
+            return Ok(Done { setup: self.setup.clone(), results: Vec::new() });
+        };
+        let done: Done<T> = serde_json::from_slice(&content)?;
+        if done.setup == self.setup {
+            return Ok(done);
+        }
+        let (path, found, expected) = (path.display(), &done.setup, &self.setup);
+        Err(format!("{path}: of a study of {found}, not of {expected}; remove it to begin anew")
+            .into())
+    }
+
+    /// Writes a result, `NAME` and what is added to it, and says where.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn publish(&self, added: &str, content: &str) -> io::Result<()> {
+        let name = format!("{}{added}", self.name);
+        fs::write(self.folder.join(&name), content)?;
+        writeln!(io::stdout(), "docs/studies/{name}")
+    }
+
+    /// Writes the results as JSON Lines, one object a line.
+    ///
+    /// # Errors
+    /// If they cannot be written.
+    pub fn publish_lines(&self, lines: impl IntoIterator<Item = Value>) -> io::Result<()> {
+        let lines: String = lines.into_iter().map(|line| format!("{line}\n")).collect();
+        self.publish(".jsonl", &lines)
+    }
+
+    /// Ends the study: all is published, and the checkpoint goes.
+    ///
+    /// # Errors
+    /// If the checkpoint cannot be removed.
+    pub fn finish(self) -> io::Result<()> {
+        fs::remove_file(self.checkpoint())
+    }
 }
 
 /// Mean of some numbers.

@@ -5,18 +5,19 @@
 
 use std::fmt::Write as _;
 
-use indicatif::{ProgressBar, ProgressStyle};
+use serde::{Deserialize, Serialize};
+use serde_json::json;
 use tltl::augmented::{Labelled, Rewards};
 use tltl::compose::{Combine, Composition, Skill};
 use tltl::env::ModelEnv;
-use tltl::learn::{Learner, Settings, seeds};
+use tltl::learn::{Learner, Settings};
 use tltl::model::Dynamics;
 use tltl::product::Product;
 use tltl::q::QTable;
 use tltl::solve::Problem;
 use tltl_examples::chart::{Chart, Curve, Point};
 use tltl_examples::grid::Cell;
-use tltl_examples::study::{FAMILIES, Family, GRID, PAPER, layout, mean, publish, quantile};
+use tltl_examples::study::{FAMILIES, Family, GRID, PAPER, Study, layout, mean, quantile};
 
 const GAMMA: f64 = 0.95;
 const LAYOUTS: u64 = 100;
@@ -25,12 +26,12 @@ const METHODS: [&str; 6] =
     ["sum", "normalised sum", "max", "compensated", "refined", "from scratch"];
 
 /// What one method is worth on one layout.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Serialize, Deserialize)]
 struct Worth {
     satisfied: f64,
     largest: f64,
-    /// Relative to the fewest; infinite if it never succeeds.
-    excess: f64,
+    /// Relative to the fewest; none if it never succeeds.
+    excess: Option<f64>,
     /// The largest difference of an action value from the optimum of the product.
     error: f64,
 }
@@ -64,10 +65,17 @@ fn compare(family: &Family, cells: [Cell; 3], seed: u64) -> [Worth; 6] {
         Worth {
             satisfied: own.satisfied,
             largest: own.optimal_satisfied,
-            excess: own.regret_steps.unwrap_or(f64::INFINITY),
+            excess: own.regret_steps,
             error: differences.fold(0.0, f64::max),
         }
     })
+}
+
+impl Worth {
+    /// Excess steps in percent; infinite if it never succeeds.
+    fn percent(&self) -> f64 {
+        100.0 * self.excess.unwrap_or(f64::INFINITY)
+    }
 }
 
 fn scratch(task: &Labelled, seed: u64) -> QTable {
@@ -80,7 +88,7 @@ fn scratch(task: &Labelled, seed: u64) -> QTable {
 /// One line of the table.
 fn line(table: &mut String, formulas: [&str; 2], method: &str, worths: &[Worth]) {
     let regrets: Vec<f64> = worths.iter().map(|w| 100.0 * (w.largest - w.satisfied)).collect();
-    let excess: Vec<f64> = worths.iter().map(|w| 100.0 * w.excess).collect();
+    let excess: Vec<f64> = worths.iter().map(Worth::percent).collect();
     let never = excess.iter().filter(|e| e.is_infinite()).count();
     let error = worths.iter().map(|w| w.error).fold(0.0, f64::max);
     let _ = writeln!(
@@ -99,9 +107,9 @@ fn line(table: &mut String, formulas: [&str; 2], method: &str, worths: &[Worth])
 /// be lost, regret in P(satisfied) where it can.
 fn chart(family: &Family, all: &[[Worth; 6]]) -> Chart {
     let trapped = all.iter().flatten().any(|worth| worth.largest < 1.0 - 1e-9);
-    let loss = |w: &Worth| if trapped { w.largest - w.satisfied } else { w.excess };
+    let loss = |w: &Worth| if trapped { 100.0 * (w.largest - w.satisfied) } else { w.percent() };
     let curve = |i: usize| {
-        let mut losses: Vec<f64> = all.iter().map(|worths| 100.0 * loss(&worths[i])).collect();
+        let mut losses: Vec<f64> = all.iter().map(|worths| loss(&worths[i])).collect();
         losses.sort_by(f64::total_cmp);
         let point = |(rank, y): (usize, &f64)| {
             let y = y.clamp(0.01, 1e3);
@@ -124,38 +132,34 @@ const HEAD: &str = "| skills | method | P regret, mean % | P regret, worst % | e
                     | excess steps, 95th percentile % | never succeed | largest error of a value |\n\
                     | --- | --- | --- | --- | --- | --- | --- | --- |\n";
 
+/// The family and the layout of a case; layout 0 is the paper's.
+fn case(number: u64) -> (&'static Family, u64) {
+    (&FAMILIES[(number / (LAYOUTS + 1)) as usize], number % (LAYOUTS + 1))
+}
+
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let style = ProgressStyle::with_template("{wide_bar} {pos}/{len}, {per_sec}, {eta} left")?;
-    let bar = ProgressBar::new(FAMILIES.len() as u64 * (LAYOUTS + 1)).with_style(style);
-    let (mut paper, mut random, mut lines) = (HEAD.to_owned(), HEAD.to_owned(), String::new());
+    let formulas = FAMILIES.each_ref().map(|family| family.formulas);
+    let study = Study::new("composition", &(formulas, METHODS, GAMMA, LAYOUTS, SCRATCH));
+    let all = study.run(FAMILIES.len() as u64 * (LAYOUTS + 1), |number| {
+        let (family, seed) = case(number);
+        compare(family, if seed == 0 { PAPER } else { layout(seed) }, seed)
+    })?;
+    let (mut paper, mut random) = (HEAD.to_owned(), HEAD.to_owned());
     let mut charts = Vec::new();
-    for family in &FAMILIES {
-        let all = seeds(0..LAYOUTS + 1, |seed| {
-            let cells = if seed == 0 { PAPER } else { layout(seed) };
-            let worths = compare(family, cells, seed);
-            bar.inc(1);
-            worths
-        });
-        charts.push(chart(family, &all[1..]));
+    for (family, of) in FAMILIES.iter().zip(all.chunks(LAYOUTS as usize + 1)) {
+        charts.push(chart(family, &of[1..]));
         for (i, method) in METHODS.iter().enumerate() {
-            let of: Vec<Worth> = all.iter().map(|worths| worths[i]).collect();
+            let of: Vec<Worth> = of.iter().map(|worths| worths[i]).collect();
             line(&mut paper, family.formulas, method, &of[..1]);
             line(&mut random, family.formulas, method, &of[1..]);
-            for (seed, worth) in of.iter().enumerate() {
-                let _ = writeln!(
-                    lines,
-                    "{}",
-                    serde_json::json!({
-                        "skills": family.formulas, "layout": seed, "method": method,
-                        "satisfied": worth.satisfied, "largest": worth.largest,
-                        "excess": worth.excess.is_finite().then_some(worth.excess),
-                        "error": worth.error,
-                    })
-                );
-            }
         }
     }
-    bar.finish_and_clear();
+    let lines = all.iter().enumerate().flat_map(|(number, worths)| {
+        let (family, layout) = case(number as u64);
+        METHODS.iter().zip(worths).map(move |(method, worth)| {
+            json!({"skills": family.formulas, "layout": layout, "method": method, "worth": worth})
+        })
+    });
     let text = format!(
         "# Composition of two skills\n\n![Excess steps without traps](composition_steps.svg)\n\n\
          ![Lost safety with traps](composition_traps.svg)\n\nExact skills (`Progress`, γ 0.95) composed on the paper's 8 × 10 \
@@ -167,9 +171,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
          --example study_composition`.\n\n## The paper's layout\n\n{paper}\n## 100 random layouts\n\n\
          {random}"
     );
-    publish("composition_steps.svg", &charts[0].svg())?;
-    publish("composition_traps.svg", &charts[4].svg())?;
-    publish("composition.md", &text)?;
-    publish("composition.jsonl", &lines)?;
-    Ok(())
+    study.publish("_steps.svg", &charts[0].svg())?;
+    study.publish("_traps.svg", &charts[4].svg())?;
+    study.publish(".md", &text)?;
+    study.publish_lines(lines)?;
+    Ok(study.finish()?)
 }

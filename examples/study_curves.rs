@@ -2,24 +2,19 @@
 //! seeds.
 //!
 //! `cargo run --release --example study_curves` writes `docs/studies/curves.{svg,md,jsonl}`.
-//!
-//! After each interval the results so far are a checkpoint (`docs/studies/curves.checkpoint`): a run
-//! that is killed goes on where it was.
 
 use std::fmt::Write as _;
-use std::path::Path;
 
-use indicatif::{ProgressBar, ProgressStyle};
+use serde_json::json;
 use tltl::augmented::Labelled;
-use tltl::checkpoint;
 use tltl::env::ModelEnv;
 use tltl::estimate::Interval;
-use tltl::learn::{Learner, Settings, Terminal, WholeLearner, seeds};
+use tltl::learn::{Learner, Settings, Terminal, WholeLearner};
 use tltl::model::Dynamics;
 use tltl::solve::Problem;
 use tltl::tltl;
 use tltl_examples::chart::{Chart, Curve, Point};
-use tltl_examples::study::{GRID, PAPER, at, capped_steps, publish};
+use tltl_examples::study::{GRID, PAPER, Study, at, capped_steps};
 
 const SEEDS: u64 = 20;
 const HORIZON: u32 = 200;
@@ -61,27 +56,6 @@ fn curve(method: usize, seed: u64) -> Vec<f64> {
     STEPS.iter().map(after).collect()
 }
 
-/// The curves of all seeds; those of methods that are done already come from the checkpoint.
-fn curves(path: &Path) -> Result<Vec<Vec<Vec<f64>>>, Box<dyn std::error::Error>> {
-    let mut done: Vec<Vec<Vec<f64>>> = match checkpoint::read(path, "study-curves")? {
-        Some(content) => serde_json::from_slice(&content)?,
-        None => Vec::new(),
-    };
-    let style = ProgressStyle::with_template("{wide_bar} {pos}/{len}, {per_sec}, {eta} left")?;
-    let bar = ProgressBar::new(METHODS.len() as u64 * SEEDS).with_style(style);
-    bar.set_position(done.len() as u64 * SEEDS);
-    for method in done.len()..METHODS.len() {
-        done.push(seeds(0..SEEDS, |seed| {
-            let curve = curve(method, seed);
-            bar.inc(1);
-            curve
-        }));
-        checkpoint::write(path, "study-curves", &serde_json::to_vec(&done)?)?;
-    }
-    bar.finish_and_clear();
-    Ok(done)
-}
-
 fn points(runs: &[Vec<f64>]) -> Vec<Point> {
     let at = |(i, &steps): (usize, &u64)| {
         let values: Vec<f64> = runs.iter().map(|run| run[i]).collect();
@@ -92,13 +66,13 @@ fn points(runs: &[Vec<f64>]) -> Vec<Point> {
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/studies");
-    std::fs::create_dir_all(&folder)?;
-    let path = folder.join("curves.checkpoint");
-    let all = curves(&path)?;
+    let study = Study::new("curves", &(METHODS, SEEDS, HORIZON, STEPS));
+    let runs = study
+        .run(METHODS.len() as u64 * SEEDS, |case| curve((case / SEEDS) as usize, case % SEEDS))?;
+    let all: Vec<&[Vec<f64>]> = runs.chunks(SEEDS as usize).collect();
     let name = |i: usize| METHODS[i].to_owned();
     let curves: Vec<Curve> =
-        (0..all.len()).map(|i| Curve { name: name(i), points: points(&all[i]) }).collect();
+        (0..all.len()).map(|i| Curve { name: name(i), points: points(all[i]) }).collect();
     let mut table = "| environment steps |".to_owned();
     METHODS.iter().for_each(|method| table.push_str(&format!(" {method} |")));
     let _ = writeln!(table, "\n| --- |{}", " --- |".repeat(METHODS.len()));
@@ -110,14 +84,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         }
         table.push('\n');
     }
-    let mut lines = String::new();
-    for (method, runs) in METHODS.iter().zip(&all) {
-        for (seed, steps) in runs.iter().enumerate() {
-            let line =
-                serde_json::json!({"method": method, "seed": seed, "at": STEPS, "steps": steps});
-            let _ = writeln!(lines, "{line}");
-        }
-    }
+    let lines = runs.iter().enumerate().map(|(case, steps)| {
+        let (method, seed) = (METHODS[case / SEEDS as usize], case as u64 % SEEDS);
+        json!({"method": method, "seed": seed, "at": STEPS, "steps": steps})
+    });
     let chart = Chart {
         title: "F a && F b on the paper's grid: mean of 20 seeds, 95 % bands".to_owned(),
         x: "environment steps of training".to_owned(),
@@ -131,8 +101,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
          Student's 95 % interval. All explore at random. The optimum is 12.2002. Written by `cargo run \
          --release --example study_curves`.\n\n{table}"
     );
-    publish("curves.svg", &chart.svg())?;
-    publish("curves.md", &text)?;
-    publish("curves.jsonl", &lines)?;
-    Ok(std::fs::remove_file(path)?)
+    study.publish(".svg", &chart.svg())?;
+    study.publish(".md", &text)?;
+    study.publish_lines(lines)?;
+    Ok(study.finish()?)
 }

@@ -1,21 +1,23 @@
 //! Study of rewards: what the optimum of each reward mode is worth for the task itself, on the two
 //! counterexamples and on random layouts.
 //!
-//! `cargo run --release --example study_rewards` writes `docs/studies/rewards.{md,jsonl}`.
+//! `cargo run --release --example study_rewards` writes `docs/studies/rewards.{svg,md,jsonl}`.
 
 use std::fmt::Write as _;
 
-use indicatif::{ProgressBar, ProgressStyle};
-use tltl::augmented::{Labelled, Reward, Rewards};
+use serde::{Deserialize, Serialize};
+use serde_json::json;
+use tltl::augmented::{End, Labelled, Reward, Rewards};
 use tltl::env::ModelEnv;
-use tltl::learn::{Learner, Settings, seeds};
+use tltl::learn::{Learner, Settings};
 use tltl::model::{Dynamics, FiniteModel};
 use tltl::product::Product;
 use tltl::q::QTable;
 use tltl::solve::Problem;
 use tltl::{Monitor, tltl};
 use tltl_examples::grid::Cell;
-use tltl_examples::study::{FAMILIES, GRID, GridTask, PAPER, at, layout, mean, publish, quantile};
+use tltl_examples::spread::{Panel, Spread};
+use tltl_examples::study::{FAMILIES, GRID, PAPER, Study, at, layout, mean, quantile};
 
 const GAMMA: f64 = 0.95;
 const LAYOUTS: u64 = 100;
@@ -38,29 +40,36 @@ fn modes() -> [(&'static str, Rewards, f64); 9] {
     ]
 }
 
-/// Regret in P(satisfied), and excess steps.
-type Regret = (f64, f64);
+/// Regret in P(satisfied), and excess steps; none if it never succeeds.
+type Regret = (f64, Option<f64>);
+
+/// All settings on one task and layout.
+#[derive(Serialize, Deserialize)]
+struct Case {
+    /// Whether the task can be lost.
+    trap: bool,
+    regrets: [Regret; 10],
+}
 
 /// The regrets of all modes' optima on one task.
-fn regrets(task: &dyn Monitor<Cell>) -> [Regret; 10] {
+fn judge(task: &dyn Monitor<Cell>) -> Case {
     let states = || (0..GRID.states()).map(|s| GRID.state(s));
     let labelled = Labelled::of_model(&GRID, task).expect("numbers");
     let labelled = labelled.with_robustness(states(), task).expect("numbers");
     let dynamics = Dynamics::new(&GRID).expect("a model");
     let problem = Problem::new(&dynamics, &labelled);
     let best = problem.best();
-    let judge = |policy: &[u32], q: &QTable| {
-        let own = problem.certify_against(policy, q, &best);
-        (own.regret_satisfied, own.regret_steps.unwrap_or(f64::INFINITY))
+    let regret = |q: &QTable| {
+        let own = problem.certify_against(&q.policy(), q, &best);
+        (own.regret_satisfied, own.regret_steps)
     };
-    let mut regrets = [(0.0, 0.0); 10];
-    for (regret, (_, rewards, gamma)) in regrets.iter_mut().zip(modes()) {
-        let q = problem.optimal_q(&rewards, gamma);
-        *regret = judge(&q.policy(), &q);
+    let mut regrets = [(0.0, None); 10];
+    for (own, (_, rewards, gamma)) in regrets.iter_mut().zip(modes()) {
+        *own = regret(&problem.optimal_q(&rewards, gamma));
     }
-    let learned = learned(&labelled);
-    regrets[9] = judge(&learned.policy(), &learned);
-    regrets
+    regrets[9] = regret(&learned(&labelled));
+    let lost = |q| labelled.end(q) == Some(End::Lost);
+    Case { trap: (0..labelled.automaton_states()).any(lost), regrets }
 }
 
 /// What `Settings::safe` learns from experience, replayed.
@@ -77,26 +86,52 @@ fn names() -> Vec<&'static str> {
     modes().iter().map(|&(name, ..)| name).chain(["Settings::safe, learned"]).collect()
 }
 
-/// The two counterexamples, on given cells.
-fn counterexamples([a, b, c]: [Cell; 3]) -> [(&'static str, GridTask); 2] {
-    let (a, b, c) = (at(a), at(b), at(c));
-    let detour = tltl! { F c || (a T (b || c)) };
-    [("!c U a", Box::new(tltl! { !c U a })), ("F c || (a T (b || c))", Box::new(detour))]
+/// The number of tasks: two counterexamples, and the compositions.
+const TASKS: usize = 2 + FAMILIES.len();
+
+/// What task `i` is called.
+fn name(i: usize) -> String {
+    match i {
+        0 => "`!c U a`".to_owned(),
+        1 => "`F c || (a T (b || c))`".to_owned(),
+        _ => FAMILIES[i - 2].formulas.map(|formula| format!("`{formula}`")).join(" ∧ "),
+    }
+}
+
+/// Task `i` on given cells, judged.
+fn case(i: usize, cells: [Cell; 3]) -> Case {
+    let [a, b, c] = cells.map(at);
+    match i {
+        0 => judge(&tltl! { !c U a }),
+        1 => judge(&tltl! { F c || (a T (b || c)) }),
+        _ => {
+            let [one, two] = (FAMILIES[i - 2].skills)(cells);
+            judge(&Product::conjunction(&[&*one, &*two]))
+        }
+    }
 }
 
 fn percent(value: f64) -> String {
     if value.is_finite() { format!("{:.3}", 100.0 * value) } else { "never".to_owned() }
 }
 
-fn section(text: &mut String, title: &str, all: &[[Regret; 10]]) {
+/// The regrets in P(satisfied) and the excess steps of setting `i`.
+fn of<'a>(i: usize, cases: impl Iterator<Item = &'a Case>) -> (Vec<f64>, Vec<f64>) {
+    let regret = |case: &Case| {
+        let (p, steps) = case.regrets[i];
+        (p, steps.unwrap_or(f64::INFINITY))
+    };
+    cases.map(regret).unzip()
+}
+
+fn section(text: &mut String, title: &str, cases: &[&Case]) {
     let _ = writeln!(
         text,
         "\n## {title}\n\n| setting | P regret, mean % | P regret, worst % | excess steps, median % | \
          excess steps, worst % |\n| --- | --- | --- | --- | --- |"
     );
     for (i, name) in names().iter().enumerate() {
-        let p: Vec<f64> = all.iter().map(|regrets| regrets[i].0).collect();
-        let steps: Vec<f64> = all.iter().map(|regrets| regrets[i].1).collect();
+        let (p, steps) = of(i, cases.iter().copied());
         let _ = writeln!(
             text,
             "| {name} | {} | {} | {} | {} |",
@@ -108,60 +143,84 @@ fn section(text: &mut String, title: &str, all: &[[Regret; 10]]) {
     }
 }
 
+/// Regret in P(satisfied) where a task can be lost, in steps where it cannot.
+fn figure(cases: &[Case]) -> Spread {
+    let percents = |values: Vec<f64>| values.iter().map(|value| 100.0 * value).collect();
+    let count = |trap| cases.iter().filter(|case| case.trap == trap).count();
+    let safety = (0..10).map(|i| percents(of(i, cases.iter().filter(|case| case.trap)).0));
+    let steps = (0..10).map(|i| percents(of(i, cases.iter().filter(|case| !case.trap)).1));
+    let panel = |title: &str, trap, axis: &str, range, bound, groups| Panel {
+        title: [title.to_owned(), format!("{} tasks and layouts", count(trap))],
+        axis: axis.to_owned(),
+        range,
+        bound,
+        groups,
+    };
+    let lost = panel(
+        "Tasks that can be lost",
+        true,
+        "P(satisfied) given away, %",
+        (1e-3, 100.0),
+        Some(0.1),
+        safety.collect(),
+    );
+    let slow = panel(
+        "Tasks that cannot be lost",
+        false,
+        "steps more than necessary, %",
+        (1e-2, 1e4),
+        None,
+        steps.collect(),
+    );
+    Spread { names: names().into_iter().map(str::to_owned).collect(), panels: vec![lost, slow] }
+}
+
+fn head() -> String {
+    let gamma = Settings::safe().gamma;
+    format!(
+        "# Rewards\n\n![Regret by setting](rewards.svg)\n\nWhat the optimal policy of each reward is \
+         worth for the task itself, on the paper's grid, exactly: regret in P(satisfied) against the \
+         largest possible, and E[steps given success] over the fewest possible (negative where safety \
+         is given away). γ is {GAMMA}, and {gamma} for `Settings::safe`, which pays acceptance alone: \
+         the setting to take where a task has a trap; its last row is what it learns from {} million \
+         steps of experience, replayed. The figure has the percentages of all tasks and layouts, the \
+         dashed line at 0.1 %. Written by `cargo run --release --example study_rewards`.\n",
+        LEARNED / 1_000_000
+    )
+}
+
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let mut text = "# Rewards\n\nWhat the optimal policy of each reward is worth for the task itself, on \
-                    the paper's grid, exactly: regret in P(satisfied) against the largest possible, and \
-                    E[steps given success] over the fewest possible (negative where safety is given \
-                    away). γ is 0.95, and 0.9999 for `Settings::safe`, which pays acceptance alone: the \
-                    setting to take where a task has a trap; its last row is what it learns from 6 million steps \
-                    of experience, replayed. Written by `cargo run --release --example \
-                    study_rewards`.\n"
-        .to_owned();
-    let style = ProgressStyle::with_template("{wide_bar} {pos}/{len}, {per_sec}, {eta} left")?;
-    let bar = ProgressBar::new(LAYOUTS).with_style(style);
-    let (mut lines, mut worst, mut worst_learned) = (String::new(), 0.0f64, 0.0f64);
-    let all = seeds(0..LAYOUTS + 1, |seed| {
-        let cells = if seed == 0 { PAPER } else { layout(seed) };
-        bar.inc(1);
-        let mut rows: Vec<(String, [Regret; 10])> = Vec::new();
-        for (formula, task) in &counterexamples(cells) {
-            rows.push((format!("`{formula}`"), regrets(&**task)));
-        }
-        for family in &FAMILIES {
-            let [one, two] = (family.skills)(cells);
-            let whole = Product::conjunction(&[&*one, &*two]);
-            let name = format!("`{}` ∧ `{}`", family.formulas[0], family.formulas[1]);
-            rows.push((name, regrets(&whole)));
-        }
-        rows
-    });
-    bar.finish_and_clear();
-    for i in 0..all[0].len() {
-        let name = &all[0][i].0;
-        section(&mut text, &format!("{name}, the paper's layout"), &[all[0][i].1]);
-        let random: Vec<[Regret; 10]> = all[1..].iter().map(|rows| rows[i].1).collect();
-        section(&mut text, &format!("{name}, 100 random layouts"), &random);
-        for (seed, rows) in all.iter().enumerate() {
-            worst = worst.max(rows[i].1[8].0);
-            worst_learned = worst_learned.max(rows[i].1[9].0);
-            for (mode, (p, steps)) in names().iter().zip(rows[i].1) {
-                let steps = steps.is_finite().then_some(steps);
-                let line = serde_json::json!({
-                    "task": name, "layout": seed, "setting": mode,
-                    "regret_satisfied": p, "regret_steps": steps,
-                });
-                let _ = writeln!(lines, "{line}");
-            }
-        }
+    let study = Study::new("rewards", &(names(), modes(), LAYOUTS, LEARNED));
+    let cases = study.run((LAYOUTS + 1) * TASKS as u64, |number| {
+        let (layout_of, i) = (number / TASKS as u64, number as usize % TASKS);
+        case(i, if layout_of == 0 { PAPER } else { layout(layout_of) })
+    })?;
+    let mut text = head();
+    for i in 0..TASKS {
+        let of_task: Vec<&Case> = cases[i..].iter().step_by(TASKS).collect();
+        section(&mut text, &format!("{}, the paper's layout", name(i)), &of_task[..1]);
+        section(&mut text, &format!("{}, 100 random layouts", name(i)), &of_task[1..]);
     }
+    let [worst, worst_learned] = [8, 9].map(|i| quantile(&of(i, cases.iter()).0, 1.0));
+    let missed = cases.iter().filter(|case| case.regrets[9].0 > 1e-3).count();
     let _ = writeln!(
         text,
-        "\nLargest P regret of `Settings::safe`: {} % as an optimum, {} % as learned from {LEARNED} steps.",
+        "\nLargest P regret of `Settings::safe`: {} % as an optimum, {} % as learned from {LEARNED} \
+         steps, by which {missed} of {} cases give away more than 0.1 %.",
         percent(worst),
-        percent(worst_learned)
+        percent(worst_learned),
+        cases.len()
     );
-    publish("rewards.md", &text)?;
-    publish("rewards.jsonl", &lines)?;
+    let lines = cases.iter().enumerate().flat_map(|(number, case)| {
+        let (layout, task) = (number / TASKS, name(number % TASKS));
+        names().into_iter().zip(case.regrets).map(move |(setting, (p, steps))| {
+            json!({"task": task, "layout": layout, "setting": setting,
+                   "regret_satisfied": p, "regret_steps": steps})
+        })
+    });
+    study.publish(".svg", &figure(&cases).svg())?;
+    study.publish(".md", &text)?;
+    study.publish_lines(lines)?;
     assert!(worst < 1e-3, "the safe setting is not safe: {worst}");
-    Ok(())
+    Ok(study.finish()?)
 }
