@@ -108,14 +108,21 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// For tasks with a trap: [`Reward::Acceptance`] and γ
-    /// 0.9999, so that the optimum for the reward is, within 0.1 % of P(satisfied), the largest
-    /// possible on every task of the study of rewards (`docs/studies/rewards.md`); everything else
-    /// as by default. `Progress` with γ 0.95 trades safety for speed, and pays for detours where
-    /// an automaton has longer ways to acceptance.
+    /// For tasks with a trap: [`Reward::Acceptance`] and γ 0.99999, everything else as by default;
+    /// train, then [replay](Learner::replay). The optimum for that reward gives away at most 0.011 %
+    /// of P(satisfied) in the study of rewards (`docs/studies/rewards.md`); `Progress` with γ 0.95
+    /// trades safety for speed, and pays for detours where an automaton has longer ways to
+    /// acceptance.
+    ///
+    /// A γ so close to 1 is for the decisions that are nearly ties: each step of delay costs 1 − γ,
+    /// and at 0.9999 a dozen steps outweigh 0.1 % of P(satisfied), a difference that sampling then
+    /// decides. What is left is sampling alone: random episodes seldom come to a narrow place beside
+    /// a trap, and where two actions there were tried 5,000 times each, a risk of 4 % is known to
+    /// ±0.28 %. After 6 million steps and a replay 2 of 707 tasks and layouts give away more than
+    /// 0.1 %, the worst 0.19 %.
     #[must_use]
     pub fn safe() -> Self {
-        Self { gamma: 0.9999, rewards: Rewards::of(Reward::Acceptance), ..Self::default() }
+        Self { gamma: 0.99999, rewards: Rewards::of(Reward::Acceptance), ..Self::default() }
     }
 
     /// The paper's recipe (Section 5.1): γ 0.95, α 0.1, horizon 200, random exploration.
