@@ -145,6 +145,76 @@ impl Ends {
     }
 }
 
+/// What the moves of one task pay, and where they end it.
+#[derive(Clone, Debug)]
+pub(crate) struct Moves {
+    ends: Ends,
+    rewards: Rewards,
+    gamma: f64,
+}
+
+impl Moves {
+    pub(crate) fn new<S: ?Sized>(
+        monitor: &(impl Monitor<S> + ?Sized),
+        rewards: Rewards,
+        gamma: f64,
+    ) -> Self {
+        Self { ends: Ends::new(monitor), rewards, gamma }
+    }
+
+    /// How the task has ended at `q`, if it has.
+    pub(crate) fn end(&self, q: u32) -> Option<End> {
+        self.ends.of(q)
+    }
+
+    /// The automaton states in which the task goes on.
+    #[cfg(feature = "deep")]
+    pub(crate) fn live(&self) -> impl Iterator<Item = u32> {
+        (0..self.ends.of.len() as u32).filter(|&q| self.end(q).is_none())
+    }
+
+    /// For each automaton state the most that can be had from there on, the environment's own
+    /// rewards left aside: the optimum if every state of the world could be chosen at every step.
+    /// 0 where the task has ended.
+    #[cfg(feature = "deep")]
+    pub(crate) fn most<S: ?Sized>(&self, monitor: &(impl Monitor<S> + ?Sized)) -> Vec<f64> {
+        let mut most = alloc::vec![0.0; self.ends.of.len()];
+        let pays = |q, to| match self.rewards.mode {
+            Reward::Robustness { bound } => self.rewards.pays(&self.ends, q, to, self.gamma, bound),
+            _ => self.rewards.pays(&self.ends, q, to, self.gamma, 0.0),
+        };
+        // Value iteration; the error falls by γ each time.
+        loop {
+            let mut change: f64 = 0.0;
+            for q in self.live() {
+                let mut best = f64::NEG_INFINITY;
+                monitor.successors(q, &mut |to| {
+                    best = best.max(pays(q, to) + self.gamma * most[to as usize]);
+                });
+                change = change.max((best - most[q as usize]).abs());
+                most[q as usize] = best;
+            }
+            if change < 1e-9 {
+                return most;
+            }
+        }
+    }
+
+    /// What reading `s` does at `q`.
+    pub(crate) fn read<S: ?Sized>(
+        &self,
+        monitor: &(impl Monitor<S> + ?Sized),
+        q: u32,
+        s: &S,
+    ) -> Result<Move, Error> {
+        let robustness =
+            if self.rewards.needs_robustness() { monitor.progress_robustness(q, s)? } else { 0.0 };
+        let to = monitor.next(q, s)?;
+        let paid = self.rewards.pays(&self.ends, q, to, self.gamma, robustness);
+        Ok(Move { to, paid, over: self.end(to).is_some() })
+    }
+}
+
 /// Any environment beside any task: an environment over (s, q).
 ///
 /// A NaN in a state is an error, so its methods are those of [`Env`] with a `Result`.
@@ -152,9 +222,7 @@ impl Ends {
 pub struct Augmented<E, M> {
     env: E,
     monitor: M,
-    rewards: Rewards,
-    gamma: f64,
-    ends: Ends,
+    moves: Moves,
     q: u32,
 }
 
@@ -162,8 +230,8 @@ impl<E: Env, M: Monitor<E::State>> Augmented<E, M> {
     /// `env` under the task `monitor`; `gamma` is the learner's discount factor, which only
     /// [`Reward::Shaped`] reads.
     pub fn new(env: E, monitor: M, rewards: Rewards, gamma: f64) -> Self {
-        let ends = Ends::new(&monitor);
-        Self { env, monitor, rewards, gamma, ends, q: 0 }
+        let moves = Moves::new(&monitor, rewards, gamma);
+        Self { env, monitor, moves, q: 0 }
     }
 
     /// Starts an episode: the state s_0 and the automaton state that has read it. The episode may
@@ -191,7 +259,7 @@ impl<E: Env, M: Monitor<E::State>> Augmented<E, M> {
         self.q = to;
         Ok(Step {
             state: (step.state, to),
-            reward: paid + self.rewards.environment * step.reward,
+            reward: paid + self.moves.rewards.environment * step.reward,
             terminated: step.terminated || over,
             truncated: step.truncated,
         })
@@ -202,19 +270,12 @@ impl<E: Env, M: Monitor<E::State>> Augmented<E, M> {
     /// # Errors
     /// If a predicate is not a number at `s`.
     pub fn read(&self, q: u32, s: &E::State) -> Result<Move, Error> {
-        let robustness = if self.rewards.needs_robustness() {
-            self.monitor.progress_robustness(q, s)?
-        } else {
-            0.0
-        };
-        let to = self.monitor.next(q, s)?;
-        let paid = self.rewards.pays(&self.ends, q, to, self.gamma, robustness);
-        Ok(Move { to, paid, over: self.ends.of(to).is_some() })
+        self.moves.read(&self.monitor, q, s)
     }
 
     /// How the task has ended, if it has.
     pub fn end(&self) -> Option<End> {
-        self.ends.of(self.q)
+        self.moves.end(self.q)
     }
 
     /// The automaton state.
@@ -248,7 +309,7 @@ impl<E: Env, M: Monitor<E::State>> World for Augmented<E, M> {
         rng: &mut R,
     ) -> Result<Step<E::State>, Error> {
         let step = self.env.step(action, rng);
-        Ok(Step { reward: self.rewards.environment * step.reward, ..step })
+        Ok(Step { reward: self.moves.rewards.environment * step.reward, ..step })
     }
 
     fn read(&self, q: u32, s: &E::State) -> Result<Move, Error> {

@@ -78,6 +78,8 @@ pub mod checkpoint;
 pub mod compose;
 #[cfg(feature = "alloc")]
 pub mod controller;
+#[cfg(feature = "deep")]
+pub mod deep;
 #[cfg(feature = "alloc")]
 pub mod env;
 #[cfg(feature = "std")]
@@ -87,6 +89,8 @@ pub mod factored;
 pub mod learn;
 #[cfg(feature = "alloc")]
 pub mod model;
+#[cfg(feature = "alloc")]
+pub mod network;
 #[cfg(feature = "alloc")]
 pub mod policy;
 #[doc(hidden)]

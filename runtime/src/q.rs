@@ -158,7 +158,7 @@ fn largest_of(values: &[f64]) -> f64 {
 
 /// The index of the largest value, the lowest of equals.
 #[inline]
-pub(crate) fn argmax(values: &[f64]) -> u32 {
+pub(crate) fn argmax<T: PartialOrd>(values: &[T]) -> u32 {
     let mut best = 0;
     for (i, v) in values.iter().enumerate() {
         if *v > values[best] {

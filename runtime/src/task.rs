@@ -330,3 +330,85 @@ impl<S: ?Sized, M: Monitor<S> + ?Sized> Monitor<S> for &M {
         (**self).trajectory_robustness(trajectory)
     }
 }
+
+/// A task whose arguments are read from the state: `deliver(s.wanted, s.target)`, say, where each
+/// episode wants something else.
+///
+/// All arguments share one automaton, so an automaton state means the same for all of them.
+///
+/// ```
+/// # #[cfg(feature = "macros")] {
+/// use tltl::task::{Monitor, Parametric};
+///
+/// struct Shelf { wanted: u8, seen: u8 }
+/// tltl::tltl! {
+///     state s: Shelf;
+///     predicate see(o: u8) = { s.seen == o };
+///     task find(o: u8) = F see(o);
+/// }
+/// let find = Parametric::new(find(0), |s: &Shelf| find(s.wanted));
+/// let q = find.next(0, &Shelf { wanted: 7, seen: 7 }).unwrap();
+/// assert!(Monitor::<Shelf>::is_accepting(&find, q));
+/// # }
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Parametric<P, F> {
+    any: Task<P>,
+    of: F,
+}
+
+impl<P, F> Parametric<P, F> {
+    /// The task that is `of(s)` at state `s`; `any` is the same with whatever arguments.
+    pub fn new<S: ?Sized>(any: Task<P>, of: F) -> Self
+    where
+        F: Fn(&S) -> Task<P>,
+    {
+        Self { any, of }
+    }
+}
+
+impl<S: ?Sized, P: Predicates<S>, F: Fn(&S) -> Task<P>> Monitor<S> for Parametric<P, F> {
+    fn states(&self) -> u32 {
+        Monitor::<S>::states(&self.any)
+    }
+
+    #[inline]
+    fn next(&self, q: u32, s: &S) -> Result<u32, Error> {
+        (self.of)(s).next(q, s)
+    }
+
+    fn is_accepting(&self, q: u32) -> bool {
+        Monitor::<S>::is_accepting(&self.any, q)
+    }
+
+    fn is_trap(&self, q: u32) -> bool {
+        Monitor::<S>::is_trap(&self.any, q)
+    }
+
+    fn progress_robustness(&self, q: u32, s: &S) -> Result<f64, Error> {
+        (self.of)(s).progress_robustness(q, s)
+    }
+
+    fn trap_robustness(&self, q: u32, s: &S) -> Result<f64, Error> {
+        (self.of)(s).trap_robustness(q, s)
+    }
+
+    fn distance(&self, q: u32) -> u32 {
+        Monitor::<S>::distance(&self.any, q)
+    }
+
+    fn successors(&self, q: u32, visit: &mut dyn FnMut(u32)) {
+        Monitor::<S>::successors(&self.any, q, visit);
+    }
+
+    /// With the arguments of the first state.
+    fn trajectory_robustness(&self, trajectory: &[S]) -> Result<f64, Error>
+    where
+        S: Sized,
+    {
+        match trajectory.first() {
+            Some(s) => (self.of)(s).robustness(trajectory),
+            None => self.any.robustness(trajectory),
+        }
+    }
+}

@@ -1,0 +1,353 @@
+//! Composition of learned networks (paper, Algorithm 2), without a step in the world.
+//!
+//! As for [tables](crate::compose): step 2 adds up the skills' values, steps 3–5 subtract what that
+//! counts too much, step 6 makes the result the optimum of the product. What the skills have seen,
+//! relabelled with every state of the product's automaton, is all that is learned from. The skills'
+//! networks stay as they are; one further network, with a head for each live state of the
+//! product, is added to their sum, and it alone is trained: from zero in
+//! [`Composition::compensate`], and on from there in [`Composition::refine`].
+
+use burn::tensor::Device;
+use rand::SeedableRng;
+use rand::rngs::Xoshiro256PlusPlus;
+use std::vec::Vec;
+
+use super::model::{Batch, Model};
+use super::replay::Replay;
+use super::settings::Settings;
+use super::trainer::{Heads, Objective, Trainer, bounds};
+use super::{Error, Goals};
+use crate::augmented::Moves;
+use crate::compose::Combine;
+use crate::learn::episode::Move;
+use crate::network::{Features, Network, Shape};
+use crate::product::{Operator, Product};
+use crate::q::argmax;
+use crate::task::{self, Monitor};
+
+/// A skill that was learned.
+pub struct Learned<'a, S> {
+    /// Its values; the heads are the task's live states in order.
+    pub network: &'a Network,
+    /// What the network sees.
+    pub features: &'a dyn Features<S>,
+    /// Its task.
+    pub task: &'a dyn Monitor<S>,
+}
+
+impl<S> Clone for Learned<'_, S> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S> Copy for Learned<'_, S> {}
+
+/// What several skills see, side by side. All must have the same entities.
+pub struct Joint<'a, S>(pub Vec<&'a dyn Features<S>>);
+
+impl<S> Features<S> for Joint<'_, S> {
+    fn inputs(&self) -> usize {
+        self.0.iter().map(|features| features.inputs()).sum()
+    }
+
+    fn entities(&self) -> usize {
+        self.0.first().map_or(0, |features| features.entities())
+    }
+
+    fn channels(&self) -> usize {
+        self.0.iter().map(|features| features.channels()).sum()
+    }
+
+    fn write(&self, s: &S, mut inputs: &mut [f32], mut entities: &mut [f32]) {
+        for features in &self.0 {
+            let (mine, rest) = inputs.split_at_mut(features.inputs());
+            let (ours, others) = entities.split_at_mut(features.channels() * features.entities());
+            features.write(s, mine, ours);
+            (inputs, entities) = (rest, others);
+        }
+    }
+}
+
+/// A skill, ready to be evaluated.
+struct Part<'a, S> {
+    skill: Learned<'a, S>,
+    model: Model,
+    heads: Heads,
+    moves: Moves,
+    scale: f32,
+}
+
+impl<S> Part<'_, S> {
+    /// All values of some states, `(row * heads + head) * actions + action`.
+    fn values(&self, states: &[S]) -> Result<Vec<f32>, Error> {
+        let mut batch = Batch::default();
+        for s in states {
+            batch.push(&self.skill.features, s).map_err(Error::Feature)?;
+        }
+        Ok(self.model.values(&batch))
+    }
+}
+
+/// Learned skills that are composed.
+pub struct Composition<'a, S, G> {
+    product: &'a Product<'a, S>,
+    settings: Settings,
+    goals: G,
+    combine: Combine,
+    parts: Vec<Part<'a, S>>,
+    features: Joint<'a, S>,
+    moves: Moves,
+    bounds: Vec<(f64, f64)>,
+    trainer: Trainer,
+    replay: Replay<S>,
+    rng: Xoshiro256PlusPlus,
+    actions: usize,
+}
+
+impl<'a, S: Clone, G: Goals<S>> Composition<'a, S, G> {
+    /// Step 2: the composition of `skills`, in the order of the operands of `product`, on what
+    /// was seen in `experience`. Of `settings` it reads those of updates and rewards; the goals of
+    /// replayed steps are drawn from `goals` by the share `settings.hindsight`.
+    ///
+    /// # Errors
+    /// If a feature is not a finite number in a state that was seen.
+    ///
+    /// # Panics
+    /// If skills and product do not fit together, or nothing was seen.
+    pub fn new(
+        product: &'a Product<'a, S>,
+        skills: &[Learned<'a, S>],
+        goals: G,
+        experience: &[&Replay<S>],
+        combine: Combine,
+        settings: Settings,
+        device: &Device,
+        seed: u64,
+    ) -> Result<Self, Error> {
+        assert_eq!(skills.len(), product.operands().len(), "a skill for each operand");
+        let actions = skills[0].network.shape().actions;
+        let moves = Moves::new(&product, settings.rewards, settings.gamma);
+        let heads = Heads::new(&moves, Monitor::<S>::states(product));
+        let features = Joint(skills.iter().map(|skill| skill.features).collect());
+        let shape = Shape::of(&features, &settings.hidden, heads.states.len(), actions);
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
+        let network = Network::random(shape, &mut rng).silent();
+        let mut replay =
+            Replay::new(experience.iter().map(|seen| seen.len()).sum::<usize>().max(2));
+        experience.iter().for_each(|seen| replay.extend(seen));
+        let part = |&skill: &Learned<'a, S>| {
+            let moves = Moves::new(&skill.task, settings.rewards, settings.gamma);
+            let heads = Heads::new(&moves, skill.task.states());
+            assert_eq!(skill.network.shape().heads, heads.states.len(), "a network for its task");
+            assert_eq!(skill.network.shape().actions, actions, "skills with the same actions");
+            Part { skill, model: Model::new(skill.network, device), heads, moves, scale: 1.0 }
+        };
+        let mut composition = Self {
+            parts: skills.iter().map(part).collect(),
+            bounds: bounds(
+                &moves.most(&product),
+                &settings,
+                worst(&replay, settings.rewards.environment),
+            ),
+            trainer: Trainer::new(&network, heads, settings.normalisation, device),
+            product,
+            settings,
+            goals,
+            combine,
+            features,
+            moves,
+            replay,
+            rng,
+            actions,
+        };
+        if combine != Combine::Sum {
+            composition.normalise()?;
+        }
+        Ok(composition)
+    }
+
+    /// Divides each skill's values by their largest in what was seen.
+    fn normalise(&mut self) -> Result<(), Error> {
+        const LOOK: usize = 2_000;
+        let step = (self.replay.len() / LOOK).max(1);
+        let states = self.replay.moments().iter().step_by(step).map(|m| m.state.clone());
+        let states: Vec<S> = states.collect();
+        for part in &mut self.parts {
+            let largest = part.values(&states)?.into_iter().fold(0.0, f32::max);
+            part.scale = if largest > 0.0 { 1.0 / largest } else { 1.0 };
+        }
+        Ok(())
+    }
+
+    /// Steps 3–5: trains the further network by `updates` updates to be what the plain sum counts too
+    /// much, negated, under the sum's greedy policy (Eq. 3C10, trap-aware).
+    ///
+    /// # Errors
+    /// If a number is not finite.
+    ///
+    /// # Panics
+    /// Unless the skills are combined by [`Combine::Sum`].
+    pub fn compensate(&mut self, updates: u64) -> Result<(), Error> {
+        assert_eq!(self.combine, Combine::Sum, "compensation is of the plain sum");
+        self.learn(updates, true)
+    }
+
+    /// Step 6: trains the further network by `updates` updates until the whole is the optimum of the
+    /// product, as far as what was seen tells.
+    ///
+    /// # Errors
+    /// If a number is not finite.
+    pub fn refine(&mut self, updates: u64) -> Result<(), Error> {
+        self.learn(updates, false)
+    }
+
+    fn learn(&mut self, updates: u64, evaluates: bool) -> Result<(), Error> {
+        let base = Base {
+            product: self.product,
+            parts: &self.parts,
+            combine: self.combine,
+            heads: &self.trainer.heads.clone(),
+            moves: &self.moves,
+            bounds: &self.bounds,
+            actions: self.actions,
+            evaluates,
+        };
+        for _ in 0..updates {
+            let from = (&self.features, &self.goals);
+            self.trainer.update(&mut self.replay, from, &base, &self.settings, &mut self.rng)?;
+        }
+        Ok(())
+    }
+
+    /// Q(s, q, ·) at a state of the product; zeros where the task is decided.
+    ///
+    /// # Errors
+    /// If a feature is not a finite number.
+    pub fn values(&self, q: u32, s: &S) -> Result<Vec<f32>, Error> {
+        let Some(head) = self.trainer.heads.of(q) else {
+            return Ok(std::vec![0.0; self.actions]);
+        };
+        let states = core::slice::from_ref(s);
+        let mut row = std::vec![0.0; self.actions];
+        let of =
+            self.parts.iter().map(|part| part.values(states)).collect::<Result<Vec<_>, _>>()?;
+        combined(self.product, &self.parts, &of, self.combine, q, 0, &mut row);
+        let mut batch = Batch::default();
+        batch.push(&self.features, s).map_err(Error::Feature)?;
+        let further = self.trainer.values(&self.trainer.model, &batch);
+        let further = &further[head * self.actions..][..self.actions];
+        row.iter_mut().zip(further).for_each(|(v, f)| *v += f);
+        Ok(row)
+    }
+
+    /// The greedy action in (s, q).
+    ///
+    /// # Errors
+    /// If a feature is not a finite number.
+    pub fn act(&self, q: u32, s: &S) -> Result<usize, Error> {
+        Ok(argmax(&self.values(q, s)?) as usize)
+    }
+
+    /// Updates so far.
+    pub const fn updates(&self) -> u64 {
+        self.trainer.updates
+    }
+}
+
+/// The least and the largest reward of the environment that was seen.
+fn worst<S>(replay: &Replay<S>, environment: f64) -> (f64, f64) {
+    let seen = replay.moments().iter().map(|moment| environment * moment.reward);
+    seen.fold((0.0, 0.0), |(least, most), r| (f64::min(least, r), f64::max(most, r)))
+}
+
+/// The skills that read states at `q` and are not done, and where they are.
+fn active<'p, S>(
+    product: &'p Product<'_, S>,
+    parts: &'p [Part<'_, S>],
+    q: u32,
+) -> impl Iterator<Item = (usize, u32)> {
+    let only = product.operator() == Operator::Sequence;
+    let running = product.running(q);
+    let all = product.components(q).iter().copied().enumerate();
+    all.filter(move |&(i, at)| (!only || i == running) && parts[i].heads.of(at).is_some())
+}
+
+/// The skills' values of the state in `row` at `q`, combined.
+fn combined<S>(
+    product: &Product<'_, S>,
+    parts: &[Part<'_, S>],
+    values: &[Vec<f32>],
+    combine: Combine,
+    q: u32,
+    row: usize,
+    out: &mut [f32],
+) {
+    let actions = out.len();
+    for (n, (i, at)) in active(product, parts, q).enumerate() {
+        let head = parts[i].heads.of(at).expect("an active skill has a head");
+        let from = (row * parts[i].heads.states.len() + head) * actions;
+        for (out, value) in out.iter_mut().zip(&values[i][from..from + actions]) {
+            let value = value * parts[i].scale;
+            *out = if combine == Combine::Max && n > 0 { out.max(value) } else { *out + value };
+        }
+    }
+}
+
+/// What the further network is to learn beside the skills.
+struct Base<'a, S> {
+    product: &'a Product<'a, S>,
+    parts: &'a [Part<'a, S>],
+    combine: Combine,
+    heads: &'a Heads,
+    moves: &'a Moves,
+    bounds: &'a [(f64, f64)],
+    actions: usize,
+    evaluates: bool,
+}
+
+impl<S> Objective<S> for Base<'_, S> {
+    fn read(&self, q: u32, s: &S) -> Result<Move, task::Error> {
+        let mut read = self.moves.read(self.product, q, s)?;
+        if self.evaluates {
+            for (i, at) in active(self.product, self.parts, q) {
+                let part = &self.parts[i];
+                read.paid -= part.moves.read(&part.skill.task, at, s)?.paid;
+            }
+        }
+        Ok(read)
+    }
+
+    fn environment(&self, q: u32) -> f64 {
+        if !self.evaluates {
+            return 1.0;
+        }
+        1.0 - active(self.product, self.parts, q).count() as f64
+    }
+
+    fn bounds(&self, q: u32) -> (f64, f64) {
+        let (least, most) = self.bounds[q as usize];
+        if !self.evaluates {
+            return (least, most);
+        }
+        // The sum of the skills may be above the product's values by what each of them can get.
+        let parts = self.parts.len() as f64;
+        (parts * least - parts * most, parts * (most - least))
+    }
+
+    fn base(&self, states: &[S]) -> Result<Option<Vec<f32>>, Error> {
+        let of =
+            self.parts.iter().map(|part| part.values(states)).collect::<Result<Vec<_>, _>>()?;
+        let mut base = std::vec![0.0; states.len() * self.heads.states.len() * self.actions];
+        for (i, out) in base.chunks_mut(self.actions).enumerate() {
+            let (row, head) = (i / self.heads.states.len(), i % self.heads.states.len());
+            let q = self.heads.states[head];
+            combined(self.product, self.parts, &of, self.combine, q, row, out);
+        }
+        Ok(Some(base))
+    }
+
+    fn evaluates(&self) -> bool {
+        self.evaluates
+    }
+}

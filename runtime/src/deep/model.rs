@@ -1,0 +1,291 @@
+//! The network as tensors: batched forward passes, gradients, Adam.
+
+use burn::optim::{Adam, AdamConfig, AdamState, AdaptiveMomentumState, Optimizer};
+use burn::tensor::{Device, Int, Tensor, TensorData, activation::relu};
+use serde::{Deserialize, Serialize};
+use std::vec::Vec;
+
+use super::popart::PopArt;
+use crate::network::{Dense, Features, Network, Shape};
+
+/// The features of some states.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Batch {
+    len: usize,
+    inputs: Vec<f32>,
+    entities: Vec<f32>,
+}
+
+impl Batch {
+    pub(super) fn clear(&mut self) {
+        self.len = 0;
+        self.inputs.clear();
+        self.entities.clear();
+    }
+
+    /// Adds a state; the number of the feature that is not finite, if there is one.
+    pub(super) fn push<S: ?Sized>(
+        &mut self,
+        features: &(impl Features<S> + ?Sized),
+        s: &S,
+    ) -> Result<(), usize> {
+        let (from, entities_from) = (self.inputs.len(), self.entities.len());
+        let entities = features.entities() * features.channels();
+        self.len += 1;
+        self.inputs.resize(from + features.inputs(), 0.0);
+        self.entities.resize(entities_from + entities, 0.0);
+        let (inputs, entities) = (&mut self.inputs[from..], &mut self.entities[entities_from..]);
+        features.write(s, inputs, entities);
+        let all = inputs.iter().chain(entities.iter());
+        all.enumerate().find(|(_, x)| !x.is_finite()).map_or(Ok(()), |(i, _)| Err(i))
+    }
+
+    fn tensors(&self, shape: &Shape, device: &Device) -> (Tensor<2>, Tensor<3>) {
+        let inputs = TensorData::new(self.inputs.clone(), [self.len, shape.inputs]);
+        let entities =
+            TensorData::new(self.entities.clone(), [self.len, shape.channels, shape.entities]);
+        (Tensor::from_data(inputs, device), Tensor::from_data(entities, device))
+    }
+}
+
+/// A dense layer as tensors.
+#[derive(Clone, Debug)]
+struct Layer {
+    weights: Tensor<2>,
+    bias: Tensor<1>,
+}
+
+impl Layer {
+    fn of(dense: &Dense, device: &Device) -> Self {
+        let (inputs, outputs) = (dense.weights.len() / dense.bias.len(), dense.bias.len());
+        let weights = TensorData::new(dense.weights.clone(), [inputs, outputs]);
+        let bias = TensorData::new(dense.bias.clone(), [outputs]);
+        Self { weights: Tensor::from_data(weights, device), bias: Tensor::from_data(bias, device) }
+    }
+
+    fn dense(&self) -> Dense {
+        Dense { weights: numbers(self.weights.clone()), bias: numbers(self.bias.clone()) }
+    }
+}
+
+/// The numbers of a tensor, in row-major order.
+fn numbers<const D: usize>(tensor: Tensor<D>) -> Vec<f32> {
+    tensor.into_data().try_to_vec().expect("networks are of f32")
+}
+
+/// A network on a device.
+#[derive(Clone, Debug)]
+pub(super) struct Model {
+    shape: Shape,
+    layers: Vec<Layer>,
+}
+
+/// What one value of the network is to become.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Target {
+    /// What the value should be, normalised.
+    pub value: f32,
+    /// How much the error counts.
+    pub weight: f32,
+}
+
+impl Model {
+    pub(super) fn new(network: &Network, device: &Device) -> Self {
+        let layers = network.layers().iter().map(|dense| Layer::of(dense, device)).collect();
+        Self { shape: network.shape().clone(), layers }
+    }
+
+    pub(super) const fn shape(&self) -> &Shape {
+        &self.shape
+    }
+
+    /// The layers as numbers.
+    pub(super) fn network(&self) -> Network {
+        let layers = self.layers.iter().map(Layer::dense).collect();
+        Network::new(self.shape.clone(), layers).expect("a model is a network")
+    }
+
+    fn device(&self) -> Device {
+        self.layers[0].bias.device()
+    }
+
+    /// All heads' values of all states, indexed `(row * heads + head) * actions + action`.
+    pub(super) fn values(&self, batch: &Batch) -> Vec<f32> {
+        let (inputs, entities) = batch.tensors(&self.shape, &self.device());
+        numbers(self.forward(inputs, entities))
+    }
+
+    /// `[batch, inputs]` and `[batch, channels, entities]` to `[batch, heads, actions]`.
+    fn forward(&self, inputs: Tensor<2>, entities: Tensor<3>) -> Tensor<3> {
+        let Shape { heads, entities: n, channels, .. } = self.shape;
+        let (plain, width) = (self.shape.plain(), self.shape.head_width());
+        let (last, trunk) = self.layers.split_last().expect("a network has heads");
+        let dense =
+            |x: Tensor<2>, l: &Layer| x.matmul(l.weights.clone()) + l.bias.clone().unsqueeze();
+        let x = trunk.iter().fold(inputs, |x, layer| relu(dense(x, layer)));
+        let rows = x.dims()[0];
+        let out = dense(x, last).reshape([rows, heads, width]);
+        if n == 0 {
+            return out;
+        }
+        let query = out.clone().narrow(2, plain + 1, channels);
+        let pointing = out.clone().narrow(2, plain, 1) + query.matmul(entities);
+        if plain == 0 {
+            return pointing;
+        }
+        Tensor::cat(std::vec![out.narrow(2, 0, plain), pointing], 2)
+    }
+
+    /// The layers with gradients.
+    fn tracked(&self) -> Self {
+        let layers = self.layers.iter().map(|layer| Layer {
+            weights: Tensor::from_inner(layer.weights.clone()).require_grad(),
+            bias: Tensor::from_inner(layer.bias.clone()).require_grad(),
+        });
+        Self { shape: self.shape.clone(), layers: layers.collect() }
+    }
+
+    /// The weighted Huber loss of the values of `actions` (one a row) under all heads, with
+    /// `targets` indexed `row * heads + head`; the values; and the gradients, layer by layer.
+    pub(super) fn gradients(
+        &self,
+        batch: &Batch,
+        actions: &[u32],
+        targets: &[Target],
+    ) -> (f32, Vec<f32>, Vec<(Tensor<2>, Tensor<1>)>) {
+        let (rows, heads) = (batch.len, self.shape.heads);
+        let model = self.tracked();
+        let device = model.device();
+        let (inputs, entities) = batch.tensors(&self.shape, &device);
+        let values = model.forward(inputs, entities);
+        let chosen = actions.iter().flat_map(|&a| core::iter::repeat_n(i64::from(a), heads));
+        let chosen = TensorData::new(chosen.collect::<Vec<i64>>(), [rows, heads, 1]);
+        let values = values.gather(2, Tensor::<3, Int>::from_data(chosen, &device));
+        let of = |f: fn(&Target) -> f32| {
+            let data = targets.iter().map(f).collect::<Vec<f32>>();
+            Tensor::<3>::from_data(TensorData::new(data, [rows, heads, 1]), &device)
+        };
+        let error = (values.clone() - of(|target| target.value)).abs();
+        // Huber's loss: e²/2 up to 1, then e − 1/2.
+        let small = error.clone().clamp_max(1.0);
+        let huber = small.clone() * (error - small.mul_scalar(0.5));
+        let loss = (huber * of(|target| target.weight)).sum().div_scalar(rows as f32);
+        let gradients = loss.backward();
+        let of = |layer: &Layer| {
+            let weights = layer.weights.grad(&gradients).expect("every layer is used");
+            (weights, layer.bias.grad(&gradients).expect("every layer is used"))
+        };
+        let layers = model.layers.iter().map(of).collect();
+        (loss.inner().into_scalar(), numbers(values.inner()), layers)
+    }
+
+    /// Moves every weight to `other`'s by the share `rate`.
+    pub(super) fn follow(&mut self, other: &Self, rate: f64) {
+        for (layer, to) in self.layers.iter_mut().zip(&other.layers) {
+            layer.weights = layer.weights.clone()
+                + (to.weights.clone() - layer.weights.clone()).mul_scalar(rate);
+            layer.bias =
+                layer.bias.clone() + (to.bias.clone() - layer.bias.clone()).mul_scalar(rate);
+        }
+    }
+
+    /// Rewrites the heads so that what they put out under the scales `new` is what they put out under
+    /// `old`: `σ' y' + μ' = σ y + μ`.
+    pub(super) fn rescale(&mut self, old: &PopArt, new: &PopArt) {
+        let (width, levels) = (self.shape.head_width(), self.shape.levels());
+        let heads = 0..self.shape.heads;
+        let (mut scale, mut shift) = (Vec::new(), Vec::new());
+        for (old, new) in heads.map(|head| (old.scale(head), new.scale(head))) {
+            let factor = (old.1 / new.1) as f32;
+            scale.extend(core::iter::repeat_n(factor, width));
+            shift.extend(core::iter::repeat_n(((old.0 - new.0) / new.1) as f32, levels));
+            shift.extend(core::iter::repeat_n(0.0, width - levels));
+        }
+        let device = self.device();
+        let row = |numbers: Vec<f32>| {
+            let length = numbers.len();
+            Tensor::<1>::from_data(TensorData::new(numbers, [length]), &device)
+        };
+        let (scale, shift) = (row(scale), row(shift));
+        let last = self.layers.last_mut().expect("a network has heads");
+        last.weights = last.weights.clone() * scale.clone().unsqueeze();
+        last.bias = last.bias.clone() * scale + shift;
+    }
+}
+
+/// Adam (Kingma and Ba 2015) on all layers of a model, with a bound on the norm of the gradient.
+pub(super) struct Descent {
+    adam: Adam,
+    moments: Vec<(Option<AdamState<2>>, Option<AdamState<1>>)>,
+}
+
+/// Adam's moments as numbers.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Moments {
+    time: usize,
+    first: Vec<Dense>,
+    second: Vec<Dense>,
+}
+
+impl Descent {
+    pub(super) fn new(layers: usize) -> Self {
+        let moments = core::iter::repeat_with(|| (None, None)).take(layers).collect();
+        Self { adam: AdamConfig::new().with_epsilon(1e-8).build(), moments }
+    }
+
+    /// One step of `rate` against `gradients`, which are shortened to the norm `bound`; the norm
+    /// before.
+    pub(super) fn step(
+        &mut self,
+        model: &mut Model,
+        gradients: Vec<(Tensor<2>, Tensor<1>)>,
+        rate: f64,
+        bound: f64,
+    ) -> f64 {
+        let squares = |w: &Tensor<2>, b: &Tensor<1>| {
+            let sum = w.clone().powi_scalar(2).sum() + b.clone().powi_scalar(2).sum();
+            f64::from(sum.into_scalar::<f32>())
+        };
+        let norm = gradients.iter().map(|(w, b)| squares(w, b)).sum::<f64>().sqrt();
+        let scale = if norm > bound { bound / norm } else { 1.0 };
+        for ((layer, (w, b)), moments) in
+            model.layers.iter_mut().zip(gradients).zip(&mut self.moments)
+        {
+            let (w, b) =
+                if scale < 1.0 { (w.mul_scalar(scale), b.mul_scalar(scale)) } else { (w, b) };
+            (layer.weights, moments.0) =
+                self.adam.step(rate, layer.weights.clone(), w, moments.0.take());
+            (layer.bias, moments.1) = self.adam.step(rate, layer.bias.clone(), b, moments.1.take());
+        }
+        norm
+    }
+
+    /// The moments; `None` before the first step.
+    pub(super) fn moments(&self) -> Option<Moments> {
+        let mut all = Moments { time: 0, first: Vec::new(), second: Vec::new() };
+        for (w, b) in &self.moments {
+            let (w, b) = (&w.as_ref()?.momentum, &b.as_ref()?.momentum);
+            let dense = |w: &Tensor<2>, b: &Tensor<1>| Dense {
+                weights: numbers(w.clone()),
+                bias: numbers(b.clone()),
+            };
+            all.time = w.time;
+            all.first.push(dense(&w.moment_1, &b.moment_1));
+            all.second.push(dense(&w.moment_2, &b.moment_2));
+        }
+        Some(all)
+    }
+
+    /// An optimiser that goes on from `moments`.
+    pub(super) fn resume(moments: &Moments, device: &Device) -> Self {
+        let mut descent = Self::new(moments.first.len());
+        let layers = moments.first.iter().zip(&moments.second);
+        for (state, (first, second)) in descent.moments.iter_mut().zip(layers) {
+            let (first, second) = (Layer::of(first, device), Layer::of(second, device));
+            let weights = AdaptiveMomentumState::new(moments.time, first.weights, second.weights);
+            let bias = AdaptiveMomentumState::new(moments.time, first.bias, second.bias);
+            *state = (Some(AdamState::new(weights)), Some(AdamState::new(bias)));
+        }
+        descent
+    }
+}

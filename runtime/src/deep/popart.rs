@@ -1,0 +1,70 @@
+//! Adaptive normalisation of targets that preserves outputs (PopArt, van Hasselt et al. 2016).
+
+use serde::{Deserialize, Serialize};
+use std::vec::Vec;
+
+/// The scale of the values of each automaton state: a network puts out `(value − μ) / σ`.
+///
+/// μ and σ are running moments of the targets. When they move, the heads are rewritten so that the
+/// values stay what they were. Each automaton state has its own: values fall along the way to
+/// acceptance.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PopArt {
+    rate: f64,
+    heads: Vec<Moments>,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct Moments {
+    /// How much of a target has gone into the running sums so far: 1 − (1 − rate)^n.
+    share: f64,
+    sum: f64,
+    squares: f64,
+}
+
+/// The least and the largest σ.
+const RANGE: (f64, f64) = (1e-2, 1e6);
+
+impl PopArt {
+    /// No normalisation yet, for this number of heads; each update takes in new targets by the
+    /// share `rate`, and 0 never normalises.
+    #[must_use]
+    pub fn new(heads: usize, rate: f64) -> Self {
+        Self { rate, heads: std::vec![Moments::default(); heads] }
+    }
+
+    /// (μ, σ) of a head.
+    ///
+    /// # Panics
+    /// If there is no such head.
+    #[must_use]
+    pub fn scale(&self, head: usize) -> (f64, f64) {
+        let Moments { share, sum, squares } = self.heads[head];
+        if share == 0.0 {
+            return (0.0, 1.0);
+        }
+        let mean = sum / share;
+        let variance = (squares / share - mean * mean).max(0.0);
+        (mean, variance.sqrt().clamp(RANGE.0, RANGE.1))
+    }
+
+    /// Takes in some targets of a head.
+    ///
+    /// # Panics
+    /// If there is no such head.
+    pub fn observe(&mut self, head: usize, targets: impl IntoIterator<Item = f64>) {
+        let (mut n, mut sum, mut squares) = (0.0, 0.0, 0.0);
+        for target in targets {
+            n += 1.0;
+            sum += target;
+            squares += target * target;
+        }
+        if n > 0.0 && self.rate > 0.0 {
+            let Moments { share, sum: s, squares: q } = &mut self.heads[head];
+            let blend = |old: &mut f64, new: f64| *old += self.rate * (new - *old);
+            blend(share, 1.0);
+            blend(s, sum / n);
+            blend(q, squares / n);
+        }
+    }
+}

@@ -1,0 +1,244 @@
+//! What was seen, and which of it to learn from: prioritized replay (Schaul et al. 2016).
+
+use rand::Rng;
+use serde::{Deserialize, Serialize};
+use std::vec::Vec;
+
+use crate::env::{below, unit};
+
+/// Non-negative weights in a binary tree of sums: to change one and to draw one in proportion cost
+/// log₂ n.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SumTree {
+    /// Node i has the children 2i and 2i + 1; the leaves are `leaves..2 * leaves`.
+    sums: Vec<f64>,
+    leaves: usize,
+}
+
+impl SumTree {
+    /// `n` weights of 0.
+    #[must_use]
+    pub fn new(n: usize) -> Self {
+        let leaves = n.next_power_of_two();
+        Self { sums: std::vec![0.0; 2 * leaves], leaves }
+    }
+
+    /// The weight of `i`.
+    #[must_use]
+    pub fn get(&self, i: usize) -> f64 {
+        self.sums[self.leaves + i]
+    }
+
+    /// The sum of all weights.
+    #[must_use]
+    pub fn total(&self) -> f64 {
+        self.sums[1]
+    }
+
+    /// Sets the weight of `i`.
+    ///
+    /// # Panics
+    /// If it is negative or not finite.
+    pub fn set(&mut self, i: usize, weight: f64) {
+        assert!(weight.is_finite() && weight >= 0.0, "weights are finite and not negative");
+        let mut node = self.leaves + i;
+        self.sums[node] = weight;
+        while node > 1 {
+            node /= 2;
+            // Added up anew, so that no error accumulates.
+            self.sums[node] = self.sums[2 * node] + self.sums[2 * node + 1];
+        }
+    }
+
+    /// The number whose share of the sum `mass` falls into, 0 ≤ `mass` < [`Self::total`].
+    #[must_use]
+    pub fn find(&self, mut mass: f64) -> usize {
+        let mut node = 1;
+        while node < self.leaves {
+            node *= 2;
+            let left = self.sums[node];
+            // A rounded mass must not lead to where there is none.
+            if mass >= left && self.sums[node + 1] > 0.0 {
+                mass -= left;
+                node += 1;
+            }
+        }
+        node - self.leaves
+    }
+}
+
+/// A state that was met, and what was done there.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Moment<S> {
+    /// The state.
+    pub state: S,
+    /// The automaton state then, of the task that was being learned.
+    pub q: u32,
+    /// The action taken.
+    pub action: u32,
+    /// What the environment paid for it.
+    pub reward: f64,
+    /// Whether it ended the environment's episode.
+    pub terminated: bool,
+    /// The place of the episode's last state; meaningless until the episode is over.
+    last: u32,
+}
+
+/// A ring of the last states that were met, in order, with a priority for each step.
+///
+/// States are kept once: the step from place i leads to place i + 1. The last state of an episode has
+/// no step and the priority 0.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Replay<S> {
+    moments: Vec<Moment<S>>,
+    capacity: usize,
+    /// Where the current state is.
+    head: usize,
+    /// How many states back the current episode began.
+    age: usize,
+    priorities: SumTree,
+    largest: f64,
+}
+
+impl<S> Replay<S> {
+    /// Room for `capacity` states.
+    ///
+    /// # Panics
+    /// If there is room for none, or for more than 2^32.
+    #[must_use]
+    pub fn new(capacity: usize) -> Self {
+        assert!(capacity > 1 && u32::try_from(capacity).is_ok(), "room for 2 to 2^32 states");
+        let priorities = SumTree::new(capacity);
+        Self { moments: Vec::new(), capacity, head: 0, age: 0, priorities, largest: 1.0 }
+    }
+
+    /// The number of states that are kept.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.moments.len()
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.moments.is_empty()
+    }
+
+    fn put(&mut self, state: S, q: u32) {
+        let moment = Moment { state, q, action: 0, reward: 0.0, terminated: false, last: 0 };
+        self.head = if self.moments.is_empty() { 0 } else { (self.head + 1) % self.capacity };
+        if self.head == self.moments.len() {
+            self.moments.push(moment);
+        } else {
+            self.moments[self.head] = moment;
+        }
+        self.priorities.set(self.head, 0.0);
+    }
+
+    /// An episode begins in `state`.
+    pub fn start(&mut self, state: S, q: u32) {
+        self.put(state, q);
+        self.age = 0;
+    }
+
+    /// A step from the current state to `state`, where the automaton is in `q`.
+    pub fn push(&mut self, action: u32, reward: f64, terminated: bool, state: S, q: u32) {
+        let moment = &mut self.moments[self.head];
+        (moment.action, moment.reward, moment.terminated) = (action, reward, terminated);
+        self.priorities.set(self.head, self.largest);
+        self.put(state, q);
+        self.age += 1;
+    }
+
+    /// The episode is over.
+    pub fn end(&mut self) {
+        let (head, back) = (self.head, self.age.min(self.moments.len() - 1));
+        for i in 0..=back {
+            let place = self.before(i);
+            self.moments[place].last = head as u32;
+        }
+        self.age = 0;
+    }
+
+    /// The place `n` states before the current one.
+    fn before(&self, n: usize) -> usize {
+        (self.head + self.capacity - n) % self.capacity
+    }
+
+    /// What is at a place.
+    #[must_use]
+    pub fn moment(&self, place: usize) -> &Moment<S> {
+        &self.moments[place]
+    }
+
+    /// How many steps of its episode follow the place, itself included.
+    #[must_use]
+    pub fn steps_from(&self, place: usize) -> usize {
+        let since = (self.head + self.capacity - place) % self.capacity;
+        if since <= self.age {
+            return since;
+        }
+        (self.moments[place].last as usize + self.capacity - place) % self.capacity
+    }
+
+    /// The place `n` steps later.
+    #[must_use]
+    pub fn after(&self, place: usize, n: usize) -> usize {
+        (place + n) % self.capacity
+    }
+
+    /// Draws a step in proportion to its priority, or uniformly if `uniform`: its place, and its
+    /// probability times the number of states kept.
+    ///
+    /// # Panics
+    /// If there are no steps.
+    pub fn draw<R: Rng + ?Sized>(&self, uniform: bool, rng: &mut R) -> (usize, f64) {
+        let total = self.priorities.total();
+        assert!(total > 0.0, "there are no steps to draw");
+        if uniform {
+            loop {
+                let place = below(self.moments.len(), rng);
+                if self.priorities.get(place) > 0.0 {
+                    return (place, 1.0);
+                }
+            }
+        }
+        let place = self.priorities.find(unit(rng) * total);
+        (place, self.priorities.get(place) / total * self.moments.len() as f64)
+    }
+
+    /// Sets the priority of the step at `place`; it must be positive.
+    pub fn prioritise(&mut self, place: usize, priority: f64) {
+        self.largest = self.largest.max(priority);
+        self.priorities.set(place, priority);
+    }
+
+    /// The states, oldest episode first is not promised; with what was done there.
+    pub fn moments(&self) -> &[Moment<S>] {
+        &self.moments
+    }
+
+    /// Adds all of another replay's episodes.
+    pub fn extend(&mut self, other: &Self)
+    where
+        S: Clone,
+    {
+        let (n, oldest) =
+            (other.len(), if other.len() < other.capacity { 0 } else { other.head + 1 });
+        let mut begun = false;
+        for place in (0..n).map(|i| (oldest + i) % n) {
+            let moment = &other.moments[place];
+            if !begun {
+                self.start(moment.state.clone(), moment.q);
+            }
+            begun = other.priorities.get(place) > 0.0;
+            if begun {
+                let next = &other.moments[(place + 1) % n];
+                let Moment { action, reward, terminated, .. } = *moment;
+                self.push(action, reward, terminated, next.state.clone(), next.q);
+            } else {
+                self.end();
+            }
+        }
+    }
+}

@@ -1,0 +1,399 @@
+//! One update of a network from replayed steps.
+
+use burn::tensor::Device;
+use rand::Rng;
+use std::vec::Vec;
+
+use super::model::{Batch, Descent, Model, Target};
+use super::popart::PopArt;
+use super::replay::Replay;
+use super::settings::Settings;
+use super::{Error, Goals};
+use crate::augmented::{Moves, Reward};
+use crate::env::unit;
+use crate::learn::episode::Move;
+use crate::network::{Features, Network};
+use crate::q::argmax;
+use crate::task::{self, Monitor};
+
+/// Added to every error before it becomes a priority, so that no step is forgotten.
+const LEAST_ERROR: f64 = 1e-3;
+
+/// The heads of a network: one for each automaton state in which the task goes on.
+#[derive(Clone, Debug)]
+pub(super) struct Heads {
+    /// The automaton state of each head.
+    pub states: Vec<u32>,
+    /// The head of each automaton state.
+    of: Vec<Option<usize>>,
+}
+
+impl Heads {
+    pub(super) fn new(moves: &Moves, automaton_states: u32) -> Self {
+        let states: Vec<u32> = moves.live().collect();
+        let mut of = std::vec![None; automaton_states as usize];
+        states.iter().enumerate().for_each(|(head, &q)| of[q as usize] = Some(head));
+        Self { states, of }
+    }
+
+    /// The head of `q`; none where the task is decided.
+    pub(super) fn of(&self, q: u32) -> Option<usize> {
+        self.of[q as usize]
+    }
+}
+
+/// What an update is to learn.
+pub(super) trait Objective<S> {
+    /// The automaton state after `q` has read `s`, and what the move pays.
+    fn read(&self, q: u32, s: &S) -> Result<Move, task::Error>;
+
+    /// Values that the network's are added to, indexed `(row * heads + head) * actions + action`; none
+    /// are zeros.
+    fn base(&self, states: &[S]) -> Result<Option<Vec<f32>>, Error>;
+
+    /// How often a reward of the environment counts at `q`.
+    fn environment(&self, _q: u32) -> f64 {
+        1.0
+    }
+
+    /// The least and the most that can be had from an automaton state on. Bootstrapped values are kept
+    /// between them, so that errors cannot feed on themselves.
+    fn bounds(&self, _q: u32) -> (f64, f64) {
+        (f64::NEG_INFINITY, f64::INFINITY)
+    }
+
+    /// Whether the policy is the greedy one of the base, not of base and network: then the network
+    /// *evaluates* it.
+    fn evaluates(&self) -> bool {
+        false
+    }
+}
+
+/// The optimum of one task.
+pub(super) struct Optimum<'a, M> {
+    pub task: &'a M,
+    pub moves: &'a Moves,
+    /// For each automaton state the least and the most that can be had.
+    pub bounds: &'a [(f64, f64)],
+}
+
+impl<S, M: Monitor<S>> Objective<S> for Optimum<'_, M> {
+    fn read(&self, q: u32, s: &S) -> Result<Move, task::Error> {
+        self.moves.read(self.task, q, s)
+    }
+
+    fn bounds(&self, q: u32) -> (f64, f64) {
+        self.bounds[q as usize]
+    }
+
+    fn base(&self, _: &[S]) -> Result<Option<Vec<f32>>, Error> {
+        Ok(None)
+    }
+}
+
+/// For each automaton state the least and the most that can be had, from the most that the task
+/// pays and the least and the largest reward of the environment.
+pub(super) fn bounds(
+    most: &[f64],
+    settings: &Settings,
+    environment: (f64, f64),
+) -> Vec<(f64, f64)> {
+    let Settings { gamma, rewards, .. } = settings;
+    let for_ever = 1.0 / (1.0 - gamma);
+    let each = environment.0
+        - rewards.step_penalty.max(0.0)
+        - match rewards.mode {
+            Reward::Robustness { bound } => bound,
+            Reward::Shaped => 1.0,
+            _ => 0.0,
+        };
+    let least = each * for_ever - rewards.trap_penalty.max(0.0);
+    most.iter().map(|task| (least, (task + environment.1 * for_ever).max(least))).collect()
+}
+
+/// What all heads make of one replayed step.
+struct Outcome {
+    /// The rewards of the steps.
+    paid: f64,
+    /// What a value after them is worth now; 0 if there is none.
+    discount: f64,
+    /// The head after them, if the task goes on.
+    head: usize,
+}
+
+/// Replayed steps, ready to learn from.
+struct Sample<S> {
+    places: Vec<usize>,
+    weights: Vec<f64>,
+    actions: Vec<u32>,
+    /// The head that each step was taken in.
+    taken: Vec<Option<usize>>,
+    before: Vec<S>,
+    after: Vec<S>,
+    outcomes: Vec<Outcome>,
+}
+
+/// A network, its target, and what moves them.
+pub(super) struct Trainer {
+    pub heads: Heads,
+    pub model: Model,
+    pub target: Model,
+    pub descent: Descent,
+    pub popart: PopArt,
+    pub updates: u64,
+    before: Batch,
+    after: Batch,
+}
+
+impl Trainer {
+    pub(super) fn new(network: &Network, heads: Heads, rate: f64, device: &Device) -> Self {
+        let model = Model::new(network, device);
+        Self {
+            target: model.clone(),
+            descent: Descent::new(network.layers().len()),
+            popart: PopArt::new(heads.states.len(), rate),
+            updates: 0,
+            before: Batch::default(),
+            after: Batch::default(),
+            heads,
+            model,
+        }
+    }
+
+    /// The network, its normalisation taken back.
+    pub(super) fn network(&self) -> Network {
+        let mut model = self.model.clone();
+        model.rescale(&self.popart, &PopArt::new(self.heads.states.len(), 0.0));
+        model.network()
+    }
+
+    /// All values of some states, normalisation taken back.
+    pub(super) fn values(&self, model: &Model, batch: &Batch) -> Vec<f32> {
+        let mut values = model.values(batch);
+        let (actions, heads) = (model.shape().actions, self.heads.states.len());
+        for (i, row) in values.chunks_mut(actions).enumerate() {
+            let (mean, deviation) = self.popart.scale(i % heads);
+            row.iter_mut().for_each(|v| *v = *v * deviation as f32 + mean as f32);
+        }
+        values
+    }
+
+    /// Learns from one batch of steps; the loss.
+    pub(super) fn update<S, F, G, O, R>(
+        &mut self,
+        replay: &mut Replay<S>,
+        (features, goals): (&F, &G),
+        objective: &O,
+        settings: &Settings,
+        rng: &mut R,
+    ) -> Result<f64, Error>
+    where
+        S: Clone,
+        F: Features<S>,
+        G: Goals<S>,
+        O: Objective<S>,
+        R: Rng + ?Sized,
+    {
+        let sample = self.sample(replay, goals, objective, settings, rng)?;
+        encode(&mut self.before, features, &sample.before)?;
+        encode(&mut self.after, features, &sample.after)?;
+        let wanted = self.targets(&sample, objective)?;
+        self.normalise(&sample, &wanted, settings);
+        let targets = self.weighted(&sample, &wanted, settings);
+        let (loss, values, gradients) =
+            self.model.gradients(&self.before, &sample.actions, &targets);
+        if !loss.is_finite() {
+            return Err(Error::Loss(self.updates));
+        }
+        let rate = settings.learning_rate.at(self.updates);
+        self.descent.step(&mut self.model, gradients, rate, settings.gradient_norm);
+        self.target.follow(&self.model, settings.target_rate);
+        self.prioritise(replay, &sample, &targets, &values, settings);
+        self.updates += 1;
+        Ok(f64::from(loss))
+    }
+
+    fn sample<S, G, O, R>(
+        &self,
+        replay: &Replay<S>,
+        goals: &G,
+        objective: &O,
+        settings: &Settings,
+        rng: &mut R,
+    ) -> Result<Sample<S>, Error>
+    where
+        S: Clone,
+        G: Goals<S>,
+        O: Objective<S>,
+        R: Rng + ?Sized,
+    {
+        let mut sample = Sample {
+            places: Vec::new(),
+            weights: Vec::new(),
+            actions: Vec::new(),
+            taken: Vec::new(),
+            before: Vec::new(),
+            after: Vec::new(),
+            outcomes: Vec::new(),
+        };
+        let beta = settings.importance.at(self.updates);
+        for _ in 0..settings.batch {
+            let (place, probability) = replay.draw(settings.priority == 0.0, rng);
+            let mut states = relabelled(replay, place, goals, settings, rng);
+            for &q in &self.heads.states {
+                let rewards = (0..states.len() - 1).map(|i| replay.moment(replay.after(place, i)));
+                let steps = states[1..].iter().zip(rewards.map(|m| (m.reward, m.terminated)));
+                sample.outcomes.push(self.outcome(q, steps, objective, settings)?);
+            }
+            let moment = replay.moment(place);
+            sample.places.push(place);
+            sample.weights.push(probability.powf(-beta));
+            sample.actions.push(moment.action);
+            sample.taken.push(self.heads.of(moment.q));
+            sample.after.push(states.pop().expect("a step has two states"));
+            sample.before.push(states.swap_remove(0));
+        }
+        let largest = sample.weights.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+        sample.weights.iter_mut().for_each(|w| *w /= largest);
+        Ok(sample)
+    }
+
+    /// What some steps are worth to the automaton state `q`.
+    fn outcome<'s, S: 's, O: Objective<S>>(
+        &self,
+        mut q: u32,
+        steps: impl Iterator<Item = (&'s S, (f64, bool))>,
+        objective: &O,
+        settings: &Settings,
+    ) -> Result<Outcome, Error> {
+        let mut outcome = Outcome { paid: 0.0, discount: 1.0, head: 0 };
+        for (state, (reward, terminated)) in steps {
+            let Move { to, paid, .. } = objective.read(q, state)?;
+            let environment = objective.environment(q) * settings.rewards.environment;
+            outcome.paid += outcome.discount * (paid + environment * reward);
+            outcome.discount *= settings.gamma;
+            q = to;
+            match self.heads.of(q) {
+                Some(head) if !terminated => outcome.head = head,
+                _ => {
+                    outcome.discount = 0.0;
+                    break;
+                }
+            }
+        }
+        Ok(outcome)
+    }
+
+    /// What the network should say of each step, indexed `row * heads + head`.
+    fn targets<S, O: Objective<S>>(
+        &self,
+        sample: &Sample<S>,
+        objective: &O,
+    ) -> Result<Vec<f64>, Error> {
+        let (heads, actions) = (self.heads.states.len(), self.model.shape().actions);
+        let target = self.values(&self.target, &self.after);
+        let base = objective.base(&sample.after)?;
+        let chooses = match &base {
+            Some(base) if objective.evaluates() => base.clone(),
+            _ => sum(self.values(&self.model, &self.after), base.as_deref()),
+        };
+        let target = if objective.evaluates() { target } else { sum(target, base.as_deref()) };
+        let subtract = if objective.evaluates() { None } else { objective.base(&sample.before)? };
+        let wanted = sample.outcomes.iter().enumerate().map(|(i, outcome)| {
+            let mut wanted = outcome.paid;
+            if outcome.discount > 0.0 {
+                let from = (i / heads * heads + outcome.head) * actions;
+                let best = argmax(&chooses[from..from + actions]) as usize;
+                let (least, most) = objective.bounds(self.heads.states[outcome.head]);
+                wanted += outcome.discount * f64::from(target[from + best]).clamp(least, most);
+            }
+            let action = sample.actions[i / heads] as usize;
+            wanted - subtract.as_ref().map_or(0.0, |base| f64::from(base[i * actions + action]))
+        });
+        Ok(wanted.collect())
+    }
+
+    /// Takes the targets into the normalisation.
+    fn normalise<S>(&mut self, sample: &Sample<S>, wanted: &[f64], settings: &Settings) {
+        let old = self.popart.clone();
+        let heads = self.heads.states.len();
+        for head in 0..heads {
+            let rows = wanted.iter().skip(head).step_by(heads).zip(&sample.taken);
+            let counts = |taken: &Option<usize>| settings.counterfactual || *taken == Some(head);
+            let targets = rows.filter(|(_, taken)| counts(taken)).map(|(wanted, _)| *wanted);
+            self.popart.observe(head, targets);
+        }
+        self.model.rescale(&old, &self.popart);
+        self.target.rescale(&old, &self.popart);
+    }
+
+    fn weighted<S>(&self, sample: &Sample<S>, wanted: &[f64], settings: &Settings) -> Vec<Target> {
+        let heads = self.heads.states.len();
+        let targets = wanted.iter().enumerate().map(|(i, wanted)| {
+            let (row, head) = (i / heads, i % heads);
+            let (mean, deviation) = self.popart.scale(head);
+            let counts = settings.counterfactual || sample.taken[row] == Some(head);
+            let weight = if counts { sample.weights[row] as f32 } else { 0.0 };
+            Target { value: ((wanted - mean) / deviation) as f32, weight }
+        });
+        targets.collect()
+    }
+
+    fn prioritise<S>(
+        &self,
+        replay: &mut Replay<S>,
+        sample: &Sample<S>,
+        targets: &[Target],
+        values: &[f32],
+        settings: &Settings,
+    ) {
+        if settings.priority == 0.0 {
+            return;
+        }
+        let heads = self.heads.states.len();
+        let rows = targets.chunks(heads).zip(values.chunks(heads));
+        for (&place, (targets, values)) in sample.places.iter().zip(rows) {
+            let counted = targets.iter().zip(values).filter(|(target, _)| target.weight > 0.0);
+            let (n, error) = counted.fold((0, 0.0), |(n, sum), (target, value)| {
+                (n + 1, sum + f64::from((target.value - value).abs()))
+            });
+            let error = if n == 0 { 0.0 } else { error / f64::from(n) };
+            replay.prioritise(place, (error + LEAST_ERROR).powf(settings.priority));
+        }
+    }
+}
+
+/// The states of a step or of several, with one goal.
+fn relabelled<S: Clone, G: Goals<S>, R: Rng + ?Sized>(
+    replay: &Replay<S>,
+    place: usize,
+    goals: &G,
+    settings: &Settings,
+    rng: &mut R,
+) -> Vec<S> {
+    let ahead = replay.steps_from(place);
+    let count = settings.steps.clamp(1, ahead);
+    let state = |i| &replay.moment(replay.after(place, i)).state;
+    let relabel = settings.hindsight > 0.0 && unit(rng) < settings.hindsight;
+    let goal = relabel.then(|| {
+        let later = 1 + crate::env::below(ahead, rng);
+        goals.choose(state(0), state(later), rng)
+    });
+    match goal.flatten() {
+        Some(goal) => (0..=count).map(|i| goals.give(state(i), &goal)).collect(),
+        None => (0..=count).map(|i| state(i).clone()).collect(),
+    }
+}
+
+fn encode<S, F: Features<S>>(batch: &mut Batch, features: &F, states: &[S]) -> Result<(), Error> {
+    batch.clear();
+    states.iter().try_for_each(|s| batch.push(features, s).map_err(Error::Feature))
+}
+
+/// Two tables of values, entry by entry.
+fn sum(mut values: Vec<f32>, base: Option<&[f32]>) -> Vec<f32> {
+    if let Some(base) = base {
+        values.iter_mut().zip(base).for_each(|(v, b)| *v += b);
+    }
+    values
+}

@@ -1,0 +1,314 @@
+//! Networks of action values: their shape, their weights, and a forward pass in plain Rust.
+//!
+//! A [`Network`] maps what an agent sees of a state to Q(s, q, ·) for every live automaton state: a
+//! trunk of dense layers with rectifiers, then one *head* for each automaton state. Choosing a head
+//! is choosing the sub-policy of q, so the automaton state never has to be learned from an input.
+//!
+//! Worlds with many things of one kind (objects, places) have an action for each of them. Such an
+//! action *points* at its entity: the head puts out a query, and the value of pointing is what
+//! all pointing has in common and the product of the query with the entity's features, as in pointer networks (Vinyals et al. 2015).
+//! What is learned of one entity so holds for all, and entities that look alike are worth the same,
+//! which is what keeps the maximum over many actions from drowning in noise.
+//!
+//! This module learns nothing and needs nothing but an allocator; the learner is in `deep`.
+
+use alloc::vec::Vec;
+use core::fmt;
+
+#[cfg(feature = "serde")]
+use serde::{Deserialize, Serialize};
+
+use crate::q::argmax;
+
+/// What a network sees of a state of type `S`.
+///
+/// The features must be finite numbers, and of the size of 1.
+pub trait Features<S: ?Sized> {
+    /// The number of features of the state as a whole.
+    fn inputs(&self) -> usize;
+
+    /// The number of entities that actions point at: the last `entities()` actions, in order.
+    fn entities(&self) -> usize {
+        0
+    }
+
+    /// The number of features of each entity.
+    fn channels(&self) -> usize {
+        0
+    }
+
+    /// Writes the features of `s`: `inputs` has length `inputs()`, and `entities`, indexed
+    /// `channel * entities() + entity`, has length `channels() * entities()`. Both are zeros before.
+    fn write(&self, s: &S, inputs: &mut [f32], entities: &mut [f32]);
+}
+
+impl<S: ?Sized, F: Features<S> + ?Sized> Features<S> for &F {
+    fn inputs(&self) -> usize {
+        (**self).inputs()
+    }
+
+    fn entities(&self) -> usize {
+        (**self).entities()
+    }
+
+    fn channels(&self) -> usize {
+        (**self).channels()
+    }
+
+    fn write(&self, s: &S, inputs: &mut [f32], entities: &mut [f32]) {
+        (**self).write(s, inputs, entities);
+    }
+}
+
+/// The sizes of a network.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Shape {
+    /// Features of the state.
+    pub inputs: usize,
+    /// Units of each hidden layer.
+    pub hidden: Vec<usize>,
+    /// Heads: live automaton states.
+    pub heads: usize,
+    /// Actions, those that point at entities last.
+    pub actions: usize,
+    /// Entities.
+    pub entities: usize,
+    /// Features of each entity.
+    pub channels: usize,
+}
+
+impl Shape {
+    /// The sizes of a network that reads `features`.
+    ///
+    /// # Panics
+    /// If there are more entities than actions.
+    pub fn of<S: ?Sized>(
+        features: &impl Features<S>,
+        hidden: &[usize],
+        heads: usize,
+        actions: usize,
+    ) -> Self {
+        let (inputs, entities) = (features.inputs(), features.entities());
+        assert!(entities <= actions, "an action for each entity");
+        let channels = if entities == 0 { 0 } else { features.channels() };
+        Self { inputs, hidden: hidden.to_vec(), heads, actions, entities, channels }
+    }
+
+    /// The actions that point at nothing.
+    pub(crate) fn plain(&self) -> usize {
+        self.actions - self.entities
+    }
+
+    /// What a head puts out as values: those of the plain actions, and what all pointing actions
+    /// have in common.
+    pub(crate) fn levels(&self) -> usize {
+        self.plain() + usize::from(self.entities > 0)
+    }
+
+    /// What a head puts out: the values, then the query.
+    pub(crate) fn head_width(&self) -> usize {
+        self.levels() + self.channels
+    }
+
+    /// The widths of all layers, the input first.
+    pub(crate) fn widths(&self) -> Vec<usize> {
+        let ends = [self.inputs, self.heads * self.head_width()];
+        let mut widths = alloc::vec![ends[0]];
+        widths.extend(&self.hidden);
+        widths.push(ends[1]);
+        widths
+    }
+}
+
+/// A dense layer: `y = x W + b`.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Dense {
+    /// W, indexed `input * outputs + output`.
+    pub weights: Vec<f32>,
+    /// b, one for each output.
+    pub bias: Vec<f32>,
+}
+
+/// Why layers are no network.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Invalid {
+    /// There are not as many layers as the shape says.
+    Layers,
+    /// A layer has not the sizes that the shape says.
+    Size {
+        /// Which layer.
+        layer: usize,
+    },
+    /// A weight is infinite or not a number.
+    NotFinite {
+        /// Of which layer.
+        layer: usize,
+    },
+    /// The shape has no head, no action, or more entities than actions.
+    Shape,
+}
+
+impl fmt::Display for Invalid {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Layers => f.write_str("a network with too few or too many layers"),
+            Self::Size { layer } => write!(f, "layer {layer} is not of the shape's size"),
+            Self::NotFinite { layer } => {
+                write!(f, "layer {layer} has a weight that is not a finite number")
+            }
+            Self::Shape => {
+                f.write_str("a network needs heads and actions, and an action for each entity")
+            }
+        }
+    }
+}
+
+impl core::error::Error for Invalid {}
+
+/// A network of action values. Its layers fit its shape, and its weights are finite.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "Unchecked", into = "Unchecked"))]
+pub struct Network {
+    shape: Shape,
+    layers: Vec<Dense>,
+}
+
+impl Network {
+    /// The network of these layers.
+    ///
+    /// # Errors
+    /// If they do not fit the shape, or a weight is not finite.
+    pub fn new(shape: Shape, layers: Vec<Dense>) -> Result<Self, Invalid> {
+        if shape.heads == 0 || shape.actions == 0 || shape.entities > shape.actions {
+            return Err(Invalid::Shape);
+        }
+        let widths = shape.widths();
+        if layers.len() + 1 != widths.len() {
+            return Err(Invalid::Layers);
+        }
+        for (layer, (dense, width)) in layers.iter().zip(widths.windows(2)).enumerate() {
+            if dense.weights.len() != width[0] * width[1] || dense.bias.len() != width[1] {
+                return Err(Invalid::Size { layer });
+            }
+            if !dense.weights.iter().chain(&dense.bias).all(|w| w.is_finite()) {
+                return Err(Invalid::NotFinite { layer });
+            }
+        }
+        Ok(Self { shape, layers })
+    }
+
+    /// A network with random weights: uniform in ±√(6/inputs) (He et al. 2015), and a tenth of it in
+    /// the heads, so that all values are near 0 at first.
+    #[cfg(feature = "std")]
+    pub fn random<R: rand::Rng + ?Sized>(shape: Shape, rng: &mut R) -> Self {
+        let widths = shape.widths();
+        let last = widths.len() - 2;
+        let layers = widths.windows(2).enumerate().map(|(i, width)| {
+            let bound = (6.0 / width[0].max(1) as f32).sqrt() * if i == last { 0.1 } else { 1.0 };
+            let weight = |_| (2.0 * crate::env::unit(rng) as f32 - 1.0) * bound;
+            let weights = (0..width[0] * width[1]).map(weight).collect();
+            Dense { weights, bias: alloc::vec![0.0; width[1]] }
+        });
+        let layers = layers.collect();
+        Self { shape, layers }
+    }
+
+    /// The same network with all values 0: the weights of the heads are.
+    #[must_use]
+    pub fn silent(mut self) -> Self {
+        if let Some(heads) = self.layers.last_mut() {
+            heads.weights.fill(0.0);
+            heads.bias.fill(0.0);
+        }
+        self
+    }
+
+    /// The sizes.
+    #[must_use]
+    pub const fn shape(&self) -> &Shape {
+        &self.shape
+    }
+
+    /// The layers, the heads last: the columns of head h start at
+    /// `h * (actions - entities + 1 + channels)`; without entities, at
+    /// `h * actions`.
+    #[must_use]
+    pub fn layers(&self) -> &[Dense] {
+        &self.layers
+    }
+
+    /// Q(s, q, ·) of the head of q, from the features of s.
+    ///
+    /// # Panics
+    /// If the features or the head do not fit the shape.
+    #[must_use]
+    pub fn values(&self, head: usize, inputs: &[f32], entities: &[f32]) -> Vec<f32> {
+        let (plain, n) = (self.shape.plain(), self.shape.entities);
+        let (last, trunk) = self.layers.split_last().expect("a network has heads");
+        let mut x = inputs.to_vec();
+        for dense in trunk {
+            x = dense.forward(&x, 0, dense.bias.len());
+            x.iter_mut().for_each(|v| *v = v.max(0.0));
+        }
+        let width = self.shape.head_width();
+        let mut out = last.forward(&x, head * width, width);
+        let query = out.split_off(self.shape.levels());
+        let common = out.get(plain).copied().unwrap_or(0.0);
+        out.resize(plain + n, common);
+        for (q, features) in query.iter().zip(entities.chunks(n.max(1))) {
+            out[plain..].iter_mut().zip(features).for_each(|(v, f)| *v += q * f);
+        }
+        out
+    }
+
+    /// The action of the largest value, the lowest of equals.
+    ///
+    /// # Panics
+    /// As [`Self::values`].
+    #[must_use]
+    pub fn greedy(&self, head: usize, inputs: &[f32], entities: &[f32]) -> usize {
+        argmax(&self.values(head, inputs, entities)) as usize
+    }
+}
+
+impl Dense {
+    /// The outputs `from..from + width`.
+    fn forward(&self, x: &[f32], from: usize, width: usize) -> Vec<f32> {
+        let mut y = self.bias[from..from + width].to_vec();
+        for (&x, row) in x.iter().zip(self.weights.chunks(self.bias.len())) {
+            if x != 0.0 {
+                y.iter_mut().zip(&row[from..from + width]).for_each(|(y, w)| *y += x * w);
+            }
+        }
+        y
+    }
+}
+
+#[cfg(feature = "serde")]
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Unchecked {
+    shape: Shape,
+    layers: Vec<Dense>,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Unchecked> for Network {
+    type Error = Invalid;
+
+    fn try_from(network: Unchecked) -> Result<Self, Invalid> {
+        Self::new(network.shape, network.layers)
+    }
+}
+
+#[cfg(feature = "serde")]
+impl From<Network> for Unchecked {
+    fn from(network: Network) -> Self {
+        Self { shape: network.shape, layers: network.layers }
+    }
+}
