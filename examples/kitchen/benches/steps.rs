@@ -1,18 +1,21 @@
-//! Speed of the kitchen under random actions, and of the planner.
+//! Speed of the kitchen under random actions and of the planner; lengths of its plans and of the
+//! searcher's episodes.
 //!
-//! `cargo bench -p tltl-kitchen --bench steps`: the best of some repetitions counts, on one core; what is
-//! measured must give the right answer.
+//! `cargo bench -p tltl-kitchen --bench steps`: the best of some repetitions counts, on one core;
+//! what is measured must give the right answer.
 
 use std::hint::black_box;
 use std::sync::Arc;
 use std::time::Instant;
 
+use tltl::Monitor;
 use tltl::env::Env;
-use tltl::product::Product;
+use tltl::product::{Operand, Product};
 use tltl::rand::{Rng, SeedableRng, rngs::Xoshiro256PlusPlus};
 use tltl_kitchen::planner::Planner;
+use tltl_kitchen::searcher::Searcher;
 use tltl_kitchen::tasks::phi_3;
-use tltl_kitchen::{Goal, Goals, Kitchen, Layout};
+use tltl_kitchen::{Goal, Goals, Kitchen, Known, Layout};
 
 const STEPS: u32 = 10_000_000;
 const REPETITIONS: u32 = 5;
@@ -50,40 +53,57 @@ fn steps(layout: &Arc<Layout>) {
     assert!((0.1..0.5).contains(&rate), "{rate}");
 }
 
-/// Plans from many starts of `goals`; `first` is the goal that is there besides the drawn one.
-fn plans(name: &str, layout: &Arc<Layout>, goals: Goals, first: Option<Goal>) {
-    let mut kitchen = Kitchen::new(layout.clone(), goals, 200).unwrap();
+/// Plans and searches from many starts of `goals`; `first` is the goal that is there besides the
+/// drawn one.
+fn episodes(name: &str, layout: &Arc<Layout>, goals: Goals, first: Option<Goal>, limit: u32) {
+    let mut kitchen = Kitchen::new(layout.clone(), goals, limit).unwrap();
+    let searcher = Searcher::new(layout.clone(), first);
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
-    let (mut length, mut seconds, mut longest, mut worst) = (0, 0.0, 0, 0.0f64);
+    let (mut planned, mut searched, mut times) = (Vec::new(), Vec::new(), Vec::new());
     for _ in 0..STARTS {
         let goal = kitchen.reset(&mut rng).goal();
         let goals: Vec<Goal> = first.into_iter().chain([goal]).collect();
         let tasks: Vec<_> = goals.iter().map(|goal| phi_3(goal.object, goal.receptacle)).collect();
-        let operands: Vec<_> =
-            tasks.iter().map(|task| task as tltl::product::Operand<'_, _>).collect();
+        let operands: Vec<Operand<'_, Known>> = tasks.iter().map(|task| task as _).collect();
         let product = Product::conjunction(&operands);
         let start = Instant::now();
         let plan = Planner::new(layout, &product, &goals).plan(kitchen.truth()).unwrap();
-        let took = start.elapsed().as_secs_f64();
-        let steps = plan.expect("every start can be solved").len();
-        (length, longest) = (length + steps, longest.max(steps));
-        (seconds, worst) = (seconds + took, worst.max(took));
+        times.push(start.elapsed().as_secs_f64() * 1e3);
+        planned.push(plan.expect("every start can be solved").len() as f64);
+        searched.push(search(&mut kitchen, &searcher, &product));
     }
-    let n = STARTS as f64;
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+    let most = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
     println!(
-        "plans, {name}: {:.3} steps, {longest} at most; {:.2} ms, {:.1} at most",
-        length as f64 / n,
-        seconds / n * 1e3,
-        worst * 1e3
+        "{name}: planner {:.2} steps (at most {}) in {:.2} ms (at most {:.0}); searcher {:.2} (at most {})",
+        mean(&planned),
+        most(&planned),
+        mean(&times),
+        most(&times),
+        mean(&searched),
+        most(&searched),
     );
+    assert!(planned.iter().zip(&searched).all(|(plan, search)| plan <= search));
+    assert!(mean(&times) < 50.0);
+}
+
+/// The number of steps that the searcher needs from where `kitchen` is.
+fn search(kitchen: &mut Kitchen, searcher: &Searcher, task: &Product<'_, Known>) -> f64 {
+    let mut q = task.next(0, kitchen.known()).unwrap();
+    while !task.is_accepting(q) {
+        assert!(kitchen.steps() < kitchen.horizon_steps(), "the searcher always succeeds");
+        q = task.next(q, &kitchen.act(searcher.action(kitchen.known())).state).unwrap();
+    }
+    assert_eq!(kitchen.failures(), 0);
+    f64::from(kitchen.steps())
 }
 
 fn main() {
     let layout = Arc::new(Layout::floorplan24());
     let (object, receptacle) = (layout.id("apple").unwrap(), layout.id("fridge").unwrap());
+    let apple = Goal { object, receptacle };
     steps(&layout);
-    plans("task 1", &layout, Goals::Fixed { object, receptacle }, None);
-    plans("task 2", &layout, Goals::Random { except: None }, None);
-    let first = Goal { object, receptacle };
-    plans("composition", &layout, Goals::Beside { object, receptacle }, Some(first));
+    episodes("task 1", &layout, Goals::Fixed { object, receptacle }, None, 100);
+    episodes("task 2", &layout, Goals::Random { except: None }, None, 200);
+    episodes("composition", &layout, Goals::Beside { object, receptacle }, Some(apple), 200);
 }

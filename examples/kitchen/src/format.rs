@@ -31,7 +31,7 @@
 //! Ids follow the order of the file: all objects, then all receptacles. What has a `count` above 1,
 //! or a `first`, is numbered. Every mistake is told with its place.
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 
 use serde::Deserialize;
 use toml::Spanned;
@@ -53,7 +53,7 @@ struct File {
 struct ObjectEntry {
     r#type: Spanned<String>,
     name: Option<Spanned<String>>,
-    first: Option<i64>,
+    first: Option<Spanned<i64>>,
     count: Option<Spanned<i64>>,
     fits: Spanned<Vec<Spanned<String>>>,
 }
@@ -63,7 +63,7 @@ struct ObjectEntry {
 struct ReceptacleEntry {
     r#type: Spanned<String>,
     name: Option<Spanned<String>>,
-    first: Option<i64>,
+    first: Option<Spanned<i64>>,
     count: Option<Spanned<i64>>,
     #[serde(default)]
     door: bool,
@@ -105,49 +105,11 @@ fn place(text: &str, offset: usize) -> (usize, usize) {
 
 fn read(file: &File) -> Result<Layout, Mistake> {
     let mut names = Names::default();
-    let mut objects = Vec::new();
-    for entry in &file.object {
-        let all =
-            names.expand(&entry.r#type, entry.name.as_ref(), entry.first, entry.count.as_ref())?;
-        objects.extend(all.into_iter().map(|name| (name, entry)));
-    }
-    let mut receptacles = Vec::new();
-    for entry in &file.receptacle {
-        let all =
-            names.expand(&entry.r#type, entry.name.as_ref(), entry.first, entry.count.as_ref())?;
-        let level = level(&entry.horizon)?;
-        let capacity = capacity(entry)?;
-        receptacles.extend(all.into_iter().map(|name| (name, entry, level, capacity)));
-    }
-    let missing = |what: &str| Err(Mistake(format!("the kitchen has no {what}"), None));
-    if objects.is_empty() {
-        return missing("object: write [[object]] with `type` and `fits`");
-    }
-    if receptacles.is_empty() {
-        return missing("receptacle: write [[receptacle]] with `type`, `capacity` and `horizon`");
-    }
+    let objects = objects(file, &mut names)?;
+    let receptacles = receptacles(file, &mut names, &objects)?;
     check_types(file)?;
-    let accepts = |kind: &str| {
-        let fits = |entry: &ObjectEntry| entry.fits.get_ref().iter().any(|t| t.get_ref() == kind);
-        (0..)
-            .zip(&objects)
-            .filter(|(_, (_, entry))| fits(entry))
-            .fold(0, |set, (o, _)| set | 1 << o)
-    };
-    let receptacles = receptacles.into_iter().map(|(name, entry, level, capacity)| Receptacle {
-        name,
-        kind: entry.r#type.get_ref().clone(),
-        door: entry.door,
-        capacity,
-        level,
-        accepts: accepts(entry.r#type.get_ref()),
-    });
-    let receptacles = receptacles.collect();
-    let objects: Vec<_> = objects
-        .iter()
-        .map(|(name, entry)| (name.clone(), entry.r#type.get_ref().clone()))
-        .collect();
-    let layout = Layout::new(objects, receptacles);
+    let objects = objects.into_iter().map(|(name, entry)| (name, entry.r#type.get_ref().clone()));
+    let layout = Layout::new(objects.collect(), receptacles);
     let (all, placed) = (layout.objects(), layout.placed(&[]));
     if placed < all {
         let message = format!(
@@ -158,55 +120,110 @@ fn read(file: &File) -> Result<Layout, Mistake> {
     Ok(layout)
 }
 
-/// The names that are taken, each with the offset of its entry.
+/// The objects by name.
+fn objects<'a>(
+    file: &'a File,
+    names: &mut Names,
+) -> Result<Vec<(String, &'a ObjectEntry)>, Mistake> {
+    let mut objects = Vec::new();
+    for entry in &file.object {
+        let ObjectEntry { r#type, name, first, count, .. } = entry;
+        let all = names.expand(&Group { r#type, name, first, count })?;
+        objects.extend(all.into_iter().map(|name| (name, entry)));
+    }
+    if objects.is_empty() {
+        let help = "write [[object]] with `type` and `fits`";
+        return Err(Mistake(format!("the kitchen has no object: {help}"), None));
+    }
+    Ok(objects)
+}
+
+/// The receptacles, and which of `objects` may be put into them.
+fn receptacles(
+    file: &File,
+    names: &mut Names,
+    objects: &[(String, &ObjectEntry)],
+) -> Result<Vec<Receptacle>, Mistake> {
+    let mut receptacles = Vec::new();
+    for entry in &file.receptacle {
+        let ReceptacleEntry { r#type, name, first, count, .. } = entry;
+        let all = names.expand(&Group { r#type, name, first, count })?;
+        let (level, capacity, kind) = (level(&entry.horizon)?, capacity(entry)?, r#type.get_ref());
+        let fits = |entry: &ObjectEntry| entry.fits.get_ref().iter().any(|t| t.get_ref() == kind);
+        let fitting = (0..).zip(objects).filter(|(_, (_, entry))| fits(entry));
+        let accepts = fitting.fold(0, |set, (o, _)| set | 1u64 << o);
+        let (kind, door) = (kind.clone(), entry.door);
+        receptacles.extend(all.into_iter().map(|name| Receptacle {
+            name,
+            kind: kind.clone(),
+            door,
+            capacity,
+            level,
+            accepts,
+        }));
+    }
+    if receptacles.is_empty() {
+        let help = "write [[receptacle]] with `type`, `capacity` and `horizon`";
+        return Err(Mistake(format!("the kitchen has no receptacle: {help}"), None));
+    }
+    Ok(receptacles)
+}
+
+/// What an entry says of the names of its members.
+struct Group<'a> {
+    r#type: &'a Spanned<String>,
+    name: &'a Option<Spanned<String>>,
+    first: &'a Option<Spanned<i64>>,
+    count: &'a Option<Spanned<i64>>,
+}
+
+/// The names that are taken.
 #[derive(Default)]
 struct Names {
-    taken: BTreeMap<String, usize>,
+    taken: BTreeSet<String>,
 }
 
 impl Names {
-    /// The names of an entry's members.
-    fn expand(
-        &mut self,
-        kind: &Spanned<String>,
-        name: Option<&Spanned<String>>,
-        first: Option<i64>,
-        count: Option<&Spanned<i64>>,
-    ) -> Result<Vec<String>, Mistake> {
-        let base = name.unwrap_or(kind);
-        for word in [kind, base] {
-            check_word(word)?;
-        }
-        let many = count.map_or(1, |count| *count.get_ref());
-        if let Some(count) = count.filter(|_| !(1..=MAX_IDS as i64).contains(&many)) {
-            let message =
-                format!("`count` of `{}` is {many}; 1 to {MAX_IDS} are possible", base.get_ref());
-            return mistake(count, message);
-        }
-        let numbered = first.is_some() || many > 1;
-        let from = first.unwrap_or(1);
-        let name = |i| {
-            if numbered {
-                format!("{}_{}", base.get_ref(), from + i)
-            } else {
-                base.get_ref().clone()
-            }
-        };
-        let names: Vec<String> = (0..many).map(name).collect();
+    /// The names of a group's members.
+    fn expand(&mut self, group: &Group<'_>) -> Result<Vec<String>, Mistake> {
+        let base = group.name.as_ref().unwrap_or(group.r#type);
+        let (word, most) = (base.get_ref(), MAX_IDS as i64);
+        check_word(group.r#type)?;
+        check_word(base)?;
+        let count = in_range("count", group.count.as_ref(), word, 1, most)?;
+        let first = in_range("first", group.first.as_ref(), word, 0, 9999)?;
+        let numbered = first.is_some() || count > Some(1);
+        let (first, count) = (first.unwrap_or(1), count.unwrap_or(1));
+        let name = |i| if numbered { format!("{word}_{i}") } else { word.clone() };
+        let names: Vec<String> = (first..first + count).map(name).collect();
         for name in &names {
-            if self.taken.insert(name.clone(), base.span().start).is_some() {
+            if !self.taken.insert(name.clone()) {
                 return mistake(base, duplicate(name, numbered));
             }
         }
         if self.taken.len() > MAX_IDS {
-            let message = format!(
-                "with `{}` there are more than {MAX_IDS} objects and receptacles",
-                base.get_ref()
-            );
+            let message =
+                format!("with `{word}` there are more than {MAX_IDS} objects and receptacles");
             return mistake(base, message);
         }
         Ok(names)
     }
+}
+
+/// The number that entry `word` gives for `key`, which must be from `least` to `most`.
+fn in_range(
+    key: &str,
+    number: Option<&Spanned<i64>>,
+    word: &str,
+    least: i64,
+    most: i64,
+) -> Result<Option<i64>, Mistake> {
+    let Some(spanned) = number else { return Ok(None) };
+    let number = *spanned.get_ref();
+    if (least..=most).contains(&number) {
+        return Ok(Some(number));
+    }
+    mistake(spanned, format!("`{key}` of `{word}` is {number}; {least} to {most} are possible"))
 }
 
 fn duplicate(name: &str, numbered: bool) -> String {
@@ -241,15 +258,9 @@ fn level(horizon: &Spanned<i64>) -> Result<u8, Mistake> {
 }
 
 fn capacity(entry: &ReceptacleEntry) -> Result<u8, Mistake> {
-    let capacity = *entry.capacity.get_ref();
-    if (1..=MAX_IDS as i64).contains(&capacity) {
-        return Ok(capacity as u8);
-    }
     let name = entry.name.as_ref().unwrap_or(&entry.r#type).get_ref();
-    mistake(
-        &entry.capacity,
-        format!("the capacity of `{name}` is {capacity}; 1 to {MAX_IDS} are possible"),
-    )
+    let capacity = in_range("capacity", Some(&entry.capacity), name, 1, MAX_IDS as i64)?;
+    Ok(capacity.unwrap_or(1) as u8)
 }
 
 /// Checks what fits where: all types that are named exist, and none is left out by mistake.
@@ -302,7 +313,7 @@ fn check_fit(file: &File, kind: &Spanned<String>) -> Result<(), Mistake> {
 
 /// The one of `known` that is spelled most like `name`, if it is near enough.
 fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    let most = name.chars().count().max(4) / 3;
+    let most = name.chars().count().max(6) / 3;
     let near = known.map(|other| (distance(name, other), other));
     near.min().filter(|&(distance, _)| distance <= most).map(|(_, other)| other)
 }

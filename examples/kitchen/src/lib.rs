@@ -1,8 +1,8 @@
 //! The kitchen of the paper's Section 5.2, as an exact symbolic simulator.
 //!
-//! The paper's kitchen ran in AI2-THOR, whose builds cannot be had without a download at run time. Its
-//! problem is the *high-level* one, for navigation is assumed to work; so the decision problem is
-//! rebuilt here as rules over objects, receptacles, doors and a view, to be stepped millions of
+//! The paper's kitchen ran in AI2-THOR, whose builds cannot be had without a download at run time.
+//! Its problem is the *high-level* one, for navigation is assumed to work; so the decision problem
+//! is rebuilt here as rules over objects, receptacles, doors and a view, to be stepped millions of
 //! times a second and searched exactly.
 //!
 //! | module | what it turns into what |
@@ -25,12 +25,11 @@
 //! of cabinets, fridge, microwave and coffee machine; the preconditions of `pick`, `put`, `open`,
 //! `close`; four levels of the horizon; a failed action changes nothing; starts are random.
 //!
-//! Reconstructed, and so to be said wherever results are shown:
-//! the other capacities; which horizon each receptacle needs; that nothing but what is focused is in
-//! view; what `navigate` to an object needs (that the agent remembers where it is, that no closed
-//! door is before it, and that it is not in hand); that after `pick` the receptacle is focused that
-//! held the object; how starts and goals are drawn; the formulas, for the paper's supplement is lost;
-//! the cost of a failed action.
+//! Reconstructed, and so to be said wherever results are shown: the other capacities; which horizon
+//! each receptacle needs; that nothing but what is focused is in view; what `navigate` to an object
+//! needs (that the agent remembers where it is, that no closed door is before it, and that it is
+//! not in hand); that after `pick` the receptacle is focused that held the object; how starts and
+//! goals are drawn; the formulas, for the paper's supplement is lost; the cost of a failed action.
 
 pub mod action;
 pub mod format;

@@ -26,18 +26,19 @@
 //! Every plan that satisfies the specification has one of the same length here that does:
 //!
 //! - By 1 to 3, let y do for x, and let an action that only moves what is gone, opens what is open
-//!   already, or closes something be a wait (going where the agent is changes nothing). Instant
-//!   by instant the agent then sees and knows at least as much: what is merged is seen together, and what is
-//!   not closed is not hidden. What is in hand, and what of O is in which receptacle of R, is the
-//!   same. So every predicate holds wherever it did, and formulas without negation are monotone.
+//!   already, or closes something be a wait (going where the agent is changes nothing). Instant by
+//!   instant the agent then sees and knows at least as much: what is merged is seen together, and
+//!   what is not closed is not hidden. What is in hand, and what of O is in which receptacle of R,
+//!   is the same. So every predicate holds wherever it did, and formulas without negation are
+//!   monotone.
 //! - By 4, a look that shows nothing and is followed by going elsewhere can as well follow it; and
 //!   going to where nothing is seen, and on from there, is a wait.
 //! - By 5, the kitchen is the same with the two exchanged.
 //!
-//! So a shortest plan here is no longer than a shortest plan. It is then run in the kitchen itself, where it may
-//! fail in one way only: something is put where there is no room. That receptacle joins E,
-//! and the search starts anew; else the plan is a shortest one. The tests compare with a search
-//! that leaves nothing out.
+//! So a shortest plan here is no longer than a shortest plan. It is then run in the kitchen itself,
+//! where it may fail in one way only: something is put where there is no room. That receptacle
+//! joins E, and the search starts anew; else the plan is a shortest one. The tests compare with a
+//! search that leaves nothing out.
 
 use rustc_hash::FxHashMap;
 use tltl::Monitor;

@@ -1,10 +1,10 @@
 //! A scripted policy that knows the rules and sees only what the agent sees.
 //!
-//! It says what a fair policy can hope for: the [planner](crate::planner) knows where everything is,
-//! a learner does not. It fetches what it knows the place of, the nearest first; else it looks for
-//! what is wanted, where the chance to find it is largest for the steps that it takes. It
-//! knows how starts are drawn, but nothing of the one that it is in beyond [`Known`], and has no
-//! memory besides. What it does satisfies φ.3, and so φ.1 and φ.2.
+//! It says what a fair policy can hope for: the [planner](crate::planner) knows where everything
+//! is, a learner does not. It fetches what it knows the place of, the nearest first; else it looks
+//! for what is wanted, where the chance to find it is largest for the steps that it takes. It knows
+//! how starts are drawn, but nothing of the one that it is in beyond [`Known`], and has no memory
+//! besides. What it does satisfies φ.3, and so φ.1 and φ.2.
 //!
 //! It is greedy, so not the best policy: what it sees of one object tells it nothing of the others,
 //! and it does not weigh what a way will show besides.

@@ -1,8 +1,9 @@
 //! One episode as a strip of pictures (SVG).
 //!
-//! A picture an instant: what the agent did; the receptacle that it stands before, with its door and what is
-//! seen in it; how high it looks (of four heights the filled one, with a ring at the one that is
-//! needed); what is in hand; and below, the automaton state, with the reason where it moved.
+//! A picture an instant: what the agent did; the receptacle that it stands before, with its door
+//! and what is seen in it; how high it looks (of four heights the filled one, with a ring at the
+//! one that is needed); what is in hand; and below, the automaton state, with the reason where it
+//! moved.
 
 use std::fmt::Write as _;
 

@@ -2,14 +2,15 @@
 //!
 //! With a drawn goal, `phi_j(object, receptacle)` is the paper's φ2.j; the composition is the
 //! [product](tltl::product::Product) of `phi1_3()` and `phi_3(object, receptacle)`. A task is made
-//! anew for each goal, which costs nothing: its automaton is static. [`told`] has the same over the goal
-//! that the agent is told, for those who want one task for all episodes.
+//! anew for each goal, which costs nothing: its automaton is static. [`told`] has the same over the
+//! goal that the agent is told, for those who want one task for all episodes.
 
 tltl::include_tltl!("tasks/kitchen.tltl", state = crate::known::Known);
 
 pub use kitchen::{hold, inside, open, phi_1, phi_2, phi_3, phi1_1, phi1_2, phi1_3, see};
 
-/// The specifications over the goal that the agent is [told](crate::Known::goal), so without parameters.
+/// The specifications over the goal that the agent is [told](crate::Known::goal), so without
+/// parameters.
 ///
 /// They panic on a state without a goal, which no episode has.
 pub mod told {

@@ -136,7 +136,8 @@ impl Truth {
         places.fold(0, |set, (o, &place)| set | u64::from(place == r) << o)
     }
 
-    /// The receptacle that is focused, by itself or with an object in it; [`NONE`] if there is none.
+    /// The receptacle that is focused, by itself or with an object in it; [`NONE`] if there is
+    /// none.
     #[inline]
     #[must_use]
     pub const fn focused_receptacle(&self, layout: &Layout) -> u8 {
