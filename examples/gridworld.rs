@@ -77,8 +77,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         (0..world.grid.actions()).map(|a| world.grid.action_name(a)).collect(),
     )?;
     let components = (0..visit_all.states()).map(|q| visit_all.components(q).to_vec()).collect();
-    let policy = policy.composed(components)?.certified(certificate);
-    let policy = policy.trained(Training::of(&first), SEED);
+    let mut policy = policy.composed(components)?.certified(certificate);
+    for (name, learner, seed) in [("visit_a_b", &first, SEED), ("visit_c", &second, SEED + 1)] {
+        policy = policy.trained(Training::of(name, learner, seed));
+    }
+    let problem = Problem::new(&world.dynamics, &tasks[2]);
+    let policy = policy.from_starts(&problem.starts(&refined.policy(), &problem.best()));
     let json = serde_json::to_string_pretty(&policy)?;
     write(&folder, "visit_all.json", &json)?;
     write(&folder, "visit_all.rs", &tltl_compiler::emit::policy::rust(&json)?)

@@ -3,12 +3,16 @@
 //!
 //! Automaton: 8 states, accepting 7, trap none; 80 states of the world in 4 classes.
 //!
-//! Training: episodes 47668, settings alpha harmonic half 8.0, start 1.0, counterfactual true,
-//! epsilon constant 1.0, gamma 0.95, horizon 200, initial 0.0, remember true, rewards
-//! environment 0.0, mode progress, step_penalty 0.0, trap_penalty 0.0, steps 8000054, seed 1.
+//! Trained on `visit_a_b` for 8000054 steps in 47668 episodes with seed 1, and on `visit_c` for
+//! 8000082 steps in 65009 episodes with seed 2; settings alpha harmonic half 8.0, start 1.0,
+//! counterfactual true, epsilon constant 1.0, gamma 0.95, horizon 200, initial 0.0, remember
+//! true, rewards environment 0.0, mode progress, step_penalty 0.0, trap_penalty 0.0.
 //!
 //! Exact value, mean over the starts with the first state read: P(satisfied) = 1.000000
 //! (largest possible 1.000000), E[steps | satisfied] = 16.7187 (smallest possible 16.7111).
+//!
+//! From each of its 80 starts: P(satisfied) from 1.000000 to 1.000000, E[steps | satisfied]
+//! from 12.9373 to 21.5042.
 //!
 //! An episode: `let mut q = reset(s)`; then, until `is_done(q)`, take the action
 //! `act(q, s)`, observe the next state `s` and let `q = next(q, s)`.
@@ -62,6 +66,27 @@ static ACTION: [u8; 640] = [
     0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
     0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
     0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
+];
+/// What an episode is worth that starts in each state: P(satisfied), and E[steps] given
+/// success. Not a number where none starts, or none succeeds.
+#[rustfmt::skip]
+pub static STARTS: [(f64, f64); 80] = [
+    (1.0, 17.8797), (1.0, 16.7434), (1.0, 15.6074), (1.0, 16.7505), (1.0, 17.9438),
+    (1.0, 19.1397), (1.0, 20.3372), (1.0, 21.5042), (1.0, 16.7434), (1.0, 15.5529),
+    (1.0, 14.3084), (1.0, 15.5576), (1.0, 16.8072), (1.0, 18.0559), (1.0, 19.3172),
+    (1.0, 20.3693), (1.0, 15.6072), (1.0, 14.3083), (1.0, 12.9373), (1.0, 14.3103),
+    (1.0, 15.6618), (1.0, 16.9336), (1.0, 18.0881), (1.0, 19.1748), (1.0, 16.7472),
+    (1.0, 15.5549), (1.0, 14.3095), (1.0, 15.5448), (1.0, 16.6248), (1.0, 15.6953),
+    (1.0, 16.8423), (1.0, 17.9792), (1.0, 17.9242), (1.0, 16.7874), (1.0, 15.6432),
+    (1.0, 16.6225), (1.0, 15.5759), (1.0, 14.3469), (1.0, 15.593), (1.0, 16.786),
+    (1.0, 18.7797), (1.0, 17.6771), (1.0, 16.5275), (1.0, 15.6586), (1.0, 14.3442),
+    (1.0, 12.9744), (1.0, 14.3456), (1.0, 15.6448), (1.0, 17.79), (1.0, 16.6054),
+    (1.0, 15.3658), (1.0, 16.4279), (1.0, 15.5637), (1.0, 14.3464), (1.0, 15.5938),
+    (1.0, 16.7867), (1.0, 16.6779), (1.0, 15.3803), (1.0, 14.0104), (1.0, 15.3663),
+    (1.0, 16.5266), (1.0, 15.6947), (1.0, 16.8431), (1.0, 17.9799), (1.0, 17.8159),
+    (1.0, 16.6255), (1.0, 15.3809), (1.0, 16.619), (1.0, 17.688), (1.0, 17.0274),
+    (1.0, 18.0912), (1.0, 19.1732), (1.0, 18.9523), (1.0, 17.8159), (1.0, 16.6791),
+    (1.0, 17.8037), (1.0, 18.8061), (1.0, 18.2898), (1.0, 19.2835), (1.0, 20.3145),
 ];
 
 const CLASSES: usize = 4;

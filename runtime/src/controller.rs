@@ -87,6 +87,22 @@ impl<'a, S, M: Monitor<S>> Hierarchy<'a, S, M> {
         }
     }
 
+    /// What the controllers do in each of a world's states, in the order of their numbers; indexed
+    /// `q * states + s`. As a table the hierarchy can be
+    /// [certified](crate::solve::Problem::certify) exactly, and saved as a
+    /// [`Policy`](crate::policy::Policy) with its certificate. Of a controller with a memory of its
+    /// own the table says what it does when it is asked in this order.
+    pub fn policy(&mut self, states: impl IntoIterator<Item = S>) -> Vec<u32> {
+        let mut layers: Vec<Vec<u32>> = self.controllers.iter().map(|_| Vec::new()).collect();
+        for s in states {
+            for (layer, controller) in layers.iter_mut().zip(&mut self.controllers) {
+                let controller = controller.as_mut().unwrap_or(&mut self.otherwise);
+                layer.push(controller(&s) as u32);
+            }
+        }
+        layers.concat()
+    }
+
     /// The automaton state; `None` before an episode's first state was observed.
     pub const fn q(&self) -> Option<u32> {
         self.q

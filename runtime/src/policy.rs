@@ -5,12 +5,12 @@
 //! format; [`Policy`] checks itself on loading, so a policy in hand is a valid one. It runs
 //! without its task: [`Policy::reset`] and [`Policy::next`] move the automaton by state numbers.
 //!
-//! # Schema, version 1
+//! # Schema, version 2
 //! As JSON, every field required unless marked optional, unknown fields refused:
 //! ```text
 //! {
 //!   "format": "tltl-policy",
-//!   "version": 1,
+//!   "version": 2,
 //!   "task": "visit_both",              name of the task
 //!   "formula": "F a && F b",           its text
 //!   "states": 80,                      S, the world's states, numbered 0..S
@@ -26,12 +26,13 @@
 //!   "next": [0, 1, ...],               N * C numbers below N: next[q * C + class[s]]
 //!   "action": [3, 3, 0, ...],          N * S numbers below A: action[q * S + s]
 //!   "components": [[0, 0], ...],       optional: N lists, the states of a product's operands
-//!   "training": {                      null for a policy that was solved, not learned
+//!   "training": [{                     one for each skill; none for a policy that was solved
+//!     "task": "visit_both",
 //!     "settings": { ... },             learn::Settings
 //!     "steps": 1000000,                environment steps
-//!     "episodes": 35000
-//!   } | null,
-//!   "seed": 7 | null,
+//!     "episodes": 35000,
+//!     "seed": 7
+//!   }, ...],
 //!   "certificate": {                   null where the world has no model
 //!     "kind": "exact",
 //!     "satisfied": 1.0,                P(satisfied), mean over the starts with s_0 read
@@ -43,156 +44,38 @@
 //!     "worst_regret_satisfied": 0.0,
 //!     "fraction_optimal": 0.97
 //!   } | null,
+//!   "shield": {                        optional: what a shield laid over it costs and gains
+//!     "before": { ... },               a certificate, as above; that after it is `certificate`
+//!     "after": { ... },
+//!     "lost_before": 0.02,             P(the trap is entered), and the smallest possible
+//!     "lost_after": 0.015,
+//!     "smallest_lost": 0.015,
+//!     "overruled": 0.01                fraction of live pairs in which it overrules the policy
+//!   },
+//!   "starts": {                        optional: the worth from each start, s_0 read
+//!     "state": [0, 1, ...],            ascending
+//!     "satisfied": [1.0, 1.0, ...],
+//!     "steps": [14.4, 13.2, ...]       null: never succeeds
+//!   },
 //!   "estimate": { ... }                optional: estimate::Estimate, where it was tried instead
 //! }
 //! ```
 //! An episode in state number s: `q = next[initial * C + class[s]]` on reset; then, until q is
 //! accepting or the trap, take `action[q * S + s]`, and `q = next[q * C + class[s']]`.
 
+mod document;
+
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
-use core::fmt;
 
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
+pub use document::{Document, Invalid, Starts, States, Training};
+
 use crate::augmented::{End, Labelled};
-use crate::learn::{Learner, Settings};
-use crate::solve::Certificate;
-
-/// The automaton of a policy, without its edges.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct States {
-    /// The number of states.
-    pub states: u32,
-    /// The state before the first state of the world is read.
-    pub initial: u32,
-    /// The accepting state.
-    pub accepting: Option<u32>,
-    /// The trap.
-    pub trap: Option<u32>,
-}
-
-/// How a policy was learned.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct Training {
-    /// The settings.
-    pub settings: Settings,
-    /// Environment steps.
-    pub steps: u64,
-    /// Episodes.
-    pub episodes: u64,
-}
-
-impl Training {
-    /// What `learner` has done so far.
-    #[must_use]
-    pub fn of<R: rand::Rng + Clone>(learner: &Learner<R>) -> Self {
-        Self { settings: *learner.settings(), steps: learner.steps(), episodes: learner.episodes() }
-    }
-}
-
-/// The content of a policy; [`Policy`] is the checked form.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct Document {
-    /// [`Policy::FORMAT`].
-    pub format: String,
-    /// [`Policy::VERSION`].
-    pub version: u32,
-    /// The name of the task.
-    pub task: String,
-    /// Its formula.
-    pub formula: String,
-    /// The number of states of the world.
-    pub states: usize,
-    /// The names of the actions.
-    pub actions: Vec<String>,
-    /// The automaton.
-    pub automaton: States,
-    /// The number of classes of states.
-    pub classes: usize,
-    /// The class of each state.
-    pub class: Vec<u32>,
-    /// The next automaton state, `q * classes + class`.
-    pub next: Vec<u32>,
-    /// The action, `q * states + s`.
-    pub action: Vec<u32>,
-    /// For a product: the operands' states at each of its own.
-    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
-    pub components: Vec<Vec<u32>>,
-    /// How it was learned.
-    pub training: Option<Training>,
-    /// The seed it was learned with.
-    pub seed: Option<u64>,
-    /// What it is worth.
-    pub certificate: Option<Certificate>,
-    /// What it was seen to be worth, in a world without a model.
-    #[cfg(feature = "std")]
-    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
-    pub estimate: Option<crate::estimate::Estimate>,
-}
-
-/// Why a document is not a policy.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Invalid {
-    /// It is something else.
-    Format(String),
-    /// It is of another version.
-    Version(u32),
-    /// A table has the wrong size, or there are no states, classes or actions.
-    Size {
-        /// The field.
-        field: &'static str,
-        /// How many entries it has.
-        found: usize,
-        /// How many it should have; 0: at least one.
-        expected: usize,
-    },
-    /// An entry is out of range.
-    Range {
-        /// The field.
-        field: &'static str,
-        /// Where in it.
-        at: usize,
-        /// What stands there.
-        found: u32,
-        /// What it must be less than.
-        limit: usize,
-    },
-    /// The accepting state and the trap are the same, or one of them has a way out.
-    Terminal(u32),
-}
-
-impl fmt::Display for Invalid {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Format(found) => {
-                write!(f, "not a policy: format is `{found}`, not `{}`", Policy::FORMAT)
-            }
-            Self::Version(found) => {
-                write!(f, "policy version {found}; this library reads {}", Policy::VERSION)
-            }
-            Self::Size { field, expected: 0, .. } => write!(f, "`{field}` is empty"),
-            Self::Size { field, found, expected } => {
-                write!(f, "`{field}` has {found} entries, not {expected}")
-            }
-            Self::Range { field, at, found, limit } => {
-                write!(f, "`{field}`, entry {at}: {found} is not less than {limit}")
-            }
-            Self::Terminal(q) => {
-                write!(f, "automaton state {q} is accepting or the trap, and yet not final")
-            }
-        }
-    }
-}
-
-impl core::error::Error for Invalid {}
+use crate::shield::Shielded;
+use crate::solve::{Certificate, Start};
 
 /// A policy for a task on a finite world: for each automaton state and state an action.
 #[derive(Clone, Debug, PartialEq)]
@@ -215,70 +98,12 @@ impl From<Policy> for Document {
     }
 }
 
-impl Document {
-    fn check(&self) -> Result<(), Invalid> {
-        if self.format != Policy::FORMAT {
-            return Err(Invalid::Format(self.format.clone()));
-        }
-        if self.version != Policy::VERSION {
-            return Err(Invalid::Version(self.version));
-        }
-        self.check_sizes()?;
-        let n = self.automaton.states as usize;
-        below("class", &self.class, self.classes)?;
-        below("next", &self.next, n)?;
-        below("action", &self.action, self.actions.len())?;
-        let States { initial, accepting, trap, .. } = self.automaton;
-        below("automaton.initial", &[initial], n)?;
-        below("automaton.accepting", accepting.as_slice(), n)?;
-        below("automaton.trap", trap.as_slice(), n)?;
-        accepting.into_iter().chain(trap).try_for_each(|q| self.check_terminal(q))
-    }
-
-    fn check_sizes(&self) -> Result<(), Invalid> {
-        let n = self.automaton.states as usize;
-        nonempty("states", self.states)?;
-        nonempty("actions", self.actions.len())?;
-        nonempty("classes", self.classes)?;
-        nonempty("automaton.states", n)?;
-        size("class", self.class.len(), Some(self.states))?;
-        size("next", self.next.len(), n.checked_mul(self.classes))?;
-        size("action", self.action.len(), n.checked_mul(self.states))?;
-        let components = self.components.len();
-        size("components", components, Some(if components == 0 { 0 } else { n }))
-    }
-
-    fn check_terminal(&self, q: u32) -> Result<(), Invalid> {
-        let row = &self.next[q as usize * self.classes..][..self.classes];
-        let both = self.automaton.accepting == self.automaton.trap;
-        if both || row.iter().any(|&to| to != q) { Err(Invalid::Terminal(q)) } else { Ok(()) }
-    }
-}
-
-fn nonempty(field: &'static str, found: usize) -> Result<(), Invalid> {
-    if found == 0 { Err(Invalid::Size { field, found, expected: 0 }) } else { Ok(()) }
-}
-
-fn size(field: &'static str, found: usize, expected: Option<usize>) -> Result<(), Invalid> {
-    match expected {
-        Some(expected) if found == expected => Ok(()),
-        _ => Err(Invalid::Size { field, found, expected: expected.unwrap_or(usize::MAX) }),
-    }
-}
-
-fn below(field: &'static str, entries: &[u32], limit: usize) -> Result<(), Invalid> {
-    match entries.iter().position(|&entry| entry as usize >= limit) {
-        Some(at) => Err(Invalid::Range { field, at, found: entries[at], limit }),
-        None => Ok(()),
-    }
-}
-
 impl Policy {
     /// The value of the field `format`.
     pub const FORMAT: &'static str = "tltl-policy";
 
     /// The version that this library writes and reads.
-    pub const VERSION: u32 = 1;
+    pub const VERSION: u32 = 2;
 
     /// The policy `action`, indexed `q * states + s`, for the task `labelled`; `name` and `formula`
     /// say which task that is, `actions` what the actions are called.
@@ -311,19 +136,20 @@ impl Policy {
             next: labelled.table().to_vec(),
             action,
             components: Vec::new(),
-            training: None,
-            seed: None,
+            training: Vec::new(),
             certificate: None,
+            shield: None,
+            starts: None,
             #[cfg(feature = "std")]
             estimate: None,
         };
         Self::try_from(document)
     }
 
-    /// The same policy, saying how it was learned.
+    /// The same policy, saying how it was learned; called once for each skill of a composition.
     #[must_use]
-    pub fn trained(mut self, training: Training, seed: u64) -> Self {
-        (self.0.training, self.0.seed) = (Some(training), Some(seed));
+    pub fn trained(mut self, training: Training) -> Self {
+        self.0.training.push(training);
         self
     }
 
@@ -331,6 +157,22 @@ impl Policy {
     #[must_use]
     pub fn certified(mut self, certificate: Certificate) -> Self {
         self.0.certificate = Some(certificate);
+        self
+    }
+
+    /// The same policy, saying what the shield that its actions are under costs and gains; what it
+    /// is worth under it is then its certificate.
+    #[must_use]
+    pub fn shielded(mut self, worth: Shielded) -> Self {
+        self.0.certificate = Some(worth.after.clone());
+        self.0.shield = Some(worth);
+        self
+    }
+
+    /// The same policy, saying what it is worth from each start.
+    #[must_use]
+    pub fn from_starts(mut self, starts: &[Start]) -> Self {
+        self.0.starts = Some(Starts::new(starts));
         self
     }
 

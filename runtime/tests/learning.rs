@@ -4,12 +4,14 @@ mod world;
 
 use tltl::augmented::{Augmented, Labelled, Reward, Rewards};
 use tltl::compose::{Combine, Composition, Skill};
+use tltl::controller::Hierarchy;
 use tltl::env::ModelEnv;
 use tltl::learn::{Learner, Settings};
 use tltl::model::Dynamics;
 use tltl::policy::{Policy, Training};
 use tltl::product::Product;
 use tltl::rand::{SeedableRng, rngs::Xoshiro256PlusPlus};
+use tltl::shield::Shield;
 use tltl::solve::{Certificate, Problem};
 use world::{A, B, C, GAMMA, PAPER, avoid, both, dynamics, eventually, on_paper};
 
@@ -117,10 +119,14 @@ fn policy() -> Policy {
     let task = on_paper(&avoid(C, A));
     let learner = trained(&task, Settings::default(), 5, 20_000);
     let names = (0..5).map(|a| tltl::model::FiniteModel::action_name(&PAPER, a)).collect();
+    let dynamics = dynamics();
+    let problem = Problem::new(&dynamics, &task);
+    let starts = problem.starts(&learner.q().policy(), &problem.best());
     Policy::new("avoid", "!c U a", &task, learner.q().policy(), names)
         .unwrap()
-        .trained(Training::of(&learner), 5)
+        .trained(Training::of("avoid", &learner, 5))
         .certified(certified(&task, &learner))
+        .from_starts(&starts)
 }
 
 #[test]
@@ -142,11 +148,61 @@ fn foreign_and_broken_policies_are_refused() {
         serde_json::from_value::<Policy>(bad).unwrap_err().to_string()
     };
     assert!(refused("format", "onnx".into()).contains("not a policy"));
-    assert!(refused("version", 2.into()).contains("version 2"));
+    assert!(refused("version", 1.into()).contains("version 1; this library reads 2"));
     assert!(refused("class", vec![0; 79].into()).contains("79 entries, not 80"));
     assert!(refused("action", vec![5; 240].into()).contains("5 is not less than 5"));
     assert!(refused("states", 0.into()).contains("`states` is empty"));
     assert!(refused("extra", 0.into()).contains("unknown field"));
+    let starts = |name: &str, value: serde_json::Value| {
+        let mut starts = good["starts"].clone();
+        starts[name] = value;
+        refused("starts", starts)
+    };
+    assert!(starts("state", vec![80; 80].into()).contains("80 is not less than 80"));
+    assert!(starts("state", vec![7; 80].into()).contains("the states must ascend"));
+    assert!(starts("satisfied", vec![1.5; 80].into()).contains("`starts.satisfied`, entry 0"));
+    assert!(starts("steps", vec![-1.0; 80].into()).contains("`starts.steps`, entry 0"));
+    assert!(starts("steps", vec![1.0; 79].into()).contains("79 entries, not 80"));
+    assert!(starts("median", vec![1.0; 80].into()).contains("unknown field"));
+    let mut certificate = good["certificate"].clone();
+    certificate["satisfied"] = 2.into();
+    assert!(refused("certificate", certificate).contains("not a probability"));
     let text = good.to_string();
     assert!(serde_json::from_str::<Policy>(&text[..text.len() / 2]).is_err());
+}
+
+/// The certificates of a shield and of a hierarchy of controllers travel with the policy.
+#[test]
+fn certificates_travel() {
+    let (formula, dynamics) = (avoid(C, A), dynamics());
+    let task = on_paper(&formula);
+    let problem = Problem::new(&dynamics, &task);
+    let q = problem.optimal_q(&Rewards::of(Reward::Literal), GAMMA);
+    let names = || (0..5).map(|a| tltl::model::FiniteModel::action_name(&PAPER, a)).collect();
+    let survives = |policy: Policy| {
+        let text = serde_json::to_string(&policy).unwrap();
+        assert_eq!(serde_json::from_str::<Policy>(&text).unwrap(), policy);
+        policy
+    };
+
+    let shield = Shield::of_model(&problem);
+    let worth = problem.certify_shield(&shield, &q, &q);
+    let policy = Policy::new("avoid", "!c U a", &task, shield.policy(&q), names()).unwrap();
+    let policy = survives(policy.shielded(worth.clone()));
+    assert_eq!(policy.document().certificate.as_ref(), Some(&worth.after));
+    assert_eq!(policy.document().shield.as_ref(), Some(&worth));
+
+    let index = |s: &world::Cell| (s.y * 8 + s.x) as usize;
+    let mut hierarchy = Hierarchy::new(&formula, |_: &world::Cell| 4)
+        .with(0, |s: &world::Cell| shield.greedy(&q, 0, index(s)) as usize);
+    let cells = (0..80).map(|s| tltl::model::FiniteModel::state(&PAPER, s));
+    let table = hierarchy.policy(cells);
+    let certificate = problem.certify(&table, &q);
+    assert_eq!(certificate, worth.after, "the controllers do what the shield says");
+    let starts = problem.starts(&table, &problem.best());
+    let policy = Policy::new("avoid", "!c U a", &task, table, names()).unwrap();
+    let policy = survives(policy.certified(certificate).from_starts(&starts));
+    let saved = policy.document().starts.as_ref().unwrap();
+    assert_eq!((saved.state.len(), saved.satisfied[58]), (80, 0.0), "c, a lost start");
+    assert!(saved.steps[58].is_none() && saved.steps[18] == Some(0.0));
 }

@@ -13,7 +13,9 @@ use serde_json::Value;
 /// The value of the field `format`.
 const FORMAT: &str = "tltl-policy";
 /// The version that this compiler reads.
-const VERSION: u64 = 1;
+const VERSION: u64 = 2;
+/// The worth from each start is written as a table for worlds of at most this many states.
+const STARTS: usize = 256;
 
 #[derive(Deserialize)]
 struct Policy {
@@ -26,9 +28,35 @@ struct Policy {
     class: Vec<u32>,
     next: Vec<u32>,
     action: Vec<u32>,
-    training: Option<Value>,
-    seed: Option<u64>,
+    training: Vec<Training>,
     certificate: Option<Value>,
+    shield: Option<Shield>,
+    starts: Option<Starts>,
+}
+
+#[derive(Deserialize)]
+struct Training {
+    task: String,
+    settings: Value,
+    steps: u64,
+    episodes: u64,
+    seed: u64,
+}
+
+#[derive(Deserialize)]
+struct Shield {
+    before: Value,
+    lost_before: f64,
+    lost_after: f64,
+    smallest_lost: f64,
+    overruled: f64,
+}
+
+#[derive(Deserialize)]
+struct Starts {
+    state: Vec<u32>,
+    satisfied: Vec<f64>,
+    steps: Vec<Option<f64>>,
 }
 
 #[derive(Deserialize)]
@@ -81,7 +109,8 @@ impl Policy {
         below("action", &self.action, self.actions.len())?;
         below("automaton.initial", &[*initial], n)?;
         below("automaton.accepting", accepting.as_slice(), n)?;
-        below("automaton.trap", trap.as_slice(), n)
+        below("automaton.trap", trap.as_slice(), n)?;
+        self.starts.as_ref().map_or(Ok(()), |starts| starts.check(self.states))
     }
 
     fn write(&self) -> String {
@@ -112,6 +141,9 @@ pub const TRAP: Option<usize> = {:?};
         let about = "The next automaton state, indexed `q * CLASSES + class`.";
         table(&mut text, "NEXT", about, &self.next);
         table(&mut text, "ACTION", "The action, indexed `q * STATES + s`.", &self.action);
+        if let Some(starts) = self.starts.as_ref().filter(|_| self.states <= STARTS) {
+            text.push_str(&starts.table(self.states));
+        }
         let _ = write!(text, "\nconst CLASSES: usize = {};\n", self.classes);
         text.push_str(&FUNCTIONS.replace("INITIAL", &self.automaton.initial.to_string()));
         text
@@ -136,12 +168,17 @@ pub const TRAP: Option<usize> = {:?};
                 self.classes
             ),
         );
-        if let Some(training) = &self.training {
-            let seed = self.seed.map_or(String::new(), |seed| format!(", seed {seed}"));
-            paragraph(&mut text, &format!("Training: {}{seed}.", summary(training)));
+        if !self.training.is_empty() {
+            paragraph(&mut text, &trained(&self.training));
         }
         let worth = self.certificate.as_ref().map(certified);
         paragraph(&mut text, &worth.unwrap_or("Not judged against an exact optimum.".to_owned()));
+        if let Some(shield) = &self.shield {
+            paragraph(&mut text, &shield.documentation());
+        }
+        if let Some(starts) = &self.starts {
+            paragraph(&mut text, &starts.documentation());
+        }
         text.push_str(
             "//! An episode: `let mut q = reset(s)`; then, until `is_done(q)`, take the action\n\
              //! `act(q, s)`, observe the next state `s` and let `q = next(q, s)`.\n",
@@ -163,6 +200,87 @@ fn paragraph(text: &mut String, content: &str) {
         column += word.chars().count() + 1;
     }
     text.push_str("\n//!\n");
+}
+
+/// How the policy was learned, each skill of a composition by its name.
+fn trained(all: &[Training]) -> String {
+    let entry = |training: &Training| {
+        let Training { task, steps, episodes, seed, .. } = training;
+        format!("on `{task}` for {steps} steps in {episodes} episodes with seed {seed}")
+    };
+    let settings = |training: &Training| format!("settings {}", summary(&training.settings));
+    if all.iter().all(|training| training.settings == all[0].settings) {
+        let entries: Vec<String> = all.iter().map(entry).collect();
+        return format!("Trained {}; {}.", entries.join(", and "), settings(&all[0]));
+    }
+    let entries: Vec<String> =
+        all.iter().map(|training| format!("{}, {}", entry(training), settings(training))).collect();
+    format!("Trained {}.", entries.join("; and "))
+}
+
+impl Shield {
+    fn documentation(&self) -> String {
+        format!(
+            "Under a shield, which overrules {:.2} % of the actions: the trap is entered with \
+             probability {:.6} (smallest possible {:.6}); without it with {:.6}. {}",
+            100.0 * self.overruled,
+            self.lost_after,
+            self.smallest_lost,
+            self.lost_before,
+            certified(&self.before).replace("Exact value", "Without it")
+        )
+    }
+}
+
+impl Starts {
+    fn check(&self, states: usize) -> Result<(), String> {
+        for (field, found) in [("satisfied", self.satisfied.len()), ("steps", self.steps.len())] {
+            if found != self.state.len() {
+                let expected = self.state.len();
+                return Err(format!("`starts.{field}` has {found} entries, not {expected}"));
+            }
+        }
+        below("starts.state", &self.state, states)
+    }
+
+    /// The ends of both columns.
+    fn documentation(&self) -> String {
+        let ends = |values: &mut dyn Iterator<Item = f64>| {
+            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)))
+        };
+        let (least, most) = ends(&mut self.satisfied.iter().copied());
+        let (fewest, longest) = ends(&mut self.steps.iter().flatten().copied());
+        let steps = format!(", E[steps | satisfied] from {fewest:.4} to {longest:.4}");
+        format!(
+            "From each of its {} starts: P(satisfied) from {least:.6} to {most:.6}{}.",
+            self.state.len(),
+            if longest.is_finite() { steps } else { String::new() }
+        )
+    }
+
+    /// The table of all states; not a number where no episode starts, or none succeeds.
+    fn table(&self, states: usize) -> String {
+        let mut entries = vec!["(f64::NAN, f64::NAN)".to_owned(); states];
+        for ((&s, p), steps) in self.state.iter().zip(&self.satisfied).zip(&self.steps) {
+            let rounded = |value: f64, unit: f64| (value * unit).round() / unit;
+            let steps = steps.map_or("f64::NAN".to_owned(), |n| format!("{:?}", rounded(n, 1e4)));
+            entries[s as usize] = format!("({:?}, {steps})", rounded(*p, 1e6));
+        }
+        let mut text = format!(
+            "/// What an episode is worth that starts in each state: P(satisfied), and E[steps] given\n\
+             /// success. Not a number where none starts, or none succeeds.\n#[rustfmt::skip]\n\
+             pub static STARTS: [(f64, f64); {states}] = ["
+        );
+        let mut column = usize::MAX;
+        for entry in entries {
+            let fits = column < 95 - entry.len();
+            text.push_str(if fits { " " } else { "\n    " });
+            column = if fits { column + 1 } else { 4 } + entry.len() + 1;
+            let _ = write!(text, "{entry},");
+        }
+        text.push_str("\n];\n");
+        text
+    }
 }
 
 /// What the policy is worth, as sentences.

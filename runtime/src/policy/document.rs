@@ -1,0 +1,282 @@
+//! What a policy's file says, and when it is a policy.
+
+use alloc::string::String;
+use alloc::vec::Vec;
+use core::fmt;
+
+#[cfg(feature = "serde")]
+use serde::{Deserialize, Serialize};
+
+use super::Policy;
+use crate::learn::{Learner, Settings};
+use crate::shield::Shielded;
+use crate::solve::{Certificate, Start};
+
+/// The automaton of a policy, without its edges.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct States {
+    /// The number of states.
+    pub states: u32,
+    /// The state before the first state of the world is read.
+    pub initial: u32,
+    /// The accepting state.
+    pub accepting: Option<u32>,
+    /// The trap.
+    pub trap: Option<u32>,
+}
+
+/// How a policy, or a skill that it was composed from, was learned.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Training {
+    /// The name of the task that was learned.
+    pub task: String,
+    /// The settings.
+    pub settings: Settings,
+    /// Environment steps.
+    pub steps: u64,
+    /// Episodes.
+    pub episodes: u64,
+    /// The seed.
+    pub seed: u64,
+}
+
+impl Training {
+    /// What `learner`, made with `seed`, has done so far for `task`.
+    #[must_use]
+    pub fn of<R: rand::Rng + Clone>(task: &str, learner: &Learner<R>, seed: u64) -> Self {
+        let (steps, episodes) = (learner.steps(), learner.episodes());
+        Self { task: task.into(), settings: *learner.settings(), steps, episodes, seed }
+    }
+}
+
+/// What a policy is worth from each state in which an episode can start, `s_0` read: columns of
+/// the same length.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Starts {
+    /// The states' numbers, ascending.
+    pub state: Vec<u32>,
+    /// P(satisfied).
+    pub satisfied: Vec<f64>,
+    /// E\[steps\] given success; `None` where it never succeeds.
+    pub steps: Vec<Option<f64>>,
+}
+
+impl Starts {
+    /// The columns of what [`Problem::starts`](crate::solve::Problem::starts) gives.
+    #[must_use]
+    pub fn new(starts: &[Start]) -> Self {
+        Self {
+            state: starts.iter().map(|start| start.state as u32).collect(),
+            satisfied: starts.iter().map(|start| start.satisfied).collect(),
+            steps: starts.iter().map(|start| start.steps).collect(),
+        }
+    }
+}
+
+/// The content of a policy; [`Policy`] is the checked form.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Document {
+    /// [`Policy::FORMAT`].
+    pub format: String,
+    /// [`Policy::VERSION`].
+    pub version: u32,
+    /// The name of the task.
+    pub task: String,
+    /// Its formula.
+    pub formula: String,
+    /// The number of states of the world.
+    pub states: usize,
+    /// The names of the actions.
+    pub actions: Vec<String>,
+    /// The automaton.
+    pub automaton: States,
+    /// The number of classes of states.
+    pub classes: usize,
+    /// The class of each state.
+    pub class: Vec<u32>,
+    /// The next automaton state, `q * classes + class`.
+    pub next: Vec<u32>,
+    /// The action, `q * states + s`.
+    pub action: Vec<u32>,
+    /// For a product: the operands' states at each of its own.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
+    pub components: Vec<Vec<u32>>,
+    /// How it was learned: one entry, one for each skill of a composition, none if it was solved.
+    pub training: Vec<Training>,
+    /// What it is worth.
+    pub certificate: Option<Certificate>,
+    /// What the shield that is laid over it costs and gains.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub shield: Option<Shielded>,
+    /// What it is worth from each start.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub starts: Option<Starts>,
+    /// What it was seen to be worth, in a world without a model.
+    #[cfg(feature = "std")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub estimate: Option<crate::estimate::Estimate>,
+}
+
+/// Why a document is not a policy.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Invalid {
+    /// It is something else.
+    Format(String),
+    /// It is of another version.
+    Version(u32),
+    /// A table has the wrong size, or there are no states, classes or actions.
+    Size {
+        /// The field.
+        field: &'static str,
+        /// How many entries it has.
+        found: usize,
+        /// How many it should have; 0: at least one.
+        expected: usize,
+    },
+    /// An entry is out of range.
+    Range {
+        /// The field.
+        field: &'static str,
+        /// Where in it.
+        at: usize,
+        /// What stands there.
+        found: u32,
+        /// What it must be less than.
+        limit: usize,
+    },
+    /// The accepting state and the trap are the same, or one of them has a way out.
+    Terminal(u32),
+    /// A worth is not one: a probability outside of [0, 1], or a negative number of steps.
+    Worth {
+        /// The field.
+        field: &'static str,
+        /// Where in it; 0 for a single number.
+        at: usize,
+    },
+    /// The states of `starts` do not ascend.
+    Order(usize),
+}
+
+impl fmt::Display for Invalid {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Format(found) => {
+                write!(f, "not a policy: format is `{found}`, not `{}`", Policy::FORMAT)
+            }
+            Self::Version(found) => {
+                write!(f, "policy version {found}; this library reads {}", Policy::VERSION)
+            }
+            Self::Size { field, expected: 0, .. } => write!(f, "`{field}` is empty"),
+            Self::Size { field, found, expected } => {
+                write!(f, "`{field}` has {found} entries, not {expected}")
+            }
+            Self::Range { field, at, found, limit } => {
+                write!(f, "`{field}`, entry {at}: {found} is not less than {limit}")
+            }
+            Self::Terminal(q) => {
+                write!(f, "automaton state {q} is accepting or the trap, and yet not final")
+            }
+            Self::Worth { field, at } => {
+                write!(f, "`{field}`, entry {at}: not a probability, or not a number of steps")
+            }
+            Self::Order(at) => write!(f, "`starts.state`, entry {at}: the states must ascend"),
+        }
+    }
+}
+
+impl core::error::Error for Invalid {}
+
+impl Document {
+    pub(super) fn check(&self) -> Result<(), Invalid> {
+        if self.format != Policy::FORMAT {
+            return Err(Invalid::Format(self.format.clone()));
+        }
+        if self.version != Policy::VERSION {
+            return Err(Invalid::Version(self.version));
+        }
+        self.check_sizes()?;
+        let n = self.automaton.states as usize;
+        below("class", &self.class, self.classes)?;
+        below("next", &self.next, n)?;
+        below("action", &self.action, self.actions.len())?;
+        let States { initial, accepting, trap, .. } = self.automaton;
+        below("automaton.initial", &[initial], n)?;
+        below("automaton.accepting", accepting.as_slice(), n)?;
+        below("automaton.trap", trap.as_slice(), n)?;
+        accepting.into_iter().chain(trap).try_for_each(|q| self.check_terminal(q))?;
+        self.check_worth()
+    }
+
+    fn check_worth(&self) -> Result<(), Invalid> {
+        let shield = self.shield.iter().flat_map(|shield| [&shield.before, &shield.after]);
+        for certificate in self.certificate.iter().chain(shield) {
+            let Certificate { satisfied, optimal_satisfied, steps, .. } = certificate;
+            probabilities("certificate.satisfied", &[*satisfied, *optimal_satisfied])?;
+            durations("certificate.steps", &[*steps])?;
+        }
+        let Some(Starts { state, satisfied, steps }) = &self.starts else { return Ok(()) };
+        below("starts.state", state, self.states)?;
+        size("starts.satisfied", satisfied.len(), Some(state.len()))?;
+        size("starts.steps", steps.len(), Some(state.len()))?;
+        probabilities("starts.satisfied", satisfied)?;
+        durations("starts.steps", steps)?;
+        let unsorted = state.windows(2).position(|pair| pair[0] >= pair[1]);
+        unsorted.map_or(Ok(()), |at| Err(Invalid::Order(at + 1)))
+    }
+
+    fn check_sizes(&self) -> Result<(), Invalid> {
+        let n = self.automaton.states as usize;
+        nonempty("states", self.states)?;
+        nonempty("actions", self.actions.len())?;
+        nonempty("classes", self.classes)?;
+        nonempty("automaton.states", n)?;
+        size("class", self.class.len(), Some(self.states))?;
+        size("next", self.next.len(), n.checked_mul(self.classes))?;
+        size("action", self.action.len(), n.checked_mul(self.states))?;
+        let components = self.components.len();
+        size("components", components, Some(if components == 0 { 0 } else { n }))
+    }
+
+    fn check_terminal(&self, q: u32) -> Result<(), Invalid> {
+        let row = &self.next[q as usize * self.classes..][..self.classes];
+        let both = self.automaton.accepting == self.automaton.trap;
+        if both || row.iter().any(|&to| to != q) { Err(Invalid::Terminal(q)) } else { Ok(()) }
+    }
+}
+
+fn nonempty(field: &'static str, found: usize) -> Result<(), Invalid> {
+    if found == 0 { Err(Invalid::Size { field, found, expected: 0 }) } else { Ok(()) }
+}
+
+fn size(field: &'static str, found: usize, expected: Option<usize>) -> Result<(), Invalid> {
+    match expected {
+        Some(expected) if found == expected => Ok(()),
+        _ => Err(Invalid::Size { field, found, expected: expected.unwrap_or(usize::MAX) }),
+    }
+}
+
+fn below(field: &'static str, entries: &[u32], limit: usize) -> Result<(), Invalid> {
+    match entries.iter().position(|&entry| entry as usize >= limit) {
+        Some(at) => Err(Invalid::Range { field, at, found: entries[at], limit }),
+        None => Ok(()),
+    }
+}
+
+/// Within the error of a sum over all starts.
+fn probabilities(field: &'static str, values: &[f64]) -> Result<(), Invalid> {
+    let bad = values.iter().position(|p| !(-1e-9..=1.0 + 1e-9).contains(p));
+    bad.map_or(Ok(()), |at| Err(Invalid::Worth { field, at }))
+}
+
+fn durations(field: &'static str, values: &[Option<f64>]) -> Result<(), Invalid> {
+    let bad = values.iter().position(|steps| steps.is_some_and(|steps| !(steps >= 0.0)));
+    bad.map_or(Ok(()), |at| Err(Invalid::Worth { field, at }))
+}
