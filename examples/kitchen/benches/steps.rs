@@ -75,7 +75,8 @@ fn episodes(name: &str, layout: &Arc<Layout>, goals: Goals, first: Option<Goal>,
     let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
     let most = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
     println!(
-        "{name}: planner {:.2} steps (at most {}) in {:.2} ms (at most {:.0}); searcher {:.2} (at most {})",
+        "{name}: planner {:.2} steps (at most {}) in {:.2} ms (at most {:.0}); \
+         searcher {:.2} (at most {})",
         mean(&planned),
         most(&planned),
         mean(&times),

@@ -7,7 +7,7 @@
 //!
 //! | module | what it turns into what |
 //! | --- | --- |
-//! | [`layout`], [`format`] | a TOML file into the static facts of a kitchen |
+//! | [`layout`], [`mod@format`] | a TOML file into the static facts of a kitchen |
 //! | [`action`] | numbers into actions, and back |
 //! | [`truth`] | a situation and an action into the next situation: the rules |
 //! | [`known`] | the truth into what the agent has observed, which predicates and learners read |
