@@ -277,6 +277,7 @@ fn probabilities(field: &'static str, values: &[f64]) -> Result<(), Invalid> {
 }
 
 fn durations(field: &'static str, values: &[Option<f64>]) -> Result<(), Invalid> {
-    let bad = values.iter().position(|steps| steps.is_some_and(|steps| !(steps >= 0.0)));
+    let bad =
+        values.iter().position(|steps| steps.is_some_and(|steps| steps.is_nan() || steps < 0.0));
     bad.map_or(Ok(()), |at| Err(Invalid::Worth { field, at }))
 }
