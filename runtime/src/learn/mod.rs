@@ -18,6 +18,7 @@
 
 pub mod episode;
 mod experience;
+mod guard;
 #[cfg(feature = "std")]
 mod seeds;
 mod table;
@@ -31,11 +32,13 @@ use rand::{Rng, SeedableRng};
 use serde::{Deserialize, Serialize};
 
 pub use experience::Experience;
+pub use guard::Guard;
 #[cfg(feature = "std")]
 pub use seeds::seeds;
 pub use whole::{Terminal, WholeLearner};
 
-use self::episode::Done;
+use self::episode::{Agent, Done};
+use self::guard::Guarded;
 use self::table::{Fixed, Numbered, Tabular, Width};
 use crate::augmented::{Labelled, Reward, Rewards};
 use crate::env::FiniteEnv;
@@ -194,12 +197,7 @@ impl<R: Rng + Clone> Learner<R> {
     /// # Panics
     /// If the environment or the task are not of the sizes the learner was made for.
     pub fn train<E: FiniteEnv>(&mut self, env: &mut E, task: &Labelled, total: u64) {
-        assert_eq!(env.states(), task.states(), "a task is labelled on its own world");
-        assert_eq!(
-            (env.states(), env.actions(), task.automaton_states()),
-            (self.q.states(), self.q.actions(), self.q.automaton_states()),
-            "a learner stays with its world and its task"
-        );
+        self.check(env, task);
         let plain = !self.settings.counterfactual && !self.settings.remember;
         match (self.q.actions(), plain) {
             (4, true) => self.run::<_, _, true>(env, task, Fixed::<4>, total),
@@ -219,21 +217,63 @@ impl<R: Rng + Clone> Learner<R> {
         width: W,
         total: u64,
     ) {
+        self.run_as(env, task, total, width, |agent: Tabular<'_, W, PLAIN>| agent);
+    }
+
+    /// [`Self::train`] behind a guard, which leaves only some actions to explore; the settings say
+    /// how to choose among them. Slower: actions are looked up at every step.
+    ///
+    /// # Panics
+    /// As [`Self::train`]; if the guard looks one step ahead and the settings do not remember.
+    pub fn train_guarded<E: FiniteEnv>(
+        &mut self,
+        env: &mut E,
+        task: &Labelled,
+        guard: Guard<'_>,
+        total: u64,
+    ) {
+        self.check(env, task);
+        let remembers = self.settings.remember || matches!(guard, Guard::Shield(_));
+        assert!(remembers, "looking one step ahead needs what was seen: `remember`");
+        let width = self.q.actions();
+        let guarded = |agent| Guarded { agent, task, guard, allowed: Vec::new() };
+        self.run_as(env, task, total, width, guarded);
+    }
+
+    /// Runs as the agent that `wrap` makes of the table.
+    #[inline(always)]
+    fn run_as<'a, E: FiniteEnv, W: Width, A: Agent<State = usize>, const PLAIN: bool>(
+        &'a mut self,
+        env: &mut E,
+        task: &Labelled,
+        total: u64,
+        width: W,
+        wrap: impl FnOnce(Tabular<'a, W, PLAIN>) -> A,
+    ) {
         let mut world = Numbered::new(env, task, &self.settings);
-        let mut agent = Tabular::<W, PLAIN> {
-            settings: self.settings,
+        // Copies of its own stay in registers.
+        let (mut rng, mut done, settings) = (self.rng.clone(), self.done, self.settings);
+        let mut agent = wrap(Tabular {
+            settings,
             live: task.live().collect(),
             states: self.q.states(),
             width,
             values: self.q.values_mut(),
             visits: &mut self.visits,
             experience: &mut self.experience,
-        };
-        // Copies of its own stay in registers.
-        let (mut rng, mut done) = (self.rng.clone(), self.done);
-        let horizon = self.settings.horizon;
+        });
+        let horizon = settings.horizon;
         let Ok(()) = episode::run(&mut world, &mut agent, &mut done, horizon, total, &mut rng);
         (self.rng, self.done) = (rng, done);
+    }
+
+    fn check<E: FiniteEnv>(&self, env: &E, task: &Labelled) {
+        assert_eq!(env.states(), task.states(), "a task is labelled on its own world");
+        assert_eq!(
+            (env.states(), env.actions(), task.automaton_states()),
+            (self.q.states(), self.q.actions(), self.q.automaton_states()),
+            "a learner stays with its world and its task"
+        );
     }
 
     /// Replays the remembered experience until nothing changes: the table becomes the optimum of

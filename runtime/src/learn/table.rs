@@ -104,7 +104,7 @@ pub(super) struct Tabular<'a, W, const PLAIN: bool> {
 
 impl<W: Width, const PLAIN: bool> Tabular<'_, W, PLAIN> {
     #[inline(always)]
-    fn row(&self, q: u32, s: usize) -> &[f64] {
+    pub(super) fn row(&self, q: u32, s: usize) -> &[f64] {
         let width = self.width.get();
         &self.values[(q as usize * self.states + s) * width..][..width]
     }
