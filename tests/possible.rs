@@ -1,0 +1,140 @@
+//! Possible letters against brute force: every letter that a state shows is possible, and where
+//! the analysis claims to be exact, every possible letter is shown by some state.
+//!
+//! It claims so for boxes of whole numbers, enumerations and truth values, and for linear
+//! comparisons of real numbers. Whole numbers that linear comparisons tie to each other are
+//! related as if they were real: sound, but not exact.
+
+use std::collections::BTreeSet;
+
+use proptest::prelude::*;
+use tltl_compiler::arithmetic;
+use tltl_compiler::check;
+use tltl_compiler::evaluate::Evaluator;
+use tltl_compiler::source::Source;
+
+/// A condition of some comparisons, as text.
+fn condition(comparison: impl Strategy<Value = String> + 'static) -> impl Strategy<Value = String> {
+    let leaf = comparison.boxed();
+    leaf.prop_recursive(2, 3, 2, |inner| {
+        prop_oneof![
+            (inner.clone(), inner.clone()).prop_map(|(a, b)| format!("({a} && {b})")),
+            (inner.clone(), inner.clone()).prop_map(|(a, b)| format!("({a} || {b})")),
+            inner.prop_map(|a| format!("!({a})")),
+        ]
+    })
+}
+
+fn operator() -> impl Strategy<Value = &'static str> {
+    prop::sample::select(vec!["<", "<=", ">", ">=", "==", "!="])
+}
+
+/// A linear form of these against a whole number, or half of one.
+fn linear(forms: &[&'static str]) -> impl Strategy<Value = String> + use<> {
+    let forms = prop::sample::select(forms.to_vec());
+    (forms, operator(), -2..=2_i32).prop_map(|(form, op, c)| format!("{form} {op} {c}"))
+}
+
+fn boxes() -> impl Strategy<Value = String> {
+    let number = (prop::sample::select(vec!["a", "b", "2 * b", "-a"]), operator(), -5..=11_i32)
+        .prop_map(|(form, op, half)| format!("{form} {op} {half} / 2"));
+    let chain = (0..3, 0..4).prop_map(|(low, high)| format!("{low} < a <= {high}"));
+    let other = prop::sample::select(vec![
+        "on",
+        "kind == red",
+        "kind != blue",
+        "kind == none",
+        "last == red",
+        "last == kind",
+        "last != kind",
+        "255 == a",
+        "b == -128",
+        "b > 200",
+    ]);
+    condition(prop_oneof![3 => number, 1 => chain, 2 => other.prop_map(str::to_owned)])
+}
+
+/// The letters that are possible, and those that the states of these inputs show.
+fn letters(
+    state: &str,
+    conditions: &[String],
+    values: impl Fn(&str) -> Vec<f64>,
+) -> [BTreeSet<Vec<bool>>; 2] {
+    let mut text = format!("{state}\n");
+    for (i, condition) in conditions.iter().enumerate() {
+        text += &format!("predicate p{i} = {condition}\n");
+    }
+    let names: Vec<_> = (0..conditions.len()).map(|i| format!("p{i}")).collect();
+    text += &format!("task t = F ({})\n", names.join(" && "));
+    let source = Source::new("task.tltl", text.clone());
+    let module = check::file(&source).unwrap_or_else(|errors| panic!("{text}{errors}"));
+    let task = &module.tasks[0];
+
+    let mut possible = arithmetic::possible(&module, task);
+    let all = (0..1_u32 << conditions.len())
+        .map(|bits| (0..conditions.len()).map(|p| bits >> p & 1 == 1).collect::<Vec<_>>());
+    let literals = |letter: &[bool]| (0..).zip(letter.iter().copied()).collect::<Vec<_>>();
+    let claimed = all.filter(|letter| !possible.excludes(&literals(letter))).collect();
+
+    let mut evaluator = Evaluator::new(&module, task).unwrap();
+    let ranges: Vec<_> = evaluator.inputs().iter().map(|input| values(&input.name)).collect();
+    let mut shown = BTreeSet::new();
+    let count: usize = ranges.iter().map(Vec::len).product();
+    for mut place in 0..count {
+        let mut inputs = Vec::new();
+        for range in &ranges {
+            inputs.push(range[place % range.len()]);
+            place /= range.len();
+        }
+        shown.insert(evaluator.read(&inputs).unwrap().holds);
+    }
+    [claimed, shown]
+}
+
+fn steps(from: i32, to: i32, parts: i32) -> Vec<f64> {
+    (from * parts..=to * parts).map(|step| f64::from(step) / f64::from(parts)).collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn boxes_of_whole_numbers_are_exact(conditions in prop::collection::vec(boxes(), 1..5)) {
+        let state = "enum Colour { red, green, blue }
+            state Box { a: u8, b: i8, on: bool, kind: Colour?, last: Colour }";
+        let [claimed, shown] = letters(state, &conditions, |name| match name {
+            "a" => [steps(0, 7, 1), vec![255.0]].concat(),
+            "b" => [vec![-128.0], steps(-4, 7, 1), vec![127.0]].concat(),
+            "on" => steps(0, 1, 1),
+            "kind" => steps(-1, 2, 1),
+            _ => steps(0, 2, 1),
+        });
+        prop_assert_eq!(claimed, shown);
+    }
+
+    /// The lines of these forms through whole numbers cut the plane into triangles whose corners are
+    /// multiples of 1/2, and each has a point, and each of its sides too, in the grid of quarters.
+    #[test]
+    fn linear_comparisons_of_real_numbers_are_exact(
+        conditions in prop::collection::vec(condition(linear(&["x", "y", "x + y", "x - y", "y - x", "-x - y"])), 1..5),
+    ) {
+        let state = "state Plane { x: f64, y: f64 }";
+        let [claimed, shown] = letters(state, &conditions, |_| steps(-5, 5, 4));
+        prop_assert_eq!(claimed, shown);
+    }
+
+    #[test]
+    fn what_whole_numbers_show_is_possible(
+        conditions in prop::collection::vec(
+            condition(linear(&["a", "b", "c", "2 * a + b", "a - 3 * b", "a + b - c", "b - c", "abs(b)"])),
+            1..5,
+        ),
+    ) {
+        let state = "state Box { a: u8, b: i8, c: i16 }";
+        let [claimed, shown] = letters(state, &conditions, |name| match name {
+            "a" => steps(0, 4, 1),
+            _ => steps(-4, 4, 1),
+        });
+        prop_assert!(claimed.is_superset(&shown), "{:?}", shown.difference(&claimed));
+    }
+}
