@@ -1,5 +1,7 @@
 //! Automata in HOA: what is written is read back, and nothing else is taken for a task.
 
+mod rules;
+
 use proptest::prelude::*;
 use serde_json::Value;
 use tltl_compiler::compile;
@@ -233,4 +235,77 @@ fn deep_and_huge_texts_do_not_crash() {
         written(&parse(&wide(512))).len()
     );
     assert!(read(&source(&wide(513))).is_err());
+}
+
+/// What is written keeps the rules of the format, and is the automaton.
+fn keeps_the_rules(title: &str, dfa: &Dfa) -> Result<(), String> {
+    let strict = rules::read(&emit::hoa::automaton(title, dfa))?;
+    assert_eq!(strict.propositions, dfa.propositions);
+    assert_eq!((strict.start, strict.accepting.len()), (0, dfa.len()));
+    for q in dfa.states() {
+        assert_eq!(strict.accepting[q as usize], dfa.accepting == Some(q), "{title}, state {q}");
+        for letter in 0..1_u32 << dfa.propositions.len() {
+            let to = dfa.next(q, |p| letter >> p & 1 == 1);
+            assert_eq!(strict.next(q as usize, letter), to as usize, "{title}, {q}, {letter:b}");
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn what_is_written_keeps_the_rules() {
+    let rows = include_str!("data/corpus.jsonl").lines();
+    let mut checked = 0;
+    for row in rows.map(|line| serde_json::from_str::<Value>(line).unwrap()) {
+        let formula = row["formula"].as_str().unwrap();
+        let dfa = automaton(formula);
+        if dfa.propositions.len() <= 10 && dfa.len() <= 200 {
+            keeps_the_rules(formula, &dfa).unwrap_or_else(|rule| panic!("{formula}: {rule}"));
+            checked += 1;
+        }
+    }
+    assert!(checked > 200, "{checked} automata");
+    let source = Source::new("formula", "x < 3 U (x > 5 && !(y == 2) && 1 < z)");
+    let compiled = compile::formula(&source, Budget::default()).unwrap();
+    let mut dfa = compiled.automata[0].dfa.clone();
+    keeps_the_rules("what arithmetic left", &dfa).unwrap();
+    dfa.propositions[0] = "two \"lines\"\n and \\ [0] --END--".to_owned();
+    keeps_the_rules("a \"title\" with\nall \\ of it", &dfa).unwrap();
+}
+
+#[test]
+fn the_rules_are_strict() {
+    let text = emit::hoa::automaton("t", &automaton("!c U a"));
+    rules::read(&text).unwrap();
+    for (from, to) in [
+        ("HOA: v1", "HOA: v2"),
+        ("States: 3", "States: 4"),
+        ("States: 3", "States: 2"),
+        ("Start: 0", "Start: 3"),
+        ("Start: 0\n", ""),
+        ("AP: 2", "AP: 3"),
+        ("AP: 2 \"c\"", "AP: 2 \"a\""),
+        ("\"c\"", "\"c"),
+        ("Acceptance: 1 Inf(0)\n", ""),
+        ("Inf(0)", "Fin(0)"),
+        ("acc-name: Buchi", "acc-name: co-Buchi"),
+        ("acc-name: Buchi", "acc-name: Buchi\nacc-name: Buchi"),
+        ("deterministic", "deterministic unambiguous"),
+        ("--BODY--", "BODY"),
+        ("--END--\n", ""),
+        ("--END--\n", "--END--\nState: 3\n"),
+        ("State: 1 {0}", "State: 1 {1}"),
+        ("State: 1 {0}", "State: 0 {0}"),
+        ("State: 0\n", "State: 0 {0}\n"),
+        ("[1] 1", "[1] 3"),
+        ("[1] 1", "[2] 1"),
+        ("[1] 1", "[!1] 1"),
+        ("[1] 1", "[0&1] 1"),
+        ("[1] 1", "1"),
+        ("[1] 1", "[01] 1"),
+        ("[1] 1", "[1 1"),
+    ] {
+        assert!(text.contains(from), "{from} is not in {text}");
+        assert!(rules::read(&text.replacen(from, to, 1)).is_err(), "{from} as {to}");
+    }
 }
