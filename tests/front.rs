@@ -158,6 +158,13 @@ fn deep_inputs_get_an_answer() {
     std::thread::Builder::new().stack_size(2 << 20).spawn(check_all).unwrap().join().unwrap();
 }
 
+#[test]
+fn a_call_has_the_brackets_of_its_callee() {
+    let source = Source::new("tltl!", "X (near)(s)");
+    let module = check::fragment(&source).unwrap();
+    assert_eq!(module.tasks[0].spec.propositions(), ["(near)(s)"]);
+}
+
 fn printed(ast: &Ast) -> String {
     match ast.items()[0].kind {
         ItemKind::Task(_, root) => ast.display(root).to_string(),

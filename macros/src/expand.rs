@@ -23,7 +23,9 @@ pub(crate) fn inline(input: TokenStream) -> TokenStream {
     match compile::fragment(&source, Budget::default()) {
         Ok(compiled) => emit(&compiled, &Options { runtime, state: None, host: &host }),
         Err(errors) => {
-            let messages = errors.iter().map(|error| message(error, &source, &flat));
+            // rustc would show a warning as one more error.
+            let errors = errors.iter().filter(|error| !error.is_warning());
+            let messages = errors.map(|error| message(error, &source, &flat));
             // Items stand where no value can; a formula stands where one must.
             if is_items(&source) {
                 quote! { #(#messages)* }

@@ -146,6 +146,12 @@ fn delimiters(group: &Group) -> (&'static str, &'static str) {
 fn apart(before: &TokenTree, after: &TokenTree) -> bool {
     match (before, after) {
         (TokenTree::Punct(punct), _) if punct.spacing() == Spacing::Joint => false,
+        // What the author kept apart must not become one symbol, as `: :` would.
+        (TokenTree::Punct(_), TokenTree::Punct(_)) => true,
+        // A number must not take the dot of what follows, as in `1 .5`; two dots are a range.
+        (TokenTree::Literal(number), TokenTree::Punct(punct)) if punct.as_char() == '.' => {
+            punct.spacing() == Spacing::Alone || number.to_string().ends_with('.')
+        }
         (TokenTree::Punct(punct), _) => !matches!(punct.as_char(), '.' | ':' | '!' | '#'),
         (_, TokenTree::Punct(punct)) => !matches!(punct.as_char(), '.' | ':' | ',' | ';'),
         (TokenTree::Ident(_), TokenTree::Group(group)) => group.delimiter() == Delimiter::Brace,

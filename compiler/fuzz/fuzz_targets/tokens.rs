@@ -1,4 +1,6 @@
-//! Any Rust tokens inside `tltl!{ … }`: what comes out is Rust, an error with its place or code.
+//! Any Rust tokens inside `tltl!{ … }`: what comes out is Rust, an error with its place or code. If
+//! all tokens are of the language, the answer is the one that the same text gets in a file: blanks
+//! that rustc has dropped or the macro has put make no difference.
 #![no_main]
 
 #[allow(dead_code, reason = "files are included by the macro only")]
@@ -9,17 +11,100 @@ mod tokens;
 
 use libfuzzer_sys::fuzz_target;
 use proc_macro2::{TokenStream, TokenTree};
+use quote::quote;
+use tltl_compiler::compile::{self, Compiled};
+use tltl_compiler::emit::rust::{self, Options};
+use tltl_compiler::error::Errors;
+use tltl_compiler::source::{Source, Span};
+use tltl_compiler::translate::Budget;
 
 fuzz_target!(|text: &str| {
     let Ok(input) = text.parse::<TokenStream>() else { return };
     let own_rust = text.contains(['{', '[', '|', '(', ':']) || mentions_keyword(input.clone());
+    let alike = is_of_the_language(text, input.clone());
     let output = expand::inline(input);
     let shown = output.to_string();
     let written = syn::parse2::<syn::File>(output.clone()).is_ok()
-        || syn::parse2::<syn::Expr>(output).is_ok();
+        || syn::parse2::<syn::Expr>(output.clone()).is_ok();
     // Rust of the author's own, and names that Rust has taken, are passed on as they are.
     assert!(written || own_rust, "{shown}");
+    if alike {
+        // Tokens have no lines, after which the next item is looked for if there is a mistake.
+        let text = text.replace(['\n', '\r', '\t'], " ");
+        match compile::fragment(&Source::new("tltl!", text.as_str()), Budget::default()) {
+            Ok(compiled) => same_code(&text, &compiled, &shown),
+            Err(errors) => same_mistakes(&errors, output),
+        }
+    }
 });
+
+/// Without what the text says otherwise than its tokens do: comments, strings, attributes of the
+/// macro itself, and numbers and names that only Rust has.
+fn is_of_the_language(text: &str, input: TokenStream) -> bool {
+    let apart = ["//", "/*", "\"", "'", "#!", "\u{feff}", "\u{200e}", "\u{200f}"]
+        .iter()
+        .all(|other| !text.contains(other));
+    // Rust knows more blanks.
+    let blanks = text.chars().all(|c| !c.is_whitespace() || " \t\r\n".contains(c));
+    apart && blanks && input.into_iter().all(|tree| is_token(&tree))
+}
+
+fn is_token(tree: &TokenTree) -> bool {
+    match tree {
+        TokenTree::Group(group) => group.stream().into_iter().all(|tree| is_token(&tree)),
+        TokenTree::Ident(_) => true,
+        TokenTree::Punct(punct) => "!&|=<>-+*/.,;:?#".contains(punct.as_char()),
+        TokenTree::Literal(literal) => {
+            literal.to_string().starts_with(|c: char| c.is_ascii_digit())
+        }
+    }
+}
+
+/// The code is that of the text, blanks aside.
+fn same_code(text: &str, compiled: &Compiled, shown: &str) {
+    let host = |span: Span| text[span.start..span.end].parse().unwrap_or_default();
+    let options = Options { runtime: quote! { ::tltl }, state: None, host: &host };
+    let factored = compiled.factored.iter().map(|part| &part.task);
+    let mut tasks = compiled.module.tasks.iter().chain(factored);
+    let bare = tasks.next().is_some_and(|task| task.name.is_none());
+    let emit = if bare { rust::expression } else { rust::items };
+    assert_eq!(solid(&emit(compiled, &options).to_string()), solid(shown));
+}
+
+/// The mistakes are those of the text, blanks aside.
+fn same_mistakes(errors: &Errors, output: TokenStream) {
+    let mut told = Vec::new();
+    messages(output, &mut told);
+    let errors: Vec<_> = errors.iter().filter(|error| !error.is_warning()).collect();
+    assert_eq!(errors.len(), told.len(), "{errors:?} {told:?}");
+    for (error, told) in errors.iter().zip(told) {
+        let message = solid(error.message());
+        // A long quotation ends where its blanks let it.
+        let (message, told) = (message.split('…').next().unwrap_or_default(), solid(&told));
+        let length = message.len().saturating_sub(4);
+        let start = message.get(..length).unwrap_or(message);
+        assert!(told.starts_with(start), "{message} {told}");
+    }
+}
+
+/// All string literals.
+fn messages(output: TokenStream, told: &mut Vec<String>) {
+    for tree in output {
+        match tree {
+            TokenTree::Group(group) => messages(group.stream(), told),
+            TokenTree::Literal(literal) => {
+                told.extend(
+                    syn::parse_str::<syn::LitStr>(&literal.to_string()).map(|text| text.value()),
+                );
+            }
+            _ => {}
+        }
+    }
+}
+
+fn solid(text: &str) -> String {
+    text.chars().filter(|c| !c.is_whitespace()).collect()
+}
 
 fn mentions_keyword(input: TokenStream) -> bool {
     let keyword = |tree: TokenTree| match tree {

@@ -244,7 +244,7 @@ impl Yard<'_> {
             }
         }
         let arguments = self.ast.push_arguments(&arguments);
-        self.push(Node::Call { callee, arguments }, name.to(end), name);
+        self.push(Node::Call { callee, arguments }, self.outer(callee).to(end), name);
         Ok(())
     }
 

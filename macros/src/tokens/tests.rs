@@ -148,3 +148,16 @@ fn strings_are_their_content() {
     assert!(!Flat::new(tokens("\"F a\" && b")).is_literal());
     assert!(!Flat::new(tokens("3")).is_literal());
 }
+
+#[test]
+fn what_stands_apart_stays_apart() {
+    for text in ["s: : G", "a ! = b", "a < > b", "a - > b", "0. .6", "1 .5", "s.0 .1", "x . . y"] {
+        let flat = Flat::new(tokens(text));
+        let solid = |text: &str| text.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
+        let again = Flat::new(tokens(&flat.text));
+        assert_eq!(listed(tokens(&flat.text)), listed(tokens(text)), "{}", flat.text);
+        assert_eq!(solid(&again.text), solid(&flat.text));
+    }
+    assert_eq!(Flat::new(tokens("s: : G")).text, "s: :G");
+    assert_eq!(Flat::new(tokens("for all i in 0..=6: !!a")).text, "for all i in 0..= 6: !!a");
+}
