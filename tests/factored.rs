@@ -1,7 +1,12 @@
 //! Factored tasks: the parts side by side say what the whole says.
 
+use tltl::augmented::{JointError, Labelled, Rewards};
+use tltl::env::ModelEnv;
 use tltl::factored::JointDeadEnds;
+use tltl::learn::{Learner, Settings};
+use tltl::model::FiniteModel;
 use tltl::product::Product;
+use tltl::solve::Problem;
 use tltl::tltl;
 
 /// Which of 40 propositions hold.
@@ -85,4 +90,74 @@ fn thirty_goals_are_sixty_states() {
     let one_by_one: Vec<Letter> = (0..30).map(|bit| Letter(1 << bit)).collect();
     assert_eq!(tour.satisfied(&one_by_one), Ok(true));
     assert_eq!(tour.satisfied(&one_by_one[1..]), Ok(false));
+}
+
+/// Twelve cells in a ring, each with a bit of its own; a step slips back one time in five.
+#[derive(Clone, Copy)]
+struct Ring;
+
+impl FiniteModel for Ring {
+    type State = Letter;
+
+    fn states(&self) -> usize {
+        12
+    }
+
+    fn actions(&self) -> usize {
+        2
+    }
+
+    fn state(&self, s: usize) -> Letter {
+        Letter(1 << s)
+    }
+
+    fn transitions(&self, s: usize, a: usize, mut outcome: impl FnMut(usize, f64)) {
+        let p = [0.8, 0.2][a];
+        outcome((s + 1) % 12, p);
+        outcome((s + 11) % 12, 1.0 - p);
+    }
+}
+
+macro_rules! bits {
+    ($($name:ident $bit:literal)*) => {$(
+        let $name = |s: &Letter| if s.0 >> $bit & 1 == 1 { 1.0 } else { -1.0 };
+    )*};
+}
+
+/// Six goals and one that is not to be touched before another: learned as it is, worth what the
+/// product of its parts is worth.
+#[test]
+fn factored_tasks_are_learned_directly() {
+    bits! { a0 0 a1 2 a2 4 a3 6 a4 8 a5 10 h 11 g 1 }
+    let tour = tltl! {
+        #[factored]
+        F a0 && F a1 && F a2 && F a3 && F a4 && F a5 && (!h U g)
+    };
+    let states: Vec<Letter> = (0..12).map(|s| Ring.state(s)).collect();
+    let task = Labelled::of_factored(states.clone(), &tour, 1_000).unwrap();
+    assert_eq!(task.automaton_states(), 129, "2^7 and the trap");
+    let small = Labelled::of_factored(states.clone(), &tour, 100).unwrap_err();
+    assert_eq!(small, JointError::TooLarge { parts: tour.len(), budget: 100 });
+    assert!(small.to_string().contains("reach more than 100 states"), "{small}");
+
+    let parts: Vec<_> = (0..tour.len()).map(|i| tour.part(i)).collect();
+    let operands: Vec<&(dyn tltl::Monitor<Letter> + Sync)> =
+        parts.iter().map(|part| part as _).collect();
+    let product = Labelled::new(states, &Product::conjunction(&operands)).unwrap();
+    assert_eq!(product.automaton_states(), task.automaton_states());
+    let mut env = ModelEnv::new(Ring).unwrap();
+    let problem = Problem::new(env.dynamics(), &task);
+    let (own, whole) = (problem.best(), Problem::new(env.dynamics(), &product).best());
+    let (p, steps) = problem.mean(&own);
+    let (p_whole, steps_whole) = Problem::new(env.dynamics(), &product).mean(&whole);
+    assert!((p - p_whole).abs() < 1e-9 && (steps - steps_whole).abs() < 1e-6, "{p}, {steps}");
+
+    let mut learner = Learner::new(&task, 2, Settings::default(), 1);
+    let dynamics = env.dynamics().clone();
+    learner.train(&mut env, &task, 200_000);
+    let problem = Problem::new(&dynamics, &task);
+    let exact = problem.optimal_q(&Rewards::default(), 0.95);
+    let certificate = problem.certify(&learner.q().policy(), &exact);
+    let best = problem.certify(&exact.policy(), &exact);
+    assert!(certificate.satisfied > best.satisfied - 0.01, "{certificate:?}, {best:?}");
 }

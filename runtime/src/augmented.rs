@@ -16,204 +16,23 @@
 //! take [`Settings::safe`](crate::learn::Settings::safe): its optimum gives away at most 0.011 % of
 //! P(satisfied) on these two tasks and on five more, each on 101 layouts (`docs/studies/rewards.md`).
 
+mod joint;
+mod reward;
+
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
 use rand::Rng;
-#[cfg(feature = "serde")]
-use serde::{Deserialize, Serialize};
+
+pub use joint::JointError;
+use reward::Ends;
+pub(crate) use reward::Moves;
+pub use reward::{End, Reward, Rewards};
 
 use crate::env::{Env, FiniteEnv, Step};
 use crate::learn::episode::{Move, World};
 use crate::model::FiniteModel;
 use crate::task::{Error, Monitor};
-
-/// What a move of the automaton pays.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
-pub enum Reward {
-    /// 1 if the move leaves q, neither by a self-loop nor into the trap (the intent of the paper's
-    /// Eq. 3A3).
-    #[default]
-    Progress,
-    /// 1 if the move leaves q, the trap included (Eq. 3A3 to the letter). Unsafe: it pays for
-    /// losing. Kept to reproduce the paper.
-    Literal,
-    /// 1 on entering the accepting state.
-    Acceptance,
-    /// ρ(s', D_φ^q), clamped to `[-bound, bound]`.
-    Robustness {
-        /// The largest reward or punishment of one step; see [`Reward::ROBUSTNESS`].
-        bound: f64,
-    },
-    /// `Acceptance` plus γΦ(q') − Φ(q), where Φ falls evenly from nearly 1 beside the accepting
-    /// state to nearly 0 at the state farthest from it, and is 0 at terminal states. It leaves the
-    /// optimal policies of `Acceptance` unchanged (Ng et al. 1999).
-    Shaped,
-}
-
-impl Reward {
-    /// Robustness with the default bound, 1.
-    pub const ROBUSTNESS: Self = Self::Robustness { bound: 1.0 };
-}
-
-/// The reward of the augmented MDP: a mode, and what is added to it.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
-pub struct Rewards {
-    /// What a move of the automaton pays.
-    pub mode: Reward,
-    /// Subtracted on entering the trap.
-    pub trap_penalty: f64,
-    /// Subtracted at every step.
-    pub step_penalty: f64,
-    /// How much of the environment's own reward (a cost of failed actions, say) is added. Solvers
-    /// leave it out: models have no rewards of their own.
-    pub environment: f64,
-}
-
-impl Rewards {
-    /// `mode` alone.
-    #[must_use]
-    pub const fn of(mode: Reward) -> Self {
-        Self { mode, trap_penalty: 0.0, step_penalty: 0.0, environment: 0.0 }
-    }
-
-    /// What the move from `q` to `to` pays, where `robustness` gives ρ(s', D_φ^q).
-    fn pays(&self, ends: &Ends, q: u32, to: u32, gamma: f64, robustness: f64) -> f64 {
-        let entered = |end| ends.of(q).is_none() && ends.of(to) == Some(end);
-        let lost = entered(End::Lost);
-        let accepted = f64::from(u8::from(entered(End::Accepted)));
-        let paid = match self.mode {
-            Reward::Progress => f64::from(u8::from(q != to && !lost)),
-            Reward::Literal => f64::from(u8::from(q != to)),
-            Reward::Acceptance => accepted,
-            Reward::Robustness { bound } => robustness.clamp(-bound, bound),
-            Reward::Shaped => accepted + gamma * ends.potential(to) - ends.potential(q),
-        };
-        paid - self.step_penalty - if lost { self.trap_penalty } else { 0.0 }
-    }
-
-    /// Whether the reward needs ρ(s', D_φ^q), which depends on more than the class of s'.
-    const fn needs_robustness(&self) -> bool {
-        matches!(self.mode, Reward::Robustness { .. })
-    }
-}
-
-/// How an episode ended for the task.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum End {
-    /// The task is satisfied.
-    Accepted,
-    /// The task can never be satisfied any more.
-    Lost,
-}
-
-/// Where episodes end, and how far each automaton state is from acceptance.
-#[derive(Clone, Debug, PartialEq, Eq)]
-struct Ends {
-    of: Vec<Option<End>>,
-    distance: Vec<u32>,
-    farthest: u32,
-}
-
-impl Ends {
-    fn new<S: ?Sized>(monitor: &(impl Monitor<S> + ?Sized)) -> Self {
-        let end = |q| match (monitor.is_accepting(q), monitor.is_trap(q)) {
-            (true, _) => Some(End::Accepted),
-            (_, true) => Some(End::Lost),
-            _ => None,
-        };
-        let distance: Vec<u32> = (0..monitor.states()).map(|q| monitor.distance(q)).collect();
-        let farthest = distance.iter().copied().filter(|&d| d < u32::MAX).max().unwrap_or(0);
-        Self { of: (0..monitor.states()).map(end).collect(), distance, farthest }
-    }
-
-    #[inline]
-    fn of(&self, q: u32) -> Option<End> {
-        self.of[q as usize]
-    }
-
-    /// The potential Φ of `Shaped`.
-    fn potential(&self, q: u32) -> f64 {
-        let distance = self.distance[q as usize];
-        if self.of(q).is_some() || distance > self.farthest {
-            return 0.0;
-        }
-        1.0 - f64::from(distance) / f64::from(self.farthest + 1)
-    }
-}
-
-/// What the moves of one task pay, and where they end it.
-#[derive(Clone, Debug)]
-pub(crate) struct Moves {
-    ends: Ends,
-    rewards: Rewards,
-    gamma: f64,
-}
-
-impl Moves {
-    pub(crate) fn new<S: ?Sized>(
-        monitor: &(impl Monitor<S> + ?Sized),
-        rewards: Rewards,
-        gamma: f64,
-    ) -> Self {
-        Self { ends: Ends::new(monitor), rewards, gamma }
-    }
-
-    /// How the task has ended at `q`, if it has.
-    pub(crate) fn end(&self, q: u32) -> Option<End> {
-        self.ends.of(q)
-    }
-
-    /// The automaton states in which the task goes on.
-    #[cfg(feature = "deep")]
-    pub(crate) fn live(&self) -> impl Iterator<Item = u32> {
-        (0..self.ends.of.len() as u32).filter(|&q| self.end(q).is_none())
-    }
-
-    /// For each automaton state the most that can be had from there on, the environment's own
-    /// rewards left aside: the optimum if every state of the world could be chosen at every step.
-    /// 0 where the task has ended.
-    #[cfg(feature = "deep")]
-    pub(crate) fn most<S: ?Sized>(&self, monitor: &(impl Monitor<S> + ?Sized)) -> Vec<f64> {
-        let mut most = alloc::vec![0.0; self.ends.of.len()];
-        let pays = |q, to| match self.rewards.mode {
-            Reward::Robustness { bound } => self.rewards.pays(&self.ends, q, to, self.gamma, bound),
-            _ => self.rewards.pays(&self.ends, q, to, self.gamma, 0.0),
-        };
-        // Value iteration; the error falls by γ each time.
-        loop {
-            let mut change: f64 = 0.0;
-            for q in self.live() {
-                let mut best = f64::NEG_INFINITY;
-                monitor.successors(q, &mut |to| {
-                    best = best.max(pays(q, to) + self.gamma * most[to as usize]);
-                });
-                change = change.max((best - most[q as usize]).abs());
-                most[q as usize] = best;
-            }
-            if change < 1e-9 {
-                return most;
-            }
-        }
-    }
-
-    /// What reading `s` does at `q`.
-    pub(crate) fn read<S: ?Sized>(
-        &self,
-        monitor: &(impl Monitor<S> + ?Sized),
-        q: u32,
-        s: &S,
-    ) -> Result<Move, Error> {
-        let robustness =
-            if self.rewards.needs_robustness() { monitor.progress_robustness(q, s)? } else { 0.0 };
-        let to = monitor.next(q, s)?;
-        let paid = self.rewards.pays(&self.ends, q, to, self.gamma, robustness);
-        Ok(Move { to, paid, over: self.end(to).is_some() })
-    }
-}
 
 /// Any environment beside any task: an environment over (s, q).
 ///

@@ -7,8 +7,9 @@
 //! `!a U b`). The compiler joins such parts into one where their product is small enough, and then
 //! nothing is missed; where it is not, [`Factored::joint_dead_ends`] says so.
 //!
-//! For learning, [`Factored::part`] gives each part as a [`Task`], of which a `Product` (module
-//! `product`, feature `alloc`) can be made where its size allows.
+//! For learning in a finite world, `Labelled::of_factored` (module `augmented`, feature `alloc`)
+//! numbers the joint states that the world reaches. [`Factored::part`] gives each part as a
+//! [`Task`], of which a `Product` (module `product`) can be made where its size allows.
 
 use crate::automaton::Automaton;
 use crate::robustness::{NotANumber, Predicates};
