@@ -10,6 +10,7 @@ mod grammar;
 mod hoa;
 mod language;
 mod leak;
+mod network;
 mod possible;
 mod properties;
 mod random;

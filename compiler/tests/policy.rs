@@ -58,6 +58,18 @@ fn certificates_are_told() {
 }
 
 #[test]
+fn formulas_do_not_become_lists() {
+    for length in 0..40 {
+        let mut policy = policy();
+        policy["formula"] = format!("{} > 3 - 4 + 5 * 6", "x".repeat(length + 30)).into();
+        let text = rust(&policy.to_string()).unwrap();
+        for line in text.lines().filter_map(|line| line.strip_prefix("//! ")) {
+            assert!(!line.starts_with(['>', '-', '+', '*']) && line.len() < 96, "{line}");
+        }
+    }
+}
+
+#[test]
 fn what_is_not_a_policy_is_refused() {
     let refused = |field: &str, value: Value| {
         let mut bad = policy();

@@ -13,7 +13,7 @@
 //! | `learn`, `q` | experience into action values |
 //! | `product`, `compose` | learned skills into new ones (Algorithm 2), without a step in the world |
 //! | `solve`, `estimate` | any policy into its certificate: P(satisfied), E\[steps\], regret |
-//! | `policy`, `controller`, `shield`, `checkpoint` | results into what runs, is safe, and is kept |
+//! | `policy`, `network`, `controller`, `shield`, `checkpoint` | results into what runs, is safe, and is kept |
 //!
 //! Features: `std` and `macros` are on; `alloc` is all that owns tables; `serde` saves and loads;
 //! `libm` has `sqrt` and the like without `std`.

@@ -10,7 +10,10 @@
 //! What is learned of one entity so holds for all, and entities that look alike are worth the same,
 //! which is what keeps the maximum over many actions from drowning in noise.
 //!
-//! This module learns nothing and needs nothing but an allocator; the learner is in `deep`.
+//! This module learns nothing and needs nothing but an allocator; the learner is in `deep`, the saved
+//! form in [`policy`].
+
+pub mod policy;
 
 use alloc::vec::Vec;
 use core::fmt;
@@ -112,6 +115,21 @@ impl Shape {
         self.levels() + self.channels
     }
 
+    /// A size with which there is no network, of a shape that may come from a file.
+    fn fault(&self) -> Option<&'static str> {
+        let columns = || self.levels().checked_add(self.channels)?.checked_mul(self.heads);
+        let lone = self.entities == 0 && self.channels > 0;
+        let faults = [
+            ("heads", self.heads == 0),
+            ("actions", self.actions == 0),
+            ("entities", self.entities > self.actions),
+            ("channels", lone || self.channels.checked_mul(self.entities).is_none()),
+            ("hidden", self.hidden.contains(&0)),
+        ];
+        let fault = faults.iter().find(|(_, wrong)| *wrong).map(|(field, _)| *field);
+        fault.or_else(|| columns().is_none().then_some("heads"))
+    }
+
     /// The widths of all layers, the input first.
     pub(crate) fn widths(&self) -> Vec<usize> {
         let ends = [self.inputs, self.heads * self.head_width()];
@@ -148,8 +166,11 @@ pub enum Invalid {
         /// Of which layer.
         layer: usize,
     },
-    /// The shape has no head, no action, or more entities than actions.
-    Shape,
+    /// There is no network of that shape.
+    Shape {
+        /// The size that does not go with the others.
+        field: &'static str,
+    },
 }
 
 impl fmt::Display for Invalid {
@@ -160,9 +181,11 @@ impl fmt::Display for Invalid {
             Self::NotFinite { layer } => {
                 write!(f, "layer {layer} has a weight that is not a finite number")
             }
-            Self::Shape => {
-                f.write_str("a network needs heads and actions, and an action for each entity")
-            }
+            Self::Shape { field } => write!(
+                f,
+                "`shape.{field}` cannot be: a network needs heads, actions, an action for each \
+                 entity, units in each hidden layer, and channels only with entities"
+            ),
         }
     }
 }
@@ -184,15 +207,16 @@ impl Network {
     /// # Errors
     /// If they do not fit the shape, or a weight is not finite.
     pub fn new(shape: Shape, layers: Vec<Dense>) -> Result<Self, Invalid> {
-        if shape.heads == 0 || shape.actions == 0 || shape.entities > shape.actions {
-            return Err(Invalid::Shape);
+        if let Some(field) = shape.fault() {
+            return Err(Invalid::Shape { field });
         }
         let widths = shape.widths();
         if layers.len() + 1 != widths.len() {
             return Err(Invalid::Layers);
         }
         for (layer, (dense, width)) in layers.iter().zip(widths.windows(2)).enumerate() {
-            if dense.weights.len() != width[0] * width[1] || dense.bias.len() != width[1] {
+            let size = width[0].checked_mul(width[1]);
+            if Some(dense.weights.len()) != size || dense.bias.len() != width[1] {
                 return Err(Invalid::Size { layer });
             }
             if !dense.weights.iter().chain(&dense.bias).all(|w| w.is_finite()) {
@@ -249,6 +273,8 @@ impl Network {
     #[must_use]
     pub fn values(&self, head: usize, inputs: &[f32], entities: &[f32]) -> Vec<f32> {
         let (plain, n) = (self.shape.plain(), self.shape.entities);
+        assert_eq!(inputs.len(), self.shape.inputs, "as many features as the shape says");
+        assert_eq!(entities.len(), self.shape.channels * n, "features of each entity");
         let (last, trunk) = self.layers.split_last().expect("a network has heads");
         let mut x = inputs.to_vec();
         for dense in trunk {

@@ -16,6 +16,8 @@ mod layout;
 #[cfg(feature = "cli")]
 pub mod mermaid;
 #[cfg(feature = "cli")]
+pub mod network;
+#[cfg(feature = "cli")]
 pub mod policy;
 pub mod predicates;
 pub mod rust;

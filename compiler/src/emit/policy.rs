@@ -10,6 +10,8 @@ use std::fmt::Write as _;
 use serde::Deserialize;
 use serde_json::Value;
 
+use super::network;
+
 /// The value of the field `format`.
 const FORMAT: &str = "tltl-policy";
 /// The version that this compiler reads.
@@ -67,7 +69,7 @@ struct States {
     trap: Option<u32>,
 }
 
-/// The Rust source of the policy that `json` holds.
+/// The Rust source of the policy that `json` holds: a table here, or a [network].
 ///
 /// # Errors
 /// Says why `json` is not a policy.
@@ -75,7 +77,11 @@ pub fn rust(json: &str) -> Result<String, String> {
     let value: Value = serde_json::from_str(json).map_err(|error| format!("not JSON: {error}"))?;
     match value.get("format").and_then(Value::as_str) {
         Some(FORMAT) => {}
-        Some(other) => return Err(format!("not a policy: format is `{other}`, not `{FORMAT}`")),
+        Some(network::FORMAT) => return network::rust(json),
+        Some(other) => {
+            let known = format!("`{FORMAT}` or `{}`", network::FORMAT);
+            return Err(format!("not a policy: format is `{other}`, not {known}"));
+        }
         None => return Err(format!("not a policy: there is no `\"format\": \"{FORMAT}\"`")),
     }
     match value.get("version").and_then(Value::as_u64) {
@@ -188,10 +194,12 @@ pub const TRAP: Option<usize> = {:?};
 }
 
 /// A paragraph of module documentation, in lines of at most 96 columns.
-fn paragraph(text: &mut String, content: &str) {
+pub(super) fn paragraph(text: &mut String, content: &str) {
     let mut column = 0;
     for word in content.split_whitespace() {
-        if column == 0 || column + word.chars().count() + 1 > 96 {
+        // At the start of a line these would begin a quotation or a list.
+        let mark = word.starts_with(['>', '-', '+', '*', '#', '=']);
+        if column == 0 || column + word.chars().count() + 1 > 96 && !mark {
             text.push_str(if column == 0 { "//!" } else { "\n//!" });
             column = 3;
         }

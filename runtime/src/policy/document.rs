@@ -11,6 +11,7 @@ use super::Policy;
 use crate::learn::{Learner, Settings};
 use crate::shield::Shielded;
 use crate::solve::{Certificate, Start};
+use crate::task::Monitor;
 
 /// The automaton of a policy, without its edges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,6 +26,17 @@ pub struct States {
     pub accepting: Option<u32>,
     /// The trap.
     pub trap: Option<u32>,
+}
+
+impl States {
+    /// Those of a task.
+    #[must_use]
+    pub fn of<S: ?Sized>(task: &impl Monitor<S>) -> Self {
+        let states = task.states();
+        let first = |is: &dyn Fn(u32) -> bool| (0..states).find(|&q| is(q));
+        let accepting = first(&|q| task.is_accepting(q));
+        Self { states, initial: 0, accepting, trap: first(&|q| task.is_trap(q)) }
+    }
 }
 
 /// How a policy, or a skill that it was composed from, was learned.

@@ -1,0 +1,434 @@
+//! Network policies as documents: the weights, with all that is needed to run and to judge them.
+//!
+//! A [`NetworkPolicy`] holds a [`Network`] and says which head belongs to which automaton state. With
+//! the feature `serde` it is saved and loaded by any format, and checks itself on loading, so a
+//! policy in hand is a valid one; `tltlc policy` turns it into Rust that stands alone. It does not move
+//! the automaton, which needs the task's predicates: the task itself does.
+//!
+//! # Schema, version 1
+//! As JSON, every field required unless marked optional, unknown fields refused:
+//! ```text
+//! {
+//!   "format": "tltl-network-policy",   these two first
+//!   "version": 1,
+//!   "task": "fetch",                   name of the task
+//!   "formula": "F a && F b",           its text
+//!   "actions": ["wait", "take a", ...],  A names, numbered 0..A
+//!   "automaton": {
+//!     "states": 4,                     N, numbered 0..N
+//!     "initial": 0,                    before the first state is read
+//!     "accepting": 3 | null,
+//!     "trap": null
+//!   },
+//!   "inputs": ["x", "y"],              optional: I names of features of the state
+//!   "channels": ["near", "held"],      optional: C names of features of an entity
+//!   "training": [{                     one for each skill; none for a network that was not learned
+//!     "task": "fetch",
+//!     "steps": 200000,                 environment steps
+//!     "episodes": 3100,
+//!     "updates": 199000,               of the weights
+//!     "gamma": 0.98,
+//!     "seed": 7
+//!   }, ...],
+//!   "estimate": { ... },               optional: estimate::Estimate, what it was seen to be worth
+//!   "network": {
+//!     "shape": {
+//!       "inputs": 2,                   I
+//!       "hidden": [64, 64],            units of each hidden layer
+//!       "heads": 3,                    H: N without the accepting state and the trap
+//!       "actions": 5,                  A
+//!       "entities": 2,                 E, what the last E actions point at
+//!       "channels": 2                  C; 0 where E is
+//!     },
+//!     "layers": [                      the hidden layers, then the heads
+//!       {
+//!         "weights": [0.1, ...],       indexed input * outputs + output
+//!         "bias": [0.0, ...]           one for each output
+//!       },
+//!       ...
+//!     ]
+//!   }
+//! }
+//! ```
+//! Layers are `x W + b`, the hidden ones with negative outputs set to 0. Head h belongs to the h-th
+//! automaton state in which the task goes on, and puts out columns `h * w..(h + 1) * w` of the last
+//! layer: values of the first A - E actions; where E > 0, one that the others have in common;
+//! and C weights, whose product with the features of its entity is added to that. So w is
+//! A - E + (1 if E > 0) + C.
+//!
+//! Numbers are 32-bit floats, written so that they are read back exactly (with serde_json, switch
+//! on its feature `float_roundtrip`).
+
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+use core::fmt;
+
+#[cfg(feature = "serde")]
+use serde::{Deserialize, Serialize};
+
+use super::Network;
+use crate::augmented::End;
+use crate::policy::States;
+use crate::q::argmax;
+
+/// How a network, or a skill that it was composed from, was learned.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Training {
+    /// The name of the task that was learned.
+    pub task: String,
+    /// Environment steps.
+    pub steps: u64,
+    /// Episodes.
+    pub episodes: u64,
+    /// Updates of the weights.
+    pub updates: u64,
+    /// The discount factor.
+    pub gamma: f64,
+    /// The seed.
+    pub seed: u64,
+}
+
+/// The content of a network policy; [`NetworkPolicy`] is the checked form.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Document {
+    /// [`NetworkPolicy::FORMAT`].
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "early::format"))]
+    pub format: String,
+    /// [`NetworkPolicy::VERSION`].
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "early::version"))]
+    pub version: u32,
+    /// The name of the task.
+    pub task: String,
+    /// Its formula.
+    pub formula: String,
+    /// The names of the actions.
+    pub actions: Vec<String>,
+    /// The automaton.
+    pub automaton: States,
+    /// The names of the features of the state; none where they are not known.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
+    pub inputs: Vec<String>,
+    /// The names of the features of an entity; none where they are not known.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
+    pub channels: Vec<String>,
+    /// How it was learned; for a composition, how each skill was.
+    pub training: Vec<Training>,
+    /// What it was seen to be worth.
+    #[cfg(feature = "std")]
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub estimate: Option<crate::estimate::Estimate>,
+    /// The values.
+    pub network: Network,
+}
+
+/// Why a document is not a network policy.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Invalid {
+    /// It is something else.
+    Format(String),
+    /// It is of another version.
+    Version(u32),
+    /// A state of the automaton is out of range.
+    Range {
+        /// The field.
+        field: &'static str,
+        /// What stands there.
+        found: u32,
+        /// The number of states.
+        states: u32,
+    },
+    /// One state is both accepting and the trap.
+    Terminal(u32),
+    /// There is not one head for each automaton state in which the task goes on.
+    Heads {
+        /// How many heads there are.
+        found: usize,
+        /// How many such states there are.
+        expected: usize,
+    },
+    /// There are not as many names as the network has things to name.
+    Names {
+        /// The field.
+        field: &'static str,
+        /// How many there are.
+        found: usize,
+        /// How many there should be.
+        expected: usize,
+    },
+    /// A worth is not one: a probability outside of \[0, 1\], or a negative number of steps.
+    Worth {
+        /// The field.
+        field: &'static str,
+    },
+}
+
+impl fmt::Display for Invalid {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Format(found) => {
+                let format = NetworkPolicy::FORMAT;
+                write!(f, "not a network policy: format is `{found}`, not `{format}`")
+            }
+            Self::Version(found) => {
+                let version = NetworkPolicy::VERSION;
+                write!(f, "network policy version {found}; this library reads {version}")
+            }
+            Self::Range { field, found, states } => {
+                write!(f, "`{field}` is {found}, not less than {states}")
+            }
+            Self::Terminal(q) => write!(f, "automaton state {q} is both accepting and the trap"),
+            Self::Heads { found, expected } => write!(
+                f,
+                "the network has {found} heads, and the task goes on in {expected} automaton states"
+            ),
+            Self::Names { field, found, expected } => {
+                write!(f, "`{field}` has {found} names, and the network has {expected} {field}")
+            }
+            Self::Worth { field } => {
+                write!(f, "`{field}` is not a probability, or not a number of steps")
+            }
+        }
+    }
+}
+
+impl core::error::Error for Invalid {}
+
+/// A policy for a task on a world whose states are features: for each automaton state a network of
+/// action values.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "Document", into = "Document"))]
+pub struct NetworkPolicy(Document);
+
+impl TryFrom<Document> for NetworkPolicy {
+    type Error = Invalid;
+
+    fn try_from(document: Document) -> Result<Self, Invalid> {
+        document.check()?;
+        Ok(Self(document))
+    }
+}
+
+impl From<NetworkPolicy> for Document {
+    fn from(policy: NetworkPolicy) -> Self {
+        policy.0
+    }
+}
+
+impl Document {
+    fn check(&self) -> Result<(), Invalid> {
+        if self.format != NetworkPolicy::FORMAT {
+            return Err(Invalid::Format(self.format.clone()));
+        }
+        if self.version != NetworkPolicy::VERSION {
+            return Err(Invalid::Version(self.version));
+        }
+        self.check_automaton()?;
+        let shape = self.network.shape();
+        let named = |field, names: &[String], expected| match names.len() {
+            found if found == expected => Ok(()),
+            found => Err(Invalid::Names { field, found, expected }),
+        };
+        named("actions", &self.actions, shape.actions)?;
+        if !self.inputs.is_empty() {
+            named("inputs", &self.inputs, shape.inputs)?;
+        }
+        if !self.channels.is_empty() {
+            named("channels", &self.channels, shape.channels)?;
+        }
+        #[cfg(feature = "std")]
+        self.check_worth()?;
+        Ok(())
+    }
+
+    #[cfg(feature = "std")]
+    fn check_worth(&self) -> Result<(), Invalid> {
+        let Some(estimate) = &self.estimate else { return Ok(()) };
+        let probability = |interval: &crate::estimate::Interval| {
+            [interval.low, interval.mean, interval.high].iter().all(|p| (0.0..=1.0).contains(p))
+        };
+        let steps = estimate.steps.is_none_or(|steps| steps.mean >= 0.0);
+        let known = [
+            ("estimate.satisfied", probability(&estimate.satisfied)),
+            ("estimate.lost", probability(&estimate.lost)),
+            ("estimate.steps", steps),
+        ];
+        let fault = known.iter().find(|(_, sound)| !sound);
+        fault.map_or(Ok(()), |&(field, _)| Err(Invalid::Worth { field }))
+    }
+
+    fn check_automaton(&self) -> Result<(), Invalid> {
+        let States { states, initial, accepting, trap } = self.automaton;
+        for (field, state) in [
+            ("automaton.initial", Some(initial)),
+            ("automaton.accepting", accepting),
+            ("automaton.trap", trap),
+        ] {
+            match state {
+                Some(found) if found >= states => {
+                    return Err(Invalid::Range { field, found, states });
+                }
+                _ => {}
+            }
+        }
+        if let (Some(q), true) = (accepting, accepting == trap) {
+            return Err(Invalid::Terminal(q));
+        }
+        let decided = accepting.into_iter().chain(trap).count();
+        match (self.network.shape().heads, states as usize - decided) {
+            (found, expected) if found != expected => Err(Invalid::Heads { found, expected }),
+            _ => Ok(()),
+        }
+    }
+}
+
+impl NetworkPolicy {
+    /// The value of the field `format`.
+    pub const FORMAT: &'static str = "tltl-network-policy";
+
+    /// The version that this library writes and reads.
+    pub const VERSION: u32 = 1;
+
+    /// The policy that is greedy in `network`, for the task with that `automaton`
+    /// ([`States::of`] has it); `name` and `formula` say which task that is, `actions` what the
+    /// actions are called.
+    ///
+    /// # Errors
+    /// If the network does not fit the automaton or the names.
+    pub fn new(
+        name: &str,
+        formula: &str,
+        automaton: States,
+        actions: Vec<String>,
+        network: Network,
+    ) -> Result<Self, Invalid> {
+        Self::try_from(Document {
+            format: Self::FORMAT.to_string(),
+            version: Self::VERSION,
+            task: name.to_string(),
+            formula: formula.to_string(),
+            actions,
+            automaton,
+            inputs: Vec::new(),
+            channels: Vec::new(),
+            training: Vec::new(),
+            #[cfg(feature = "std")]
+            estimate: None,
+            network,
+        })
+    }
+
+    /// The same policy, saying what the features of the state and of an entity are.
+    ///
+    /// # Errors
+    /// Unless there are as many names as features, or none.
+    pub fn described(
+        mut self,
+        inputs: Vec<String>,
+        channels: Vec<String>,
+    ) -> Result<Self, Invalid> {
+        (self.0.inputs, self.0.channels) = (inputs, channels);
+        Self::try_from(self.0)
+    }
+
+    /// The same policy, saying how it was learned; called once for each skill of a composition.
+    #[must_use]
+    pub fn trained(mut self, training: Training) -> Self {
+        self.0.training.push(training);
+        self
+    }
+
+    /// The same policy, saying what it was seen to be worth.
+    #[cfg(feature = "std")]
+    #[must_use]
+    pub fn estimated(mut self, estimate: crate::estimate::Estimate) -> Self {
+        self.0.estimate = Some(estimate);
+        self
+    }
+
+    /// All that the policy says.
+    #[must_use]
+    pub const fn document(&self) -> &Document {
+        &self.0
+    }
+
+    /// The network.
+    #[must_use]
+    pub const fn network(&self) -> &Network {
+        &self.0.network
+    }
+
+    /// How the task has ended at `q`, if it has.
+    #[must_use]
+    pub fn end(&self, q: u32) -> Option<End> {
+        match q {
+            q if self.0.automaton.accepting == Some(q) => Some(End::Accepted),
+            q if self.0.automaton.trap == Some(q) => Some(End::Lost),
+            _ => None,
+        }
+    }
+
+    /// The head of `q`: the number of states before it in which the task goes on. `None` where it is
+    /// decided.
+    ///
+    /// # Panics
+    /// If `q` is not a state of the automaton.
+    #[must_use]
+    pub fn head(&self, q: u32) -> Option<usize> {
+        let States { states, accepting, trap, .. } = self.0.automaton;
+        assert!(q < states, "a state of the automaton");
+        let before = accepting.into_iter().chain(trap).filter(|&end| end < q).count();
+        if self.end(q).is_none() { Some(q as usize - before) } else { None }
+    }
+
+    /// Q(s, q, ·), from the features of s as [`Network::values`] takes them. Where the task is decided
+    /// nothing more can be had: all values are 0, as in a [`QTable`](crate::q::QTable).
+    ///
+    /// # Panics
+    /// If `q` is not a state of the automaton, or the features do not fit the network.
+    #[must_use]
+    pub fn values(&self, q: u32, inputs: &[f32], entities: &[f32]) -> Vec<f32> {
+        let network = self.network();
+        match self.head(q) {
+            Some(head) => network.values(head, inputs, entities),
+            None => alloc::vec![0.0; network.shape().actions],
+        }
+    }
+
+    /// The action of the largest value at `q`, the lowest of equals: action 0 where the task is
+    /// decided.
+    ///
+    /// # Panics
+    /// As [`Self::values`].
+    #[must_use]
+    pub fn act(&self, q: u32, inputs: &[f32], entities: &[f32]) -> usize {
+        argmax(&self.values(q, inputs, entities)) as usize
+    }
+}
+
+/// What says what a document is, looked at where it stands: before fields that only another format
+/// has.
+#[cfg(feature = "serde")]
+mod early {
+    use alloc::string::String;
+
+    use serde::de::{Deserialize, Deserializer, Error};
+
+    use super::{Invalid, NetworkPolicy};
+
+    pub(super) fn format<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error> {
+        let format = String::deserialize(from)?;
+        let known = format == NetworkPolicy::FORMAT;
+        if known { Ok(format) } else { Err(D::Error::custom(Invalid::Format(format))) }
+    }
+
+    pub(super) fn version<'de, D: Deserializer<'de>>(from: D) -> Result<u32, D::Error> {
+        let version = u32::deserialize(from)?;
+        let known = version == NetworkPolicy::VERSION;
+        if known { Ok(version) } else { Err(D::Error::custom(Invalid::Version(version))) }
+    }
+}
