@@ -4,6 +4,12 @@
 //! from which the trap is avoided in the long run with the largest possible probability; without
 //! one it looks one step ahead in what was seen. It never leaves a pair without actions. What it
 //! costs and gains is in [`Problem::certify_shield`].
+//!
+//! A shield knows the trap, not the goal: where the goal itself lies beside the trap, staying away
+//! for ever avoids it best, and the shield may do that. Laid over optimal safe policies of the three
+//! compositions with traps in the study of rewards, each on 101 layouts, it gives away more than
+//! 0.1 % of P(satisfied) in 58 of 303 cases, 3.6 % in the mean and up to 95 %: look at the
+//! certificate before you take one.
 
 use alloc::vec::Vec;
 

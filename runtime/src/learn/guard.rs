@@ -22,7 +22,8 @@ use crate::shield::Shield;
 /// certificate only under the same shield
 /// ([`Problem::certify_shield`](crate::solve::Problem::certify_shield)). There it is here the
 /// largest possible P(satisfied), 98.4865 %, in the fewest steps that allow it, 11.6584: the
-/// shield costs nothing, and the sampling that tips near ties beside a trap has no say.
+/// shield costs nothing, and the sampling that tips near ties beside a trap has no say. Where a goal
+/// lies beside a trap it can cost nearly all: see [`shield`](crate::shield).
 #[derive(Clone, Copy, Debug)]
 pub enum Guard<'a> {
     /// A [`Shield`]: with that of a known model no trap is ever entered that can be avoided.
