@@ -32,6 +32,7 @@
 //! goals are drawn; the formulas, for the paper's supplement is lost; the cost of a failed action.
 
 pub mod action;
+pub mod features;
 pub mod format;
 pub mod known;
 pub mod layout;

@@ -33,6 +33,8 @@ pub struct Learned<'a, S> {
     pub features: &'a dyn Features<S>,
     /// Its task.
     pub task: &'a dyn Monitor<S>,
+    /// What was seen when it was learned.
+    pub experience: &'a Replay<S>,
 }
 
 impl<S> Clone for Learned<'_, S> {
@@ -107,8 +109,8 @@ pub struct Composition<'a, S, G> {
 
 impl<'a, S: Clone, G: Goals<S>> Composition<'a, S, G> {
     /// Step 2: the composition of `skills`, in the order of the operands of `product`, on what
-    /// was seen in `experience`. Of `settings` it reads those of updates and rewards; the goals of
-    /// replayed steps are drawn from `goals` by the share `settings.hindsight`.
+    /// they have seen. Of `settings` it reads those of updates and rewards; the goals of
+    /// replayed steps are drawn from `goals` by the share `settings.relabelled`.
     ///
     /// # Errors
     /// If a feature is not a finite number in a state that was seen.
@@ -119,7 +121,6 @@ impl<'a, S: Clone, G: Goals<S>> Composition<'a, S, G> {
         product: &'a Product<'a, S>,
         skills: &[Learned<'a, S>],
         goals: G,
-        experience: &[&Replay<S>],
         combine: Combine,
         settings: Settings,
         device: &Device,
@@ -133,9 +134,8 @@ impl<'a, S: Clone, G: Goals<S>> Composition<'a, S, G> {
         let shape = Shape::of(&features, &settings.hidden, heads.states.len(), actions);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
         let network = Network::random(shape, &mut rng).silent();
-        let mut replay =
-            Replay::new(experience.iter().map(|seen| seen.len()).sum::<usize>().max(2));
-        experience.iter().for_each(|seen| replay.extend(seen));
+        let mut replay = Replay::new(skills.iter().map(|skill| skill.experience.len()).sum());
+        skills.iter().for_each(|skill| replay.extend(skill.experience));
         let part = |&skill: &Learned<'a, S>| {
             let moves = Moves::new(&skill.task, settings.rewards, settings.gamma);
             let heads = Heads::new(&moves, skill.task.states());
@@ -150,7 +150,7 @@ impl<'a, S: Clone, G: Goals<S>> Composition<'a, S, G> {
                 &settings,
                 worst(&replay, settings.rewards.environment),
             ),
-            trainer: Trainer::new(&network, heads, settings.normalisation, device),
+            trainer: Trainer::new(Model::new(&network, device), heads, settings.normalisation),
             product,
             settings,
             goals,

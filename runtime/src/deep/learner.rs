@@ -14,7 +14,7 @@ use super::trainer::{Heads, Optimum, Trainer, bounds};
 use super::{Error, Goals, Skill};
 use crate::augmented::Moves;
 use crate::env::{Env, below, unit};
-use crate::network::{Features, Network, Shape};
+use crate::network::{Dense, Features, Network, Shape};
 use crate::q::argmax;
 use crate::task::Monitor;
 
@@ -66,7 +66,7 @@ where
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
         let network = Network::random(shape, &mut rng);
         Self {
-            trainer: Trainer::new(&network, heads, settings.normalisation, device),
+            trainer: Trainer::new(Model::new(&network, device), heads, settings.normalisation),
             replay: Replay::new(settings.capacity),
             explored: (0..actions as u32).collect(),
             most: moves.most(&skill.task),
@@ -227,8 +227,9 @@ where
             settings: self.settings.clone(),
             explored: self.explored.clone(),
             paid: self.paid,
-            network: self.trainer.model.network(),
-            target: self.trainer.target.network(),
+            shape: self.trainer.model.shape().clone(),
+            network: self.trainer.model.dense(),
+            target: self.trainer.target.dense(),
             moments: self.trainer.descent.moments(),
             popart: self.trainer.popart.clone(),
             updates: self.trainer.updates,
@@ -249,16 +250,18 @@ where
         checkpoint: Checkpoint<S>,
         device: &Device,
     ) -> Result<Self, Shape> {
-        let Checkpoint { settings, network, target, .. } = &checkpoint;
+        let Checkpoint { settings, shape, network, target, .. } = &checkpoint;
         let moves = Moves::new(&skill.task, settings.rewards, settings.gamma);
         let heads = Heads::new(&moves, skill.task.states());
-        let actions = network.shape().actions;
-        let shape = Shape::of(&skill.features, &settings.hidden, heads.states.len(), actions);
-        if shape != *network.shape() || shape != *target.shape() {
-            return Err(network.shape().clone());
-        }
-        let mut trainer = Trainer::new(network, heads, settings.normalisation, device);
-        trainer.target = Model::new(target, device);
+        let actions = shape.actions;
+        let wanted = Shape::of(&skill.features, &settings.hidden, heads.states.len(), actions);
+        let model = |layers| Model::resume(wanted.clone(), layers, device);
+        let (true, Some(model), Some(target)) = (*shape == wanted, model(network), model(target))
+        else {
+            return Err(shape.clone());
+        };
+        let mut trainer = Trainer::new(model, heads, settings.normalisation);
+        trainer.target = target;
         if let Some(moments) = &checkpoint.moments {
             trainer.descent = Descent::resume(moments, device);
         }
@@ -287,8 +290,9 @@ pub struct Checkpoint<S> {
     settings: Settings,
     explored: Vec<u32>,
     paid: (f64, f64),
-    network: Network,
-    target: Network,
+    shape: Shape,
+    network: Vec<Dense>,
+    target: Vec<Dense>,
     moments: Option<Moments>,
     popart: PopArt,
     updates: u64,

@@ -8,8 +8,8 @@
 //!
 //! The network has a [head](crate::network) for each live automaton state, and a step of the world
 //! does not depend on q: so each replayed step updates *every* head (counterfactual updates), and,
-//! where tasks have goals as parameters, it is relabelled with goals that it happens to serve
-//! ([`Goals`], hindsight experience replay, Andrychowicz et al. 2017).
+//! where tasks have goals as parameters, it is relabelled with other goals ([`Goals`]; universal
+//! values, Schaul et al. 2015).
 //!
 //! The device is chosen at run time; everything random comes from the seed, so on the CPU the same
 //! seed gives the same numbers. A loss, a weight or a feature that is not a finite number stops
@@ -21,6 +21,8 @@ mod model;
 mod popart;
 mod replay;
 mod settings;
+#[cfg(test)]
+mod tests;
 mod trainer;
 
 pub use burn::tensor::Device;
@@ -68,9 +70,10 @@ pub trait Goals<S> {
     /// A goal.
     type Goal;
 
-    /// A goal for a step from `state`, in an episode that came by `later` after it; `None` leaves the
-    /// one that was given.
-    fn choose<R: Rng + ?Sized>(&self, state: &S, later: &S, rng: &mut R) -> Option<Self::Goal>;
+    /// A goal for a step from `state`; `None` leaves the one that was given. It must be chosen from
+    /// what is known in `state` alone: by hindsight, what is hidden would seem to be wherever it was
+    /// then found.
+    fn choose<R: Rng + ?Sized>(&self, state: &S, rng: &mut R) -> Option<Self::Goal>;
 
     /// The state with another goal.
     fn give(&self, state: &S, goal: &Self::Goal) -> S;
@@ -83,7 +86,7 @@ pub struct AsGiven;
 impl<S: Clone> Goals<S> for AsGiven {
     type Goal = Infallible;
 
-    fn choose<R: Rng + ?Sized>(&self, _: &S, _: &S, _: &mut R) -> Option<Infallible> {
+    fn choose<R: Rng + ?Sized>(&self, _: &S, _: &mut R) -> Option<Infallible> {
         None
     }
 

@@ -73,7 +73,9 @@ fn numbers<const D: usize>(tensor: Tensor<D>) -> Vec<f32> {
     tensor.into_data().try_to_vec().expect("networks are of f32")
 }
 
-/// A network on a device.
+/// A network on a device, as it is trained: each head has, before the rest, the value of the state,
+/// which is added to all actions (dueling networks, Wang et al. 2016). The differences between
+/// actions are small beside it, and are so learned apart from it.
 #[derive(Clone, Debug)]
 pub(super) struct Model {
     shape: Shape,
@@ -90,18 +92,60 @@ pub(super) struct Target {
 }
 
 impl Model {
+    /// The model of a network, with state values of 0.
     pub(super) fn new(network: &Network, device: &Device) -> Self {
-        let layers = network.layers().iter().map(|dense| Layer::of(dense, device)).collect();
-        Self { shape: network.shape().clone(), layers }
+        let (shape, mut layers) = (network.shape().clone(), network.layers().to_vec());
+        let width = shape.head_width();
+        let heads = layers.last_mut().expect("a network has heads");
+        let lead = |row: &[f32]| {
+            let heads = row.chunks(width);
+            heads
+                .flat_map(|head| [0.0].into_iter().chain(head.iter().copied()))
+                .collect::<Vec<f32>>()
+        };
+        heads.weights = lead(&heads.weights);
+        heads.bias = lead(&heads.bias);
+        Self::of(shape, &layers, device)
+    }
+
+    fn of(shape: Shape, layers: &[Dense], device: &Device) -> Self {
+        Self { shape, layers: layers.iter().map(|dense| Layer::of(dense, device)).collect() }
+    }
+
+    /// The layers as they are trained, for [`Self::resume`].
+    pub(super) fn dense(&self) -> Vec<Dense> {
+        self.layers.iter().map(Layer::dense).collect()
+    }
+
+    /// The model that had these layers; `None` if they do not fit the shape.
+    pub(super) fn resume(shape: Shape, layers: &[Dense], device: &Device) -> Option<Self> {
+        let mut widths = shape.widths();
+        *widths.last_mut()? += shape.heads;
+        let sizes = widths.windows(2).map(|width| (width[0] * width[1], width[1]));
+        let fits = layers.len() + 1 == widths.len()
+            && sizes.zip(layers).all(|(size, l)| size == (l.weights.len(), l.bias.len()));
+        fits.then(|| Self::of(shape, layers, device))
     }
 
     pub(super) const fn shape(&self) -> &Shape {
         &self.shape
     }
 
-    /// The layers as numbers.
+    /// The network: the values of states added to those of their actions.
     pub(super) fn network(&self) -> Network {
-        let layers = self.layers.iter().map(Layer::dense).collect();
+        let mut layers = self.dense();
+        let (width, levels) = (self.shape.head_width(), self.shape.levels());
+        let heads = layers.last_mut().expect("a network has heads");
+        let fold = |row: &[f32]| {
+            let fold = |head: &[f32]| {
+                let (value, rest) = (head[0], &head[1..]);
+                let add = |(i, x): (usize, &f32)| if i < levels { x + value } else { *x };
+                rest.iter().enumerate().map(add).collect::<Vec<f32>>()
+            };
+            row.chunks(width + 1).flat_map(fold).collect::<Vec<f32>>()
+        };
+        heads.weights = fold(&heads.weights);
+        heads.bias = fold(&heads.bias);
         Network::new(self.shape.clone(), layers).expect("a model is a network")
     }
 
@@ -124,16 +168,17 @@ impl Model {
             |x: Tensor<2>, l: &Layer| x.matmul(l.weights.clone()) + l.bias.clone().unsqueeze();
         let x = trunk.iter().fold(inputs, |x, layer| relu(dense(x, layer)));
         let rows = x.dims()[0];
-        let out = dense(x, last).reshape([rows, heads, width]);
+        let out = dense(x, last).reshape([rows, heads, 1 + width]);
+        let state = out.clone().narrow(2, 0, 1);
         if n == 0 {
-            return out;
+            return state + out.narrow(2, 1, plain);
         }
-        let query = out.clone().narrow(2, plain + 1, channels);
-        let pointing = out.clone().narrow(2, plain, 1) + query.matmul(entities);
+        let query = out.clone().narrow(2, plain + 2, channels);
+        let pointing = out.clone().narrow(2, plain + 1, 1) + query.matmul(entities);
         if plain == 0 {
-            return pointing;
+            return state + pointing;
         }
-        Tensor::cat(std::vec![out.narrow(2, 0, plain), pointing], 2)
+        state + Tensor::cat(std::vec![out.narrow(2, 1, plain), pointing], 2)
     }
 
     /// The layers with gradients.
@@ -192,14 +237,15 @@ impl Model {
     /// Rewrites the heads so that what they put out under the scales `new` is what they put out under
     /// `old`: `σ' y' + μ' = σ y + μ`.
     pub(super) fn rescale(&mut self, old: &PopArt, new: &PopArt) {
-        let (width, levels) = (self.shape.head_width(), self.shape.levels());
+        let width = 1 + self.shape.head_width();
         let heads = 0..self.shape.heads;
         let (mut scale, mut shift) = (Vec::new(), Vec::new());
         for (old, new) in heads.map(|head| (old.scale(head), new.scale(head))) {
             let factor = (old.1 / new.1) as f32;
             scale.extend(core::iter::repeat_n(factor, width));
-            shift.extend(core::iter::repeat_n(((old.0 - new.0) / new.1) as f32, levels));
-            shift.extend(core::iter::repeat_n(0.0, width - levels));
+            // The value of the state shifts all others.
+            shift.push(((old.0 - new.0) / new.1) as f32);
+            shift.extend(core::iter::repeat_n(0.0, width - 1));
         }
         let device = self.device();
         let row = |numbers: Vec<f32>| {

@@ -44,7 +44,7 @@ pub struct Settings {
     /// taken in.
     pub counterfactual: bool,
     /// The share of replayed steps that get another goal, where tasks have goals.
-    pub hindsight: f64,
+    pub relabelled: f64,
     /// How fast the normalisation of the targets follows them; 0 is none.
     pub normalisation: f64,
     /// The probability of a random action, at the number of earlier environment steps.
@@ -54,22 +54,22 @@ pub struct Settings {
 impl Default for Settings {
     fn default() -> Self {
         Self {
-            gamma: 0.98,
+            gamma: 0.97,
             rewards: Rewards::default(),
             horizon: 200,
-            hidden: std::vec![64, 64],
-            learning_rate: Schedule::Constant(1e-3),
+            hidden: std::vec![128, 128],
+            learning_rate: Schedule::Constant(5e-4),
             gradient_norm: 10.0,
             batch: 64,
-            steps_per_update: 1,
+            steps_per_update: 2,
             warmup: 1_000,
             capacity: 200_000,
-            priority: 0.6,
+            priority: 0.3,
             importance: Schedule::Linear { from: 0.4, to: 1.0, steps: 100_000 },
             target_rate: 0.005,
-            steps: 1,
+            steps: 3,
             counterfactual: true,
-            hindsight: 0.8,
+            relabelled: 0.8,
             normalisation: 1e-3,
             epsilon: Schedule::Linear { from: 1.0, to: 0.05, steps: 20_000 },
         }

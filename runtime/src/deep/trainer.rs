@@ -1,6 +1,5 @@
 //! One update of a network from replayed steps.
 
-use burn::tensor::Device;
 use rand::Rng;
 use std::vec::Vec;
 
@@ -146,11 +145,10 @@ pub(super) struct Trainer {
 }
 
 impl Trainer {
-    pub(super) fn new(network: &Network, heads: Heads, rate: f64, device: &Device) -> Self {
-        let model = Model::new(network, device);
+    pub(super) fn new(model: Model, heads: Heads, rate: f64) -> Self {
         Self {
             target: model.clone(),
-            descent: Descent::new(network.layers().len()),
+            descent: Descent::new(model.dense().len()),
             popart: PopArt::new(heads.states.len(), rate),
             updates: 0,
             before: Batch::default(),
@@ -374,11 +372,8 @@ fn relabelled<S: Clone, G: Goals<S>, R: Rng + ?Sized>(
     let ahead = replay.steps_from(place);
     let count = settings.steps.clamp(1, ahead);
     let state = |i| &replay.moment(replay.after(place, i)).state;
-    let relabel = settings.hindsight > 0.0 && unit(rng) < settings.hindsight;
-    let goal = relabel.then(|| {
-        let later = 1 + crate::env::below(ahead, rng);
-        goals.choose(state(0), state(later), rng)
-    });
+    let relabel = settings.relabelled > 0.0 && unit(rng) < settings.relabelled;
+    let goal = relabel.then(|| goals.choose(state(0), rng));
     match goal.flatten() {
         Some(goal) => (0..=count).map(|i| goals.give(state(i), &goal)).collect(),
         None => (0..=count).map(|i| state(i).clone()).collect(),

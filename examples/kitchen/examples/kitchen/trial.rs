@@ -1,0 +1,309 @@
+//! One trial: learn, and measure along the way.
+
+use std::error::Error;
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+use tltl::Monitor;
+use tltl::augmented::Rewards;
+use tltl::compose::Combine;
+use tltl::deep::{Composition, Device, Learned, Learner, Settings, Skill};
+use tltl::env::Env;
+use tltl::learn::Schedule;
+use tltl::product::Product;
+use tltl::rand::{SeedableRng, rngs::Xoshiro256PlusPlus};
+use tltl_kitchen::features::{FeasibleGoals, View, exploration};
+use tltl_kitchen::tasks::{phi1_1, phi1_2, phi1_3, told};
+use tltl_kitchen::{Goal, Goals, Kitchen, Known, Layout};
+
+/// Episodes of an evaluation during training, as in the paper.
+const EPISODES: u64 = 50;
+/// Episodes of the last one, from starts that were never seen.
+const LAST_EPISODES: u64 = 500;
+/// What a failed action costs in the starred specifications; the paper does not say.
+const PENALTY: f64 = 0.1;
+/// Steps after which an episode of each problem is cut.
+pub const HORIZONS: [u32; 3] = [100, 200, 200];
+
+/// How long everything takes.
+#[derive(Clone, Copy, Debug)]
+pub struct Budget {
+    /// Environment steps of each task.
+    pub steps: [u64; 2],
+    /// Updates of the compensation and of the refinement.
+    pub updates: [u64; 2],
+    /// Evaluations of each curve.
+    pub points: u64,
+}
+
+/// What a greedy policy does.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub struct Worth {
+    /// Environment steps, or updates in the composition, that it took.
+    pub x: u64,
+    /// The share of episodes that satisfy the task.
+    pub success: f64,
+    /// The share of actions that do not fail.
+    pub actions: f64,
+    /// The mean length of all episodes, those cut at the horizon included.
+    pub length: f64,
+}
+
+/// A learning curve.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Curve {
+    /// What was learned.
+    pub name: String,
+    /// From left to right.
+    pub points: Vec<Worth>,
+    /// The last policy, on many unseen starts.
+    pub last: Worth,
+}
+
+/// What the trials share.
+pub struct Trials {
+    pub layout: Arc<Layout>,
+    pub apple: Goal,
+    pub budget: Budget,
+}
+
+type DeepLearner<'a> = Learner<Known, &'a dyn Monitor<Known>, View, FeasibleGoals>;
+type Failure = Box<dyn Error + Send + Sync>;
+
+impl Trials {
+    pub fn new(budget: Budget) -> Result<Self, Failure> {
+        let layout = Arc::new(Layout::floorplan24());
+        let id = |name| layout.id(name).ok_or("the kitchen has an apple and a fridge");
+        let apple = Goal { object: id("apple")?, receptacle: id("fridge")? };
+        Ok(Self { layout, apple, budget })
+    }
+
+    /// The kitchen of a problem: 0 task 1, 1 task 2, 2 both.
+    pub fn kitchen(&self, problem: usize) -> Result<Kitchen, Failure> {
+        let Goal { object, receptacle } = self.apple;
+        let goals = match problem {
+            0 => Goals::Fixed { object, receptacle },
+            1 => Goals::Random { except: None },
+            _ => Goals::Beside { object, receptacle },
+        };
+        Ok(Kitchen::new(self.layout.clone(), goals, HORIZONS[problem])?)
+    }
+
+    fn settings(&self, steps: u64, horizon: u32, starred: bool) -> Settings {
+        let defaults = Settings::default();
+        let updates = steps / defaults.steps_per_update;
+        let environment = if starred { PENALTY } else { 0.0 };
+        Settings {
+            horizon,
+            rewards: Rewards { environment, ..Rewards::default() },
+            learning_rate: Schedule::Linear { from: 5e-4, to: 5e-5, steps: updates },
+            importance: Schedule::Linear { from: 0.4, to: 1.0, steps: updates },
+            epsilon: Schedule::Linear { from: 1.0, to: 0.05, steps: steps / 4 },
+            ..defaults
+        }
+    }
+
+    /// What `act` does in `episodes` episodes of `kitchen`.
+    fn worth(
+        &self,
+        mut kitchen: Kitchen,
+        task: &dyn Monitor<Known>,
+        (x, episodes, seed): (u64, u64, u64),
+        mut act: impl FnMut(u32, &Known) -> Result<usize, tltl::deep::Error>,
+    ) -> Result<Worth, Failure> {
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
+        let (mut satisfied, mut steps, mut failures) = (0, 0, 0);
+        for _ in 0..episodes {
+            let mut s = kitchen.reset(&mut rng);
+            let mut q = task.next(0, &s)?;
+            let mut over = task.is_terminal(q);
+            while !over {
+                let step = kitchen.step(act(q, &s)?, &mut rng);
+                s = step.state;
+                q = task.next(q, &s)?;
+                over = step.truncated || task.is_terminal(q);
+            }
+            satisfied += u64::from(task.is_accepting(q));
+            steps += u64::from(kitchen.steps());
+            failures += u64::from(kitchen.failures());
+        }
+        let share = |n: u64, of: u64| n as f64 / of.max(1) as f64;
+        let actions = 1.0 - share(failures, steps);
+        Ok(Worth {
+            x,
+            success: share(satisfied, episodes),
+            actions,
+            length: share(steps, episodes),
+        })
+    }
+
+    /// Learns φ`task`.`j`, with a penalty for failed actions if `starred`; shows how far it is.
+    pub fn learn(
+        &self,
+        (task, j, starred): (usize, usize, bool),
+        seed: u64,
+    ) -> Result<Curve, Failure> {
+        let monitor = specification(task, j);
+        let skill = self.skill(task, &*monitor);
+        let (_, curve) = self.train(skill, &*monitor, (task, j, starred), seed)?;
+        Ok(curve)
+    }
+
+    fn skill<'m>(
+        &self,
+        task: usize,
+        monitor: &'m dyn Monitor<Known>,
+    ) -> Skill<&'m dyn Monitor<Known>, View, FeasibleGoals> {
+        let view = match task {
+            0 => View::of(self.layout.clone(), self.apple),
+            _ => View::new(self.layout.clone()),
+        };
+        Skill::with_goals(monitor, view, FeasibleGoals::new(&self.layout, None))
+    }
+
+    fn train<'m>(
+        &self,
+        skill: Skill<&'m dyn Monitor<Known>, View, FeasibleGoals>,
+        monitor: &dyn Monitor<Known>,
+        (task, j, starred): (usize, usize, bool),
+        seed: u64,
+    ) -> Result<(DeepLearner<'m>, Curve), Failure> {
+        let total = self.budget.steps[task];
+        let mut settings = self.settings(total, HORIZONS[task], starred);
+        if task == 0 {
+            settings.relabelled = 0.0;
+        }
+        let mut kitchen = self.kitchen(task)?;
+        let mut learner =
+            Learner::new(skill, self.layout.actions(), settings, &Device::flex(), seed)
+                .exploring(exploration(&self.layout));
+        let mut points = Vec::new();
+        for i in 1..=self.budget.points {
+            learner.train(&mut kitchen, total * i / self.budget.points)?;
+            let how = (learner.steps(), EPISODES, seed + 1_000);
+            points.push(self.worth(self.kitchen(task)?, monitor, how, |q, s| learner.act(q, s))?);
+        }
+        let how = (learner.steps(), LAST_EPISODES, seed + 2_000);
+        let last = self.worth(self.kitchen(task)?, monitor, how, |q, s| learner.act(q, s))?;
+        let star = if starred { "*" } else { "" };
+        let name = format!("φ{}.{}{star}", task + 1, j + 1);
+        Ok((learner, Curve { name, points, last }))
+    }
+
+    /// Learns both skills, φ1.3* and φ2.3*, composes them, and learns their conjunction from scratch:
+    /// the curves of the skills, c1, c2, c3, `max` and from scratch.
+    pub fn compose(&self, seed: u64) -> Result<Vec<Curve>, Failure> {
+        let monitors = [specification(0, 2), specification(1, 2)];
+        let mut trained = Vec::new();
+        let mut curves = Vec::new();
+        for (task, monitor) in monitors.iter().enumerate() {
+            let skill = self.skill(task, &**monitor);
+            let (learner, curve) = self.train(skill, &**monitor, (task, 2, true), seed)?;
+            trained.push(learner);
+            curves.push(curve);
+        }
+        let product = Product::conjunction(&[&*monitors[0], &*monitors[1]]);
+        let networks: Vec<_> = trained.iter().map(Learner::network).collect();
+        let learned = |i: usize| Learned {
+            network: &networks[i],
+            features: &trained[i].skill().features,
+            task: &*monitors[i],
+            experience: trained[i].replay(),
+        };
+        let skills = [learned(0), learned(1)];
+        let updates = self.budget.updates;
+        let composed = |combine| {
+            let mut settings = self.settings(0, HORIZONS[2], true);
+            settings.relabelled = 1.0;
+            settings.learning_rate =
+                Schedule::Linear { from: 5e-4, to: 5e-5, steps: updates[0] + updates[1] };
+            let goals = FeasibleGoals::new(&self.layout, Some(self.apple.object));
+            let device = Device::flex();
+            Composition::new(&product, &skills, goals, combine, settings, &device, seed)
+        };
+        for (name, combine) in [("c1", Combine::NormalisedSum), ("max", Combine::Max)] {
+            let composition = composed(combine)?;
+            curves.push(self.composed(&product, name, seed, 0, |q, s| composition.act(q, s))?);
+        }
+        let mut composition = composed(Combine::Sum)?;
+        let mut sum = self.composed(&product, "c2", seed, 0, |q, s| composition.act(q, s))?;
+        let points = self.budget.points / 2;
+        for _ in 0..points {
+            composition.compensate(updates[0] / points)?;
+            let now = self.composed(&product, "c2", seed, composition.updates(), |q, s| {
+                composition.act(q, s)
+            })?;
+            sum.points.extend(now.points);
+            sum.last = now.last;
+        }
+        let mut refined = Curve { name: "c3".into(), points: vec![sum.last], last: sum.last };
+        refined.points = sum.points.last().copied().into_iter().collect();
+        for _ in 0..self.budget.points {
+            composition.refine(updates[1] / self.budget.points)?;
+            let now = self.composed(&product, "c3", seed, composition.updates(), |q, s| {
+                composition.act(q, s)
+            })?;
+            refined.points.extend(now.points);
+            refined.last = now.last;
+        }
+        curves.extend([sum, refined, self.from_scratch(&product, seed)?]);
+        Ok(curves)
+    }
+
+    /// A curve of one point.
+    fn composed(
+        &self,
+        product: &Product<'_, Known>,
+        name: &str,
+        seed: u64,
+        x: u64,
+        mut act: impl FnMut(u32, &Known) -> Result<usize, tltl::deep::Error>,
+    ) -> Result<Curve, Failure> {
+        let how = (x, EPISODES, seed + 1_000);
+        let point = self.worth(self.kitchen(2)?, product, how, &mut act)?;
+        let last =
+            self.worth(self.kitchen(2)?, product, (x, LAST_EPISODES / 2, seed + 2_000), &mut act)?;
+        Ok(Curve { name: name.into(), points: vec![point], last })
+    }
+
+    /// The conjunction, learned in the kitchen: as many updates as the composition has in all, at one
+    /// environment step each.
+    fn from_scratch(&self, product: &Product<'_, Known>, seed: u64) -> Result<Curve, Failure> {
+        let total = self.budget.updates[0] + self.budget.updates[1];
+        let mut settings = self.settings(total, HORIZONS[2], true);
+        (settings.steps_per_update, settings.relabelled) = (1, 0.8);
+        let views = [View::of(self.layout.clone(), self.apple), View::new(self.layout.clone())];
+        let joint = tltl::deep::Joint(vec![&views[0], &views[1]]);
+        let goals = FeasibleGoals::new(&self.layout, Some(self.apple.object));
+        let skill = Skill::with_goals(product, joint, goals);
+        let device = Device::flex();
+        let mut learner = Learner::new(skill, self.layout.actions(), settings, &device, seed)
+            .exploring(exploration(&self.layout));
+        let mut kitchen = self.kitchen(2)?;
+        let mut curve = Curve {
+            name: "from scratch".into(),
+            points: Vec::new(),
+            last: Worth { x: 0, success: 0.0, actions: 0.0, length: 0.0 },
+        };
+        for i in 1..=self.budget.points {
+            learner.train(&mut kitchen, total * i / self.budget.points)?;
+            let now =
+                self.composed(product, "", seed, learner.updates(), |q, s| learner.act(q, s))?;
+            curve.points.extend(now.points);
+            curve.last = now.last;
+        }
+        Ok(curve)
+    }
+}
+
+/// φ`task`.`j`, both counted from 0.
+fn specification(task: usize, j: usize) -> Box<dyn Monitor<Known> + Sync> {
+    match (task, j) {
+        (0, 0) => Box::new(phi1_1()),
+        (0, 1) => Box::new(phi1_2()),
+        (0, _) => Box::new(phi1_3()),
+        (_, 0) => Box::new(told::phi_1()),
+        (_, 1) => Box::new(told::phi_2()),
+        _ => Box::new(told::phi_3()),
+    }
+}

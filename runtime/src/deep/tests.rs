@@ -1,0 +1,172 @@
+//! What no test from outside can see: gradients, normalisation, the order of weights.
+
+use std::vec::Vec;
+
+use burn::tensor::Device;
+use rand::SeedableRng;
+use rand::rngs::Xoshiro256PlusPlus;
+
+use super::model::{Batch, Descent, Model, Target};
+use super::popart::PopArt;
+use crate::env::unit;
+use crate::network::{Dense, Features, Network, Shape};
+
+/// Features that are given as such.
+struct Given {
+    inputs: usize,
+    entities: usize,
+    channels: usize,
+}
+
+type State = (Vec<f32>, Vec<f32>);
+
+impl Features<State> for Given {
+    fn inputs(&self) -> usize {
+        self.inputs
+    }
+
+    fn entities(&self) -> usize {
+        self.entities
+    }
+
+    fn channels(&self) -> usize {
+        self.channels
+    }
+
+    fn write(&self, s: &State, inputs: &mut [f32], entities: &mut [f32]) {
+        inputs.copy_from_slice(&s.0);
+        entities.copy_from_slice(&s.1);
+    }
+}
+
+struct Case {
+    shape: Shape,
+    network: Network,
+    states: Vec<State>,
+    batch: Batch,
+    rng: Xoshiro256PlusPlus,
+}
+
+/// A random network and some random states; with `entities`, the last actions point.
+fn case(entities: usize, hidden: &[usize], seed: u64) -> Case {
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
+    let features = Given { inputs: 5, entities, channels: if entities > 0 { 3 } else { 0 } };
+    let shape = Shape::of(&features, hidden, 2, entities + 2);
+    let network = Network::random(shape.clone(), &mut rng);
+    let mut random = |n: usize| (0..n).map(|_| unit(&mut rng) as f32 - 0.5).collect::<Vec<f32>>();
+    let states: Vec<State> =
+        (0..4).map(|_| (random(5), random(features.entities * features.channels))).collect();
+    let mut batch = Batch::default();
+    states.iter().for_each(|s| batch.push(&features, s).unwrap());
+    Case { shape, network, states, batch, rng }
+}
+
+#[test]
+fn the_plain_forward_pass_is_the_library_s() {
+    for (seed, (entities, hidden)) in
+        [(0, &[7][..]), (4, &[8, 6][..]), (4, &[][..]), (0, &[][..])].into_iter().enumerate()
+    {
+        let Case { network, states, batch, shape, .. } = case(entities, hidden, seed as u64);
+        let values = Model::new(&network, &Device::flex()).values(&batch);
+        for (row, (inputs, entities)) in states.iter().enumerate() {
+            for head in 0..2 {
+                let plain = network.values(head, inputs, entities);
+                let from = (row * 2 + head) * shape.actions;
+                for (a, b) in plain.iter().zip(&values[from..from + shape.actions]) {
+                    assert!((a - b).abs() < 1e-5, "{a} {b}");
+                }
+            }
+        }
+    }
+}
+
+/// The loss of a model, of which the gradient is the gradient.
+fn loss(model: &Model, batch: &Batch, actions: &[u32], targets: &[Target]) -> f64 {
+    f64::from(model.gradients(batch, actions, targets).0)
+}
+
+#[test]
+fn gradients_agree_with_finite_differences() {
+    const STEP: f32 = 1e-2;
+    for entities in [0, 4] {
+        let Case { network, batch, shape, mut rng, .. } = case(entities, &[6], 3);
+        let device = Device::flex();
+        let model = Model::new(&network, &device);
+        let actions = [0, 1, shape.actions as u32 - 1, 0];
+        let target = |i: usize| Target { value: unit(&mut rng) as f32, weight: [1.0, 0.3][i % 2] };
+        let targets: Vec<Target> = (0..8).map(target).collect();
+        let (_, _, gradients) = model.gradients(&batch, &actions, &targets);
+        let layers = model.dense();
+        for (layer, (weights, bias)) in gradients.into_iter().enumerate() {
+            let gradient = Dense {
+                weights: weights.into_data().try_to_vec().unwrap(),
+                bias: bias.into_data().try_to_vec().unwrap(),
+            };
+            let moved = |change: &dyn Fn(&mut Dense)| {
+                let mut layers = layers.clone();
+                change(&mut layers[layer]);
+                let model = Model::resume(shape.clone(), &layers, &device).unwrap();
+                loss(&model, &batch, &actions, &targets)
+            };
+            let check = |exact: f32, difference: f64| {
+                let estimate = difference / f64::from(2.0 * STEP);
+                assert!((f64::from(exact) - estimate).abs() < 2e-3, "{exact} {estimate}");
+            };
+            for i in 0..gradient.weights.len() {
+                let up = moved(&|dense| dense.weights[i] += STEP);
+                check(gradient.weights[i], up - moved(&|dense| dense.weights[i] -= STEP));
+            }
+            for i in 0..gradient.bias.len() {
+                let up = moved(&|dense| dense.bias[i] += STEP);
+                check(gradient.bias[i], up - moved(&|dense| dense.bias[i] -= STEP));
+            }
+        }
+    }
+}
+
+#[test]
+fn normalisation_preserves_outputs() {
+    let Case { network, batch, shape, mut rng, .. } = case(4, &[6], 5);
+    let mut model = Model::new(&network, &Device::flex());
+    let mut scale = PopArt::new(2, 0.1);
+    let outputs = |model: &Model, scale: &PopArt| -> Vec<f64> {
+        let values = model.values(&batch).into_iter().enumerate();
+        let scaled = |(i, value)| {
+            let (mean, deviation) = scale.scale(i / shape.actions % 2);
+            mean + deviation * f64::from(value)
+        };
+        values.map(scaled).collect()
+    };
+    let before = outputs(&model, &scale);
+    for round in 0..50 {
+        let old = scale.clone();
+        for head in 0..2 {
+            let targets = (0..8).map(|_| 3.0 * unit(&mut rng) + f64::from(round) / 10.0);
+            scale.observe(head, targets.collect::<Vec<_>>());
+        }
+        model.rescale(&old, &scale);
+    }
+    assert!(scale.scale(0).0 > 3.0, "the mean has moved: {:?}", scale.scale(0));
+    for (a, b) in before.iter().zip(outputs(&model, &scale)) {
+        assert!((a - b).abs() < 1e-4, "{a} {b}");
+    }
+}
+
+#[test]
+fn descent_goes_on_from_its_moments() {
+    let Case { network, batch, .. } = case(4, &[6], 7);
+    let device = Device::flex();
+    let targets = [Target { value: 1.0, weight: 1.0 }; 8];
+    let step = |model: &mut Model, descent: &mut Descent| {
+        let (_, _, gradients) = model.gradients(&batch, &[0, 1, 2, 3], &targets);
+        descent.step(model, gradients, 1e-2, 10.0)
+    };
+    let mut model = Model::new(&network, &device);
+    let mut descent = Descent::new(2);
+    (0..3).for_each(|_| assert!(step(&mut model, &mut descent) > 0.0));
+    let mut again = Model::resume(model.shape().clone(), &model.dense(), &device).unwrap();
+    let mut resumed = Descent::resume(&descent.moments().unwrap(), &device);
+    (0..3).for_each(|_| assert!(step(&mut model, &mut descent) > 0.0));
+    (0..3).for_each(|_| assert!(step(&mut again, &mut resumed) > 0.0));
+    assert_eq!(model.dense(), again.dense());
+}
