@@ -213,11 +213,10 @@ fn a_replay_keeps_its_last_states_in_order() {
     let mut replay = Replay::new(10);
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
     for episode in 0..50 {
-        replay.start(episode * 100, 0);
+        replay.start(episode * 100);
         for t in 1..=episode % 7 {
-            replay.push(t as u32, 0.0, false, episode * 100 + t, 0);
+            replay.push(0, t as u32, 0.0, false, episode * 100 + t);
         }
-        replay.end();
         if (0..replay.len()).all(|i| replay.steps_from(i) == 0) {
             continue;
         }
@@ -288,7 +287,7 @@ fn what_is_not_finite_is_named_at_once() {
     let mut settings = settings(1_000);
     let mut env = Broken { at: 200, steps: 0, reward: f64::NAN };
     let mut learner = Learner::new(Skill::new(task, OneHot), 2, settings.clone(), &device, 1);
-    assert_eq!(learner.train(&mut env, 1_000), Err(Error::Reward(200)));
+    assert_eq!(learner.train(&mut env, 1_000), Err(Error::Reward(201)));
 
     let mut env = Broken { at: 200, steps: 0, reward: 0.0 };
     let mut learner = Learner::new(Skill::new(task, Bad), 2, settings.clone(), &device, 1);

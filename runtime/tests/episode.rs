@@ -26,6 +26,7 @@ impl Explorer {
 
 impl Agent for Explorer {
     type State = Cell;
+    type Error = tltl::task::Error;
 
     fn start(&mut self, _: &Cell) {
         self.starts += 1;
@@ -35,13 +36,17 @@ impl Agent for Explorer {
         ((u64::from(rng.next_u32()) * 5) >> 32) as usize
     }
 
-    fn learn<W: World<State = Cell>, R: Rng + ?Sized>(
+    fn learn<W: World<State = Cell, Error: Into<Self::Error>>, R: Rng + ?Sized>(
         &mut self,
         world: &W,
         seen: &Seen<'_, Cell>,
         _: &mut R,
-    ) -> Result<(), W::Error> {
-        assert_eq!(world.read(seen.q, seen.to)?, seen.read, "what was read can be read again");
+    ) -> Result<(), Self::Error> {
+        assert_eq!(
+            world.read(seen.q, seen.to).map_err(Into::into)?,
+            seen.read,
+            "what was read can be read again"
+        );
         let rest = if seen.read.over || seen.terminated {
             0.0
         } else {

@@ -1,8 +1,8 @@
 //! The deep learner: acts, remembers, learns.
 
 use burn::tensor::Device;
-use rand::SeedableRng;
 use rand::rngs::Xoshiro256PlusPlus;
+use rand::{Rng, SeedableRng};
 use serde::{Deserialize, Serialize};
 use std::vec::Vec;
 
@@ -13,32 +13,147 @@ use super::settings::Settings;
 use super::trainer::{Heads, Optimum, Trainer, bounds};
 use super::{Error, Goals, Skill};
 use crate::augmented::Moves;
-use crate::env::{Env, below, unit};
+use crate::env::{Env, Step, below, unit};
+use crate::learn::episode::{self, Agent, Done, Move, Seen, World};
 use crate::network::{Dense, Features, Network, Shape};
 use crate::q::argmax;
-use crate::task::Monitor;
-
-/// Episodes in a row that are over at reset before training gives up.
-const IDLE: u32 = 100_000;
+use crate::task::{self, Monitor};
 
 /// A double-DQN learner of one skill.
 pub struct Learner<S, M, F, G> {
     skill: Skill<M, F, G>,
+    moves: Moves,
+    core: Core<S>,
+    rng: Xoshiro256PlusPlus,
+    done: Done,
+}
+
+/// All that learning changes, but for the random generator.
+struct Core<S> {
     settings: Settings,
     actions: usize,
     /// The actions that exploration draws from, each as often as it is listed.
     explored: Vec<u32>,
-    moves: Moves,
     /// For each automaton state the most that its task pays from there on.
     most: Vec<f64>,
     /// The least and the largest that the environment has paid, 0 included.
     paid: (f64, f64),
     trainer: Trainer,
     replay: Replay<S>,
-    rng: Xoshiro256PlusPlus,
-    steps: u64,
-    episodes: u64,
     single: Batch,
+}
+
+/// The learner while it plays.
+struct Playing<'a, S, M, F, G> {
+    skill: &'a Skill<M, F, G>,
+    moves: &'a Moves,
+    core: &'a mut Core<S>,
+    /// Environment steps, the one that is being taken included.
+    steps: u64,
+    /// Why no action could be chosen.
+    failure: Option<Error>,
+}
+
+/// An environment beside the task of a skill.
+struct Beside<'a, E, M> {
+    env: &'a mut E,
+    task: &'a M,
+    moves: &'a Moves,
+}
+
+impl<S, E: Env<State = S>, M: Monitor<S>> World for Beside<'_, E, M> {
+    type State = S;
+    type Error = task::Error;
+
+    fn reset<R: Rng + ?Sized>(&mut self, rng: &mut R) -> Result<S, task::Error> {
+        Ok(self.env.reset(rng))
+    }
+
+    fn step<R: Rng + ?Sized>(
+        &mut self,
+        action: usize,
+        rng: &mut R,
+    ) -> Result<Step<S>, task::Error> {
+        Ok(self.env.step(action, rng))
+    }
+
+    fn read(&self, q: u32, s: &S) -> Result<Move, task::Error> {
+        self.moves.read(self.task, q, s)
+    }
+}
+
+impl<S, M, F, G> Agent for Playing<'_, S, M, F, G>
+where
+    S: Clone,
+    M: Monitor<S>,
+    F: Features<S>,
+    G: Goals<S>,
+{
+    type State = S;
+    type Error = Error;
+
+    fn start(&mut self, s: &S) {
+        self.core.replay.start(s.clone());
+    }
+
+    /// ε-greedy.
+    fn act<R: Rng + ?Sized>(&mut self, s: &S, q: u32, steps: u64, rng: &mut R) -> usize {
+        self.steps = steps + 1;
+        if unit(rng) < self.core.settings.epsilon.at(steps) {
+            return self.core.explored[below(self.core.explored.len(), rng)] as usize;
+        }
+        let values = self.core.values(&self.skill.features, q, s);
+        values.map_or_else(
+            |error| {
+                self.failure = Some(error);
+                0
+            },
+            |values| argmax(&values) as usize,
+        )
+    }
+
+    /// Remembers the step, and makes an update if it is time for one.
+    fn learn<W: World<State = S, Error: Into<Error>>, R: Rng + ?Sized>(
+        &mut self,
+        _: &W,
+        seen: &Seen<'_, S>,
+        rng: &mut R,
+    ) -> Result<(), Error> {
+        if let Some(failure) = self.failure.take() {
+            return Err(failure);
+        }
+        let core = &mut *self.core;
+        if !seen.paid.is_finite() {
+            return Err(Error::Reward(self.steps));
+        }
+        let paid = core.settings.rewards.environment * seen.paid;
+        core.paid = (core.paid.0.min(paid), core.paid.1.max(paid));
+        let (action, to) = (seen.action as u32, seen.to.clone());
+        core.replay.push(seen.q, action, seen.paid, seen.terminated, to);
+        let Settings { warmup, steps_per_update, .. } = core.settings;
+        if self.steps < warmup || !self.steps.is_multiple_of(steps_per_update.max(1)) {
+            return Ok(());
+        }
+        let Skill { task, features, goals } = self.skill;
+        let bounds = bounds(&core.most, &core.settings, core.paid);
+        let objective = Optimum { task, moves: self.moves, bounds: &bounds };
+        let from = (features, goals);
+        core.trainer.update(&mut core.replay, from, &objective, &core.settings, rng)?;
+        Ok(())
+    }
+}
+
+impl<S> Core<S> {
+    /// Q(s, q, ·); zeros where the task is decided.
+    fn values(&mut self, features: &impl Features<S>, q: u32, s: &S) -> Result<Vec<f32>, Error> {
+        let Some(head) = self.trainer.heads.of(q) else {
+            return Ok(std::vec![0.0; self.actions]);
+        };
+        self.single.clear();
+        self.single.push(features, s).map_err(Error::Feature)?;
+        let values = self.trainer.values(&self.trainer.model, &self.single);
+        Ok(values[head * self.actions..][..self.actions].to_vec())
+    }
 }
 
 impl<S, M, F, G> Learner<S, M, F, G>
@@ -65,21 +180,17 @@ where
         let shape = Shape::of(&skill.features, &settings.hidden, heads.states.len(), actions);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
         let network = Network::random(shape, &mut rng);
-        Self {
+        let core = Core {
             trainer: Trainer::new(Model::new(&network, device), heads, settings.normalisation),
             replay: Replay::new(settings.capacity),
             explored: (0..actions as u32).collect(),
             most: moves.most(&skill.task),
             paid: (0.0, 0.0),
-            moves,
-            skill,
             settings,
             actions,
-            rng,
-            steps: 0,
-            episodes: 0,
             single: Batch::default(),
-        }
+        };
+        Self { skill, moves, core, rng, done: Done::default() }
     }
 
     /// The same learner, which explores by drawing from `actions`, each as often as it is listed.
@@ -89,9 +200,9 @@ where
     /// If the list is empty or has what is no action.
     #[must_use]
     pub fn exploring(mut self, actions: Vec<u32>) -> Self {
-        let all = actions.iter().all(|&a| (a as usize) < self.actions);
+        let all = actions.iter().all(|&a| (a as usize) < self.core.actions);
         assert!(!actions.is_empty() && all, "exploration draws from the world's actions");
-        self.explored = actions;
+        self.core.explored = actions;
         self
     }
 
@@ -102,65 +213,12 @@ where
     /// # Errors
     /// If a predicate, a feature, a reward or the loss is not a finite number.
     pub fn train<E: Env<State = S>>(&mut self, env: &mut E, total: u64) -> Result<(), Error> {
-        assert_eq!(env.actions(), self.actions, "a learner stays with its world");
-        let mut idle = 0;
-        while self.steps < total && idle < IDLE {
-            let before = self.steps;
-            self.episode(env)?;
-            idle = if self.steps == before { idle + 1 } else { 0 };
-        }
-        Ok(())
-    }
-
-    fn episode<E: Env<State = S>>(&mut self, env: &mut E) -> Result<(), Error> {
-        let mut s = env.reset(&mut self.rng);
-        let mut q = self.skill.task.next(0, &s)?;
-        self.episodes += 1;
-        self.replay.start(s.clone(), q);
-        for _ in 0..self.settings.horizon {
-            if self.moves.end(q).is_some() {
-                break;
-            }
-            let a = self.explore(q, &s)?;
-            let step = env.step(a, &mut self.rng);
-            if !step.reward.is_finite() {
-                return Err(Error::Reward(self.steps));
-            }
-            let paid = self.settings.rewards.environment * step.reward;
-            self.paid = (self.paid.0.min(paid), self.paid.1.max(paid));
-            q = self.skill.task.next(q, &step.state)?;
-            s = step.state;
-            self.replay.push(a as u32, step.reward, step.terminated, s.clone(), q);
-            self.steps += 1;
-            self.learn()?;
-            if step.terminated || step.truncated {
-                break;
-            }
-        }
-        self.replay.end();
-        Ok(())
-    }
-
-    /// ε-greedy.
-    fn explore(&mut self, q: u32, s: &S) -> Result<usize, Error> {
-        if unit(&mut self.rng) < self.settings.epsilon.at(self.steps) {
-            return Ok(self.explored[below(self.explored.len(), &mut self.rng)] as usize);
-        }
-        self.act(q, s)
-    }
-
-    /// An update, if it is time for one.
-    fn learn(&mut self) -> Result<(), Error> {
-        let Settings { warmup, steps_per_update, .. } = self.settings;
-        if self.steps < warmup || !self.steps.is_multiple_of(steps_per_update.max(1)) {
-            return Ok(());
-        }
-        let Skill { task, features, goals } = &self.skill;
-        let bounds = bounds(&self.most, &self.settings, self.paid);
-        let objective = Optimum { task, moves: &self.moves, bounds: &bounds };
-        let (replay, settings) = (&mut self.replay, &self.settings);
-        self.trainer.update(replay, (features, goals), &objective, settings, &mut self.rng)?;
-        Ok(())
+        assert_eq!(env.actions(), self.core.actions, "a learner stays with its world");
+        let Self { skill, moves, core, rng, done } = self;
+        let horizon = core.settings.horizon;
+        let mut world = Beside { env, task: &skill.task, moves };
+        let mut agent = Playing { skill, moves, core, steps: done.steps, failure: None };
+        episode::run(&mut world, &mut agent, done, horizon, total, rng)
     }
 
     /// The greedy action in (s, q); any where the task is decided.
@@ -176,19 +234,13 @@ where
     /// # Errors
     /// If a feature is not a finite number.
     pub fn values(&mut self, q: u32, s: &S) -> Result<Vec<f32>, Error> {
-        let Some(head) = self.trainer.heads.of(q) else {
-            return Ok(std::vec![0.0; self.actions]);
-        };
-        self.single.clear();
-        self.single.push(&self.skill.features, s).map_err(Error::Feature)?;
-        let values = self.trainer.values(&self.trainer.model, &self.single);
-        Ok(values[head * self.actions..][..self.actions].to_vec())
+        self.core.values(&self.skill.features, q, s)
     }
 
     /// The network; its heads are the automaton's live states, in order.
     #[must_use]
     pub fn network(&self) -> Network {
-        self.trainer.network()
+        self.core.trainer.network()
     }
 
     /// The skill.
@@ -198,45 +250,44 @@ where
 
     /// The settings.
     pub const fn settings(&self) -> &Settings {
-        &self.settings
+        &self.core.settings
     }
 
     /// What was seen.
     pub const fn replay(&self) -> &Replay<S> {
-        &self.replay
+        &self.core.replay
     }
 
     /// Environment steps so far.
     pub const fn steps(&self) -> u64 {
-        self.steps
+        self.done.steps
     }
 
     /// Episodes so far.
     pub const fn episodes(&self) -> u64 {
-        self.episodes
+        self.done.episodes
     }
 
     /// Updates of the network so far.
     pub const fn updates(&self) -> u64 {
-        self.trainer.updates
+        self.core.trainer.updates
     }
 
     /// All that learning has changed.
     pub fn checkpoint(&self) -> Checkpoint<S> {
         Checkpoint {
-            settings: self.settings.clone(),
-            explored: self.explored.clone(),
-            paid: self.paid,
-            shape: self.trainer.model.shape().clone(),
-            network: self.trainer.model.dense(),
-            target: self.trainer.target.dense(),
-            moments: self.trainer.descent.moments(),
-            popart: self.trainer.popart.clone(),
-            updates: self.trainer.updates,
-            replay: self.replay.clone(),
+            settings: self.core.settings.clone(),
+            explored: self.core.explored.clone(),
+            paid: self.core.paid,
+            shape: self.core.trainer.model.shape().clone(),
+            network: self.core.trainer.model.dense(),
+            target: self.core.trainer.target.dense(),
+            moments: self.core.trainer.descent.moments(),
+            popart: self.core.trainer.popart.clone(),
+            updates: self.core.trainer.updates,
+            replay: self.core.replay.clone(),
             rng: self.rng.clone(),
-            steps: self.steps,
-            episodes: self.episodes,
+            done: self.done,
         }
     }
 
@@ -266,21 +317,17 @@ where
             trainer.descent = Descent::resume(moments, device);
         }
         (trainer.popart, trainer.updates) = (checkpoint.popart, checkpoint.updates);
-        Ok(Self {
+        let core = Core {
             most: moves.most(&skill.task),
-            skill,
+            paid: checkpoint.paid,
             settings: checkpoint.settings,
             actions,
             explored: checkpoint.explored,
-            paid: checkpoint.paid,
-            moves,
             trainer,
             replay: checkpoint.replay,
-            rng: checkpoint.rng,
-            steps: checkpoint.steps,
-            episodes: checkpoint.episodes,
             single: Batch::default(),
-        })
+        };
+        Ok(Self { skill, moves, core, rng: checkpoint.rng, done: checkpoint.done })
     }
 }
 
@@ -298,6 +345,5 @@ pub struct Checkpoint<S> {
     updates: u64,
     replay: Replay<S>,
     rng: Xoshiro256PlusPlus,
-    steps: u64,
-    episodes: u64,
+    done: Done,
 }

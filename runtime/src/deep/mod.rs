@@ -104,7 +104,7 @@ pub enum Error {
     Feature(usize),
     /// The loss is not a finite number, at this update.
     Loss(u64),
-    /// The environment paid what is not a finite number, at this step.
+    /// The environment paid what is not a finite number, at this step, counted from 1.
     Reward(u64),
 }
 

@@ -72,7 +72,7 @@ impl SumTree {
 pub struct Moment<S> {
     /// The state.
     pub state: S,
-    /// The automaton state then, of the task that was being learned.
+    /// The automaton state then, of the task that was being learned; of a last state 0.
     pub q: u32,
     /// The action taken.
     pub action: u32,
@@ -124,8 +124,8 @@ impl<S> Replay<S> {
         self.moments.is_empty()
     }
 
-    fn put(&mut self, state: S, q: u32) {
-        let moment = Moment { state, q, action: 0, reward: 0.0, terminated: false, last: 0 };
+    fn put(&mut self, state: S) {
+        let moment = Moment { state, q: 0, action: 0, reward: 0.0, terminated: false, last: 0 };
         self.head = if self.moments.is_empty() { 0 } else { (self.head + 1) % self.capacity };
         if self.head == self.moments.len() {
             self.moments.push(moment);
@@ -135,24 +135,28 @@ impl<S> Replay<S> {
         self.priorities.set(self.head, 0.0);
     }
 
-    /// An episode begins in `state`.
-    pub fn start(&mut self, state: S, q: u32) {
-        self.put(state, q);
-        self.age = 0;
+    /// An episode begins in `state`, and the one before is over.
+    pub fn start(&mut self, state: S) {
+        self.end();
+        self.put(state);
     }
 
-    /// A step from the current state to `state`, where the automaton is in `q`.
-    pub fn push(&mut self, action: u32, reward: f64, terminated: bool, state: S, q: u32) {
+    /// A step from the current state, taken in the automaton state `q`, to `state`.
+    pub fn push(&mut self, q: u32, action: u32, reward: f64, terminated: bool, state: S) {
         let moment = &mut self.moments[self.head];
-        (moment.action, moment.reward, moment.terminated) = (action, reward, terminated);
+        (moment.q, moment.action) = (q, action);
+        (moment.reward, moment.terminated) = (reward, terminated);
         self.priorities.set(self.head, self.largest);
-        self.put(state, q);
+        self.put(state);
         self.age += 1;
     }
 
-    /// The episode is over.
-    pub fn end(&mut self) {
-        let (head, back) = (self.head, self.age.min(self.moments.len() - 1));
+    /// Notes where the current episode ended.
+    fn end(&mut self) {
+        let (head, back) = (self.head, self.age.min(self.moments.len().saturating_sub(1)));
+        if self.moments.is_empty() {
+            return;
+        }
         for i in 0..=back {
             let place = self.before(i);
             self.moments[place].last = head as u32;
@@ -229,15 +233,13 @@ impl<S> Replay<S> {
         for place in (0..n).map(|i| (oldest + i) % n) {
             let moment = &other.moments[place];
             if !begun {
-                self.start(moment.state.clone(), moment.q);
+                self.start(moment.state.clone());
             }
             begun = other.priorities.get(place) > 0.0;
             if begun {
-                let next = &other.moments[(place + 1) % n];
-                let Moment { action, reward, terminated, .. } = *moment;
-                self.push(action, reward, terminated, next.state.clone(), next.q);
-            } else {
-                self.end();
+                let Moment { q, action, reward, terminated, .. } = *moment;
+                let next = other.moments[(place + 1) % n].state.clone();
+                self.push(q, action, reward, terminated, next);
             }
         }
     }

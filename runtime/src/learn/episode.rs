@@ -84,6 +84,8 @@ pub struct Seen<'a, S> {
 pub trait Agent {
     /// What it tells situations apart by, beside q.
     type State;
+    /// Why it cannot go on: at least what stops its worlds.
+    type Error;
 
     /// An episode starts in `s`.
     fn start(&mut self, _s: &Self::State) {}
@@ -94,13 +96,13 @@ pub trait Agent {
     /// Learns from a step of `world`.
     ///
     /// # Errors
-    /// If it asks the world something that the world cannot say.
-    fn learn<W: World<State = Self::State>, R: Rng + ?Sized>(
+    /// If it asks the world something that the world cannot say, or cannot go on itself.
+    fn learn<W: World<State = Self::State, Error: Into<Self::Error>>, R: Rng + ?Sized>(
         &mut self,
         world: &W,
         seen: &Seen<'_, Self::State>,
         rng: &mut R,
-    ) -> Result<(), W::Error>;
+    ) -> Result<(), Self::Error>;
 }
 
 /// How much was done.
@@ -121,16 +123,16 @@ pub struct Done {
 /// Gives up early if 100,000 episodes in a row are over at their very first state.
 ///
 /// # Errors
-/// Those of the world.
+/// Those of the world and of the agent.
 #[inline]
-pub fn run<W: World, A: Agent<State = W::State>, R: Rng + ?Sized>(
+pub fn run<W: World<Error: Into<A::Error>>, A: Agent<State = W::State>, R: Rng + ?Sized>(
     world: &mut W,
     agent: &mut A,
     done: &mut Done,
     horizon: u32,
     total: u64,
     rng: &mut R,
-) -> Result<(), W::Error> {
+) -> Result<(), A::Error> {
     let mut idle = 0;
     while done.steps < total && idle < IDLE {
         let steps = episode(world, agent, done.steps, horizon, rng)?;
@@ -143,25 +145,25 @@ pub fn run<W: World, A: Agent<State = W::State>, R: Rng + ?Sized>(
 
 /// One episode, begun after `steps` environment steps; their number after it.
 #[inline(always)]
-fn episode<W: World, A: Agent<State = W::State>, R: Rng + ?Sized>(
+fn episode<W: World<Error: Into<A::Error>>, A: Agent<State = W::State>, R: Rng + ?Sized>(
     world: &mut W,
     agent: &mut A,
     mut steps: u64,
     horizon: u32,
     rng: &mut R,
-) -> Result<u64, W::Error> {
-    let mut s = world.reset(rng)?;
+) -> Result<u64, A::Error> {
+    let mut s = world.reset(rng).map_err(Into::into)?;
     agent.start(&s);
-    let Move { to: mut q, over, .. } = world.read(0, &s)?;
+    let Move { to: mut q, over, .. } = world.read(0, &s).map_err(Into::into)?;
     if over {
         return Ok(steps);
     }
     for _ in 0..horizon {
         let action = agent.act(&s, q, steps, rng);
-        let step = world.step(action, rng)?;
+        let step = world.step(action, rng).map_err(Into::into)?;
         let Step { state: to, reward: paid, terminated, truncated } = step;
         steps += 1;
-        let read = world.read(q, &to)?;
+        let read = world.read(q, &to).map_err(Into::into)?;
         let seen = Seen { s: &s, q, action, to: &to, read, paid, terminated };
         agent.learn(world, &seen, rng)?;
         (s, q) = (to, read.to);

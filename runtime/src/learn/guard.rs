@@ -1,6 +1,7 @@
 //! Exploring without entering traps that can be avoided.
 
 use alloc::vec::Vec;
+use core::convert::Infallible;
 
 use rand::Rng;
 
@@ -87,6 +88,7 @@ pub(super) struct Guarded<'a> {
 
 impl Agent for Guarded<'_> {
     type State = usize;
+    type Error = Infallible;
 
     fn start(&mut self, s: &usize) {
         self.agent.start(s);
@@ -108,12 +110,12 @@ impl Agent for Guarded<'_> {
         allowed.iter().copied().reduce(best).unwrap_or_default()
     }
 
-    fn learn<W: World<State = usize>, R: Rng + ?Sized>(
+    fn learn<W: World<State = usize, Error: Into<Self::Error>>, R: Rng + ?Sized>(
         &mut self,
         world: &W,
         seen: &Seen<'_, usize>,
         rng: &mut R,
-    ) -> Result<(), W::Error> {
+    ) -> Result<(), Self::Error> {
         self.agent.learn(world, seen, rng)
     }
 }

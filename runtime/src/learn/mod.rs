@@ -25,6 +25,7 @@ mod table;
 mod whole;
 
 use alloc::vec::Vec;
+use core::convert::Infallible;
 
 use rand::rngs::Xoshiro256PlusPlus;
 use rand::{Rng, SeedableRng};
@@ -242,7 +243,13 @@ impl<R: Rng + Clone> Learner<R> {
 
     /// Runs as the agent that `wrap` makes of the table.
     #[inline(always)]
-    fn run_as<'a, E: FiniteEnv, W: Width, A: Agent<State = usize>, const PLAIN: bool>(
+    fn run_as<
+        'a,
+        E: FiniteEnv,
+        W: Width,
+        A: Agent<State = usize, Error = Infallible>,
+        const PLAIN: bool,
+    >(
         &'a mut self,
         env: &mut E,
         task: &Labelled,

@@ -136,6 +136,7 @@ impl<W: Width, const PLAIN: bool> Tabular<'_, W, PLAIN> {
 
 impl<W: Width, const PLAIN: bool> Agent for Tabular<'_, W, PLAIN> {
     type State = usize;
+    type Error = Infallible;
 
     fn start(&mut self, &s: &usize) {
         if !PLAIN && self.settings.remember {
@@ -158,12 +159,12 @@ impl<W: Width, const PLAIN: bool> Agent for Tabular<'_, W, PLAIN> {
     }
 
     #[inline(always)]
-    fn learn<V: World<State = usize>, R: Rng + ?Sized>(
+    fn learn<V: World<State = usize, Error: Into<Self::Error>>, R: Rng + ?Sized>(
         &mut self,
         world: &V,
         seen: &Seen<'_, usize>,
         _rng: &mut R,
-    ) -> Result<(), V::Error> {
+    ) -> Result<(), Self::Error> {
         if !PLAIN && self.settings.remember {
             self.experience.push(*seen.s, seen.action, *seen.to);
         }
@@ -174,7 +175,7 @@ impl<W: Width, const PLAIN: bool> Agent for Tabular<'_, W, PLAIN> {
         }
         for i in 0..self.live.len() {
             let q = self.live[i];
-            self.update(q, world.read(q, seen.to)?, seen, alpha);
+            self.update(q, world.read(q, seen.to).map_err(Into::into)?, seen, alpha);
         }
         Ok(())
     }

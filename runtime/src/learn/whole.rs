@@ -108,6 +108,7 @@ impl WholeLearner {
 
 impl Agent for WholeLearner {
     type State = usize;
+    type Error = Error;
 
     /// ε-greedy.
     fn act<R: Rng + ?Sized>(&mut self, &s: &usize, q: u32, steps: u64, rng: &mut R) -> usize {
@@ -119,12 +120,12 @@ impl Agent for WholeLearner {
         }
     }
 
-    fn learn<W: World<State = usize>, R: Rng + ?Sized>(
+    fn learn<W: World<State = usize, Error: Into<Self::Error>>, R: Rng + ?Sized>(
         &mut self,
         _world: &W,
         seen: &Seen<'_, usize>,
         _rng: &mut R,
-    ) -> Result<(), W::Error> {
+    ) -> Result<(), Self::Error> {
         let (q, to) = (self.seen(seen.q), self.seen(seen.read.to));
         let best = if seen.terminated { 0.0 } else { self.q.max(to, *seen.to) };
         let target = seen.paid + self.settings.gamma * best;
