@@ -138,6 +138,7 @@ pub struct Study {
     name: &'static str,
     folder: PathBuf,
     setup: String,
+    interval: u64,
 }
 
 /// What is done of a study.
@@ -148,9 +149,6 @@ struct Done<T> {
 }
 
 impl Study {
-    /// Cases between two checkpoints.
-    const INTERVAL: u64 = 8;
-
     /// The study `name`, published under `docs/studies`; `setup` is all that its results depend on
     /// beside the library.
     #[must_use]
@@ -162,7 +160,13 @@ impl Study {
     /// The same, published elsewhere.
     #[must_use]
     pub fn at(folder: PathBuf, name: &'static str, setup: &impl Debug) -> Self {
-        Self { name, folder, setup: format!("{setup:?}") }
+        Self { name, folder, setup: format!("{setup:?}"), interval: 8 }
+    }
+
+    /// The same, with a checkpoint after every `cases` cases: fewer than 8 where each takes long.
+    #[must_use]
+    pub fn every(self, cases: u64) -> Self {
+        Self { interval: cases.max(1), ..self }
     }
 
     /// Where the checkpoint is while the study goes on.
@@ -190,7 +194,7 @@ impl Study {
         bar.set_position(done.results.len() as u64);
         while (done.results.len() as u64) < count {
             let from = done.results.len() as u64;
-            let results = seeds(from..count.min(from + Self::INTERVAL), |case| {
+            let results = seeds(from..count.min(from + self.interval), |case| {
                 let result = work(case);
                 bar.inc(1);
                 result
@@ -225,8 +229,9 @@ impl Study {
     /// If it cannot be written.
     pub fn publish(&self, added: &str, content: &str) -> io::Result<()> {
         let name = format!("{}{added}", self.name);
-        fs::write(self.folder.join(&name), content)?;
-        writeln!(io::stdout(), "docs/studies/{name}")
+        let path = self.folder.join(&name);
+        fs::write(&path, content)?;
+        writeln!(io::stdout(), "{}", path.display())
     }
 
     /// Writes the results as JSON Lines, one object a line.

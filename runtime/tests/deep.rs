@@ -62,10 +62,12 @@ fn settings(updates: u64) -> Settings {
         gamma: GAMMA,
         horizon: 40,
         hidden: vec![32],
+        batch: 64,
         warmup: 100,
         capacity: 2_000,
         steps: 1,
         steps_per_update: 1,
+        levels: 500,
         epsilon: Schedule::Constant(1.0),
         learning_rate: Schedule::Linear { from: 3e-3, to: 1e-5, steps: updates },
         ..Settings::default()

@@ -105,6 +105,9 @@ pub struct Composition<'a, S, G> {
     replay: Replay<S>,
     rng: Xoshiro256PlusPlus,
     actions: usize,
+    /// Whether what is being learned is the compensation, and since which update.
+    stage: Option<bool>,
+    begun: u64,
 }
 
 impl<'a, S: Clone, G: Goals<S>> Composition<'a, S, G> {
@@ -160,6 +163,8 @@ impl<'a, S: Clone, G: Goals<S>> Composition<'a, S, G> {
             replay,
             rng,
             actions,
+            stage: None,
+            begun: 0,
         };
         if combine != Combine::Sum {
             composition.normalise()?;
@@ -203,6 +208,9 @@ impl<'a, S: Clone, G: Goals<S>> Composition<'a, S, G> {
     }
 
     fn learn(&mut self, updates: u64, evaluates: bool) -> Result<(), Error> {
+        if self.stage != Some(evaluates) {
+            (self.stage, self.begun) = (Some(evaluates), self.trainer.updates);
+        }
         let base = Base {
             product: self.product,
             parts: &self.parts,
@@ -212,6 +220,7 @@ impl<'a, S: Clone, G: Goals<S>> Composition<'a, S, G> {
             bounds: &self.bounds,
             actions: self.actions,
             evaluates,
+            levels: self.begun + self.settings.levels,
         };
         for _ in 0..updates {
             let from = (&self.features, &self.goals);
@@ -304,6 +313,8 @@ struct Base<'a, S> {
     bounds: &'a [(f64, f64)],
     actions: usize,
     evaluates: bool,
+    /// Until which update only the values of states are learned.
+    levels: u64,
 }
 
 impl<S> Objective<S> for Base<'_, S> {
@@ -349,5 +360,9 @@ impl<S> Objective<S> for Base<'_, S> {
 
     fn evaluates(&self) -> bool {
         self.evaluates
+    }
+
+    fn only_states(&self, update: u64) -> bool {
+        update < self.levels
     }
 }

@@ -224,6 +224,18 @@ impl Model {
         (loss.inner().into_scalar(), numbers(values.inner()), layers)
     }
 
+    /// Leaves, of the heads' gradients, those of the values of states.
+    pub(super) fn only_states(&self, gradients: &mut [(Tensor<2>, Tensor<1>)]) {
+        let width = 1 + self.shape.head_width();
+        let mask: Vec<f32> =
+            (0..self.shape.heads * width).map(|i| f32::from(u8::from(i % width == 0))).collect();
+        let length = mask.len();
+        let mask = Tensor::<1>::from_data(TensorData::new(mask, [length]), &self.device());
+        let (weights, bias) = gradients.last_mut().expect("a network has heads");
+        *weights = weights.clone() * mask.clone().unsqueeze();
+        *bias = bias.clone() * mask;
+    }
+
     /// Moves every weight to `other`'s by the share `rate`.
     pub(super) fn follow(&mut self, other: &Self, rate: f64) {
         for (layer, to) in self.layers.iter_mut().zip(&other.layers) {

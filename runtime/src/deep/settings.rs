@@ -47,6 +47,11 @@ pub struct Settings {
     pub relabelled: f64,
     /// How fast the normalisation of the targets follows them; 0 is none.
     pub normalisation: f64,
+    /// In a composition: the number of updates, at the start of each stage, that only bring the
+    /// values of states in line and leave the differences between actions alone. The sum of the
+    /// skills' values is far above the product's, by how much depends on the state, and learned at
+    /// once the error of that drowns the small differences that the sum has right.
+    pub levels: u64,
     /// The probability of a random action, at the number of earlier environment steps.
     pub epsilon: Schedule,
 }
@@ -60,7 +65,7 @@ impl Default for Settings {
             hidden: std::vec![128, 128],
             learning_rate: Schedule::Constant(5e-4),
             gradient_norm: 10.0,
-            batch: 64,
+            batch: 128,
             steps_per_update: 2,
             warmup: 1_000,
             capacity: 200_000,
@@ -71,6 +76,7 @@ impl Default for Settings {
             counterfactual: true,
             relabelled: 0.8,
             normalisation: 1e-3,
+            levels: 5_000,
             epsilon: Schedule::Linear { from: 1.0, to: 0.05, steps: 20_000 },
         }
     }

@@ -61,6 +61,11 @@ pub(super) trait Objective<S> {
         (f64::NEG_INFINITY, f64::INFINITY)
     }
 
+    /// Whether the update with this number leaves the differences between actions as they are.
+    fn only_states(&self, _update: u64) -> bool {
+        false
+    }
+
     /// Whether the policy is the greedy one of the base, not of base and network: then the network
     /// *evaluates* it.
     fn evaluates(&self) -> bool {
@@ -198,10 +203,13 @@ impl Trainer {
         let wanted = self.targets(&sample, objective)?;
         self.normalise(&sample, &wanted, settings);
         let targets = self.weighted(&sample, &wanted, settings);
-        let (loss, values, gradients) =
+        let (loss, values, mut gradients) =
             self.model.gradients(&self.before, &sample.actions, &targets);
         if !loss.is_finite() {
             return Err(Error::Loss(self.updates));
+        }
+        if objective.only_states(self.updates) {
+            self.model.only_states(&mut gradients);
         }
         let rate = settings.learning_rate.at(self.updates);
         self.descent.step(&mut self.model, gradients, rate, settings.gradient_norm);

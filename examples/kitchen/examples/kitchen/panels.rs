@@ -15,42 +15,42 @@ const DOWN: f64 = 84.0;
 const LEGEND: f64 = 150.0;
 
 /// A point of a curve: where, the mean, the least and the largest over the seeds.
-pub type Point = (f64, f64, f64, f64);
+pub(crate) type Point = (f64, f64, f64, f64);
 
 /// A curve; a curve without points is not drawn, but keeps its colour.
-pub struct Curve {
+pub(crate) struct Curve {
     /// What the legend calls it.
-    pub name: String,
+    pub(crate) name: String,
     /// Its points, from left to right.
-    pub points: Vec<Point>,
+    pub(crate) points: Vec<Point>,
 }
 
 /// One chart.
-pub struct Chart {
+pub(crate) struct Chart {
     /// What it measures.
-    pub title: &'static str,
+    pub(crate) title: &'static str,
     /// The largest y; the least is 0.
-    pub top: f64,
+    pub(crate) top: f64,
     /// Whether y is a share, to be shown in per cent.
-    pub share: bool,
+    pub(crate) share: bool,
     /// Its curves.
-    pub curves: Vec<Curve>,
+    pub(crate) curves: Vec<Curve>,
     /// Horizontal lines, and what they are.
-    pub lines: Vec<(f64, &'static str)>,
+    pub(crate) lines: Vec<(f64, &'static str)>,
 }
 
 /// A row of charts.
-pub struct Row {
+pub(crate) struct Row {
     /// What it shows.
-    pub title: String,
+    pub(crate) title: String,
     /// What the x axis counts.
-    pub x: &'static str,
+    pub(crate) x: &'static str,
     /// The charts; all have the same curves.
-    pub charts: Vec<Chart>,
+    pub(crate) charts: Vec<Chart>,
 }
 
 /// The rows as one SVG document.
-pub fn svg(rows: &[Row]) -> String {
+pub(crate) fn svg(rows: &[Row]) -> String {
     let charts = rows.iter().map(|row| row.charts.len()).max().unwrap_or(0) as f64;
     let width = LEFT + charts * (WIDTH + ACROSS) + LEGEND;
     let height = rows.len() as f64 * (TOP + HEIGHT + DOWN - 20.0);

@@ -13,8 +13,9 @@ use tltl::learn::Schedule;
 use tltl::product::Product;
 use tltl::rand::{SeedableRng, rngs::Xoshiro256PlusPlus};
 use tltl_kitchen::features::{FeasibleGoals, View, exploration};
+use tltl_kitchen::show::Episode;
 use tltl_kitchen::tasks::{phi1_1, phi1_2, phi1_3, told};
-use tltl_kitchen::{Goal, Goals, Kitchen, Known, Layout};
+use tltl_kitchen::{Action, Goal, Goals, Kitchen, Known, Layout, strip};
 
 /// Episodes of an evaluation during training, as in the paper.
 const EPISODES: u64 = 50;
@@ -23,55 +24,64 @@ const LAST_EPISODES: u64 = 500;
 /// What a failed action costs in the starred specifications; the paper does not say.
 const PENALTY: f64 = 0.1;
 /// Steps after which an episode of each problem is cut.
-pub const HORIZONS: [u32; 3] = [100, 200, 200];
+pub(crate) const HORIZONS: [u32; 3] = [100, 200, 200];
 
 /// How long everything takes.
 #[derive(Clone, Copy, Debug)]
-pub struct Budget {
+pub(crate) struct Budget {
     /// Environment steps of each task.
-    pub steps: [u64; 2],
+    pub(crate) steps: [u64; 2],
     /// Updates of the compensation and of the refinement.
-    pub updates: [u64; 2],
+    pub(crate) updates: [u64; 2],
     /// Evaluations of each curve.
-    pub points: u64,
+    pub(crate) points: u64,
 }
 
 /// What a greedy policy does.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
-pub struct Worth {
+pub(crate) struct Worth {
     /// Environment steps, or updates in the composition, that it took.
-    pub x: u64,
+    pub(crate) x: u64,
     /// The share of episodes that satisfy the task.
-    pub success: f64,
+    pub(crate) success: f64,
     /// The share of actions that do not fail.
-    pub actions: f64,
+    pub(crate) actions: f64,
     /// The mean length of all episodes, those cut at the horizon included.
-    pub length: f64,
+    pub(crate) length: f64,
 }
 
 /// A learning curve.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct Curve {
+pub(crate) struct Curve {
     /// What was learned.
-    pub name: String,
+    pub(crate) name: String,
     /// From left to right.
-    pub points: Vec<Worth>,
+    pub(crate) points: Vec<Worth>,
     /// The last policy, on many unseen starts.
-    pub last: Worth,
+    pub(crate) last: Worth,
+}
+
+/// What a trial leaves.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(crate) struct Outcome {
+    /// Its curves.
+    pub(crate) curves: Vec<Curve>,
+    /// Files that show what was learned: what is added to the study's name, and their content.
+    pub(crate) shown: Vec<(String, String)>,
 }
 
 /// What the trials share.
-pub struct Trials {
-    pub layout: Arc<Layout>,
-    pub apple: Goal,
-    pub budget: Budget,
+pub(crate) struct Trials {
+    pub(crate) layout: Arc<Layout>,
+    pub(crate) apple: Goal,
+    pub(crate) budget: Budget,
 }
 
 type DeepLearner<'a> = Learner<Known, &'a dyn Monitor<Known>, View, FeasibleGoals>;
 type Failure = Box<dyn Error + Send + Sync>;
 
 impl Trials {
-    pub fn new(budget: Budget) -> Result<Self, Failure> {
+    pub(crate) fn new(budget: Budget) -> Result<Self, Failure> {
         let layout = Arc::new(Layout::floorplan24());
         let id = |name| layout.id(name).ok_or("the kitchen has an apple and a fridge");
         let apple = Goal { object: id("apple")?, receptacle: id("fridge")? };
@@ -79,7 +89,7 @@ impl Trials {
     }
 
     /// The kitchen of a problem: 0 task 1, 1 task 2, 2 both.
-    pub fn kitchen(&self, problem: usize) -> Result<Kitchen, Failure> {
+    pub(crate) fn kitchen(&self, problem: usize) -> Result<Kitchen, Failure> {
         let Goal { object, receptacle } = self.apple;
         let goals = match problem {
             0 => Goals::Fixed { object, receptacle },
@@ -96,9 +106,9 @@ impl Trials {
         Settings {
             horizon,
             rewards: Rewards { environment, ..Rewards::default() },
-            learning_rate: Schedule::Linear { from: 5e-4, to: 5e-5, steps: updates },
+            learning_rate: Schedule::Linear { from: 5e-4, to: 1e-5, steps: updates },
             importance: Schedule::Linear { from: 0.4, to: 1.0, steps: updates },
-            epsilon: Schedule::Linear { from: 1.0, to: 0.05, steps: steps / 4 },
+            epsilon: Schedule::Linear { from: 1.0, to: 0.05, steps: (steps / 3).min(30_000) },
             ..defaults
         }
     }
@@ -138,15 +148,15 @@ impl Trials {
     }
 
     /// Learns φ`task`.`j`, with a penalty for failed actions if `starred`; shows how far it is.
-    pub fn learn(
+    pub(crate) fn learn(
         &self,
         (task, j, starred): (usize, usize, bool),
         seed: u64,
-    ) -> Result<Curve, Failure> {
+    ) -> Result<Outcome, Failure> {
         let monitor = specification(task, j);
         let skill = self.skill(task, &*monitor);
         let (_, curve) = self.train(skill, &*monitor, (task, j, starred), seed)?;
-        Ok(curve)
+        Ok(Outcome { curves: vec![curve], shown: Vec::new() })
     }
 
     fn skill<'m>(
@@ -192,7 +202,7 @@ impl Trials {
 
     /// Learns both skills, φ1.3* and φ2.3*, composes them, and learns their conjunction from scratch:
     /// the curves of the skills, c1, c2, c3, `max` and from scratch.
-    pub fn compose(&self, seed: u64) -> Result<Vec<Curve>, Failure> {
+    pub(crate) fn compose(&self, seed: u64) -> Result<Outcome, Failure> {
         let monitors = [specification(0, 2), specification(1, 2)];
         let mut trained = Vec::new();
         let mut curves = Vec::new();
@@ -216,7 +226,8 @@ impl Trials {
             let mut settings = self.settings(0, HORIZONS[2], true);
             settings.relabelled = 1.0;
             settings.learning_rate =
-                Schedule::Linear { from: 5e-4, to: 5e-5, steps: updates[0] + updates[1] };
+                Schedule::Linear { from: 5e-4, to: 5e-6, steps: updates[0] + updates[1] };
+            settings.levels = settings.levels.min(updates[1] / 3);
             let goals = FeasibleGoals::new(&self.layout, Some(self.apple.object));
             let device = Device::flex();
             Composition::new(&product, &skills, goals, combine, settings, &device, seed)
@@ -246,8 +257,32 @@ impl Trials {
             refined.points.extend(now.points);
             refined.last = now.last;
         }
-        curves.extend([sum, refined, self.from_scratch(&product, seed)?]);
-        Ok(curves)
+        let shown = self.episode(&product, |q, s| composition.act(q, s))?;
+        curves.extend([sum, refined, self.learned_whole(&product, seed)?]);
+        Ok(Outcome { curves, shown })
+    }
+
+    /// An episode of the composed policy, as a table and as a strip of pictures.
+    fn episode(
+        &self,
+        product: &Product<'_, Known>,
+        mut act: impl FnMut(u32, &Known) -> Result<usize, tltl::deep::Error>,
+    ) -> Result<Vec<(String, String)>, Failure> {
+        let mut kitchen = self.kitchen(2)?;
+        let told = kitchen.reset(&mut Xoshiro256PlusPlus::seed_from_u64(4_000)).goal();
+        let mut failure = None;
+        let episode = Episode::record(&mut kitchen, product, &[self.apple, told], |known, q| {
+            let action = act(q, known).unwrap_or_else(|error| {
+                failure = Some(error);
+                0
+            });
+            Action::from_index(action)
+        })?;
+        failure.map_or(Ok(()), Err)?;
+        Ok(vec![
+            ("_episode.txt".into(), episode.text(&self.layout)),
+            ("_episode.svg".into(), strip::svg(&episode, &self.layout)),
+        ])
     }
 
     /// A curve of one point.
@@ -268,7 +303,7 @@ impl Trials {
 
     /// The conjunction, learned in the kitchen: as many updates as the composition has in all, at one
     /// environment step each.
-    fn from_scratch(&self, product: &Product<'_, Known>, seed: u64) -> Result<Curve, Failure> {
+    fn learned_whole(&self, product: &Product<'_, Known>, seed: u64) -> Result<Curve, Failure> {
         let total = self.budget.updates[0] + self.budget.updates[1];
         let mut settings = self.settings(total, HORIZONS[2], true);
         (settings.steps_per_update, settings.relabelled) = (1, 0.8);
@@ -297,7 +332,7 @@ impl Trials {
 }
 
 /// φ`task`.`j`, both counted from 0.
-fn specification(task: usize, j: usize) -> Box<dyn Monitor<Known> + Sync> {
+pub(crate) fn specification(task: usize, j: usize) -> Box<dyn Monitor<Known> + Sync> {
     match (task, j) {
         (0, 0) => Box::new(phi1_1()),
         (0, 1) => Box::new(phi1_2()),
