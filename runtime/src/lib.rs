@@ -13,10 +13,11 @@
 //! | `learn`, `q` | experience into action values |
 //! | `product`, `compose` | learned skills into new ones (Algorithm 2), without a step in the world |
 //! | `solve`, `estimate` | any policy into its certificate: P(satisfied), E\[steps\], regret |
+//! | `deep` | experience of worlds whose states have no numbers into networks, and networks into new ones |
 //! | `policy`, `network`, `controller`, `shield`, `checkpoint` | results into what runs, is safe, and is kept |
 //!
 //! Features: `std` and `macros` are on; `alloc` is all that owns tables; `serde` saves and loads;
-//! `libm` has `sqrt` and the like without `std`.
+//! `libm` has `sqrt` and the like without `std`; `deep` learns with networks (Rust 1.95).
 //!
 #![cfg_attr(all(feature = "std", feature = "macros"), doc = "```")]
 #![cfg_attr(not(all(feature = "std", feature = "macros")), doc = "```ignore")]
