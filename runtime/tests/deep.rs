@@ -11,6 +11,8 @@ use tltl::env::{Env, ModelEnv, Step};
 use tltl::learn::Schedule;
 use tltl::model::FiniteModel;
 use tltl::network::Features;
+use tltl::network::policy::NetworkPolicy;
+use tltl::policy::States;
 use tltl::product::Product;
 use tltl::rand::{Rng, SeedableRng, rngs::Xoshiro256PlusPlus};
 use tltl::solve::Problem;
@@ -106,6 +108,16 @@ fn a_chain_is_learned_to_its_exact_values() {
     inputs[3] = 1.0;
     for (a, b) in network.values(1, &inputs, &[]).iter().zip(learner.values(1, &3).unwrap()) {
         assert!((a - b).abs() < 1e-5, "{a} {b}");
+    }
+    // And so does the policy that is saved and emitted.
+    let actions = vec!["left".into(), "right".into()];
+    let states = States::of::<i32>(&task);
+    let text = task.formula().text;
+    let policy = NetworkPolicy::new("there_and_back", text, states, actions, network).unwrap();
+    for (q, s) in (0..2).flat_map(|q| (0..6).map(move |s| (q, s))) {
+        let mut inputs = [0.0; 6];
+        inputs[s as usize] = 1.0;
+        assert_eq!(policy.act(q, &inputs, &[]), learner.act(q, &s).unwrap());
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod episode;
 mod layout;
+mod learning;
 mod plans;
 mod products;
 mod rules;

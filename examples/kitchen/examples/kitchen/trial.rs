@@ -10,11 +10,14 @@ use tltl::compose::Combine;
 use tltl::deep::{Composition, Device, Learned, Learner, Settings, Skill};
 use tltl::env::Env;
 use tltl::learn::Schedule;
+use tltl::network::Network;
+use tltl::network::policy::NetworkPolicy;
+use tltl::policy::States;
 use tltl::product::Product;
 use tltl::rand::{SeedableRng, rngs::Xoshiro256PlusPlus};
 use tltl_kitchen::features::{FeasibleGoals, View, exploration};
 use tltl_kitchen::show::Episode;
-use tltl_kitchen::tasks::{phi1_1, phi1_2, phi1_3, told};
+use tltl_kitchen::tasks::{phi_3, phi1_1, phi1_2, phi1_3, told};
 use tltl_kitchen::{Action, Goal, Goals, Kitchen, Known, Layout, strip};
 
 /// Episodes of an evaluation during training, as in the paper.
@@ -257,7 +260,8 @@ impl Trials {
             refined.points.extend(now.points);
             refined.last = now.last;
         }
-        let shown = self.episode(&product, |q, s| composition.act(q, s))?;
+        let mut shown = self.episode(&product, |q, s| composition.act(q, s))?;
+        shown.push(("_policy.json".into(), self.policy(&*monitors[1], networks[1].clone())?));
         curves.extend([sum, refined, self.learned_whole(&product, seed)?]);
         Ok(Outcome { curves, shown })
     }
@@ -283,6 +287,15 @@ impl Trials {
             ("_episode.txt".into(), episode.text(&self.layout)),
             ("_episode.svg".into(), strip::svg(&episode, &self.layout)),
         ])
+    }
+
+    /// The network of task 2 as a policy that `tltlc policy` turns into Rust.
+    fn policy(&self, task: &dyn Monitor<Known>, network: Network) -> Result<String, Failure> {
+        let kitchen = self.kitchen(1)?;
+        let actions = (0..kitchen.actions()).map(|a| kitchen.action_name(a)).collect();
+        let text = phi_3(0, 0).formula().text;
+        let policy = NetworkPolicy::new("phi_3", text, States::of(&task), actions, network)?;
+        Ok(serde_json::to_string(&policy)?)
     }
 
     /// A curve of one point.
