@@ -46,7 +46,12 @@ fn is_of_the_language(text: &str, input: TokenStream) -> bool {
         .all(|other| !text.contains(other));
     // Rust knows more blanks.
     let blanks = text.chars().all(|c| !c.is_whitespace() || " \t\r\n".contains(c));
-    apart && blanks && input.into_iter().all(|tree| is_token(&tree))
+    // A dot and a number are `.5` for tokens, whatever stood between them.
+    let dots = text.split('.').skip(1).all(|after| {
+        let number = after.trim_start();
+        number.len() == after.len() || !number.starts_with(|c: char| c.is_ascii_digit())
+    });
+    apart && blanks && dots && input.into_iter().all(|tree| is_token(&tree))
 }
 
 fn is_token(tree: &TokenTree) -> bool {

@@ -159,5 +159,6 @@ fn what_stands_apart_stays_apart() {
         assert_eq!(solid(&again.text), solid(&flat.text));
     }
     assert_eq!(Flat::new(tokens("s: : G")).text, "s: :G");
+    assert_eq!(Flat::new(tokens("3..2 && s.0.1 < .5")).text, "3..2 && s.0.1 < .5");
     assert_eq!(Flat::new(tokens("for all i in 0..=6: !!a")).text, "for all i in 0..= 6: !!a");
 }
