@@ -165,6 +165,22 @@ fn a_call_has_the_brackets_of_its_callee() {
     assert_eq!(module.tasks[0].spec.propositions(), ["(near)(s)"]);
 }
 
+#[test]
+fn what_has_fields_keeps_its_brackets() {
+    for (text, expected) in [
+        ("1 .5 < x", "(1).5 < x"),
+        ("0. .6 < x", "(0.).6 < x"),
+        ("(a && b).x[1]", "(a && b).x[1]"),
+        ("(x + 1)[2] < 3", "(x + 1)[2] < 3"),
+        ("s.cells[1].0 < 3", "s.cells[1].0 < 3"),
+    ] {
+        let ast = parse::formula(&Source::new("<formula>", text)).unwrap();
+        assert_eq!(printed(&ast), expected);
+        let again = parse::formula(&Source::new("<formula>", expected)).unwrap();
+        assert_eq!(printed(&again), expected);
+    }
+}
+
 fn printed(ast: &Ast) -> String {
     match ast.items()[0].kind {
         ItemKind::Task(_, root) => ast.display(root).to_string(),

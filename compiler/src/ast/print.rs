@@ -34,6 +34,16 @@ impl Ast {
         }
     }
 
+    /// What stands for `id` before its field, its index or its arguments in print.
+    fn base(&self, id: NodeId) -> [Piece; 3] {
+        let apart = matches!(
+            self.node(id),
+            Node::Number(_) | Node::Prefix(..) | Node::Infix(..) | Node::Quantified { .. }
+        );
+        let [open, close] = if apart { ["(", ")"] } else { ["", ""] };
+        [Piece::Text(open), Piece::Node(id), Piece::Text(close)]
+    }
+
     /// The pieces of one expression, in order.
     fn pieces(&self, id: NodeId) -> Vec<Piece> {
         let node = self.node(id);
@@ -49,14 +59,13 @@ impl Ast {
                 pieces.extend([Piece::Text(" "), Piece::Text(op.symbol()), Piece::Text(" ")]);
                 pieces.extend(operand(b, false));
             }
-            Node::Index { base, index } => pieces.extend([
-                Piece::Node(base),
-                Piece::Text("["),
-                Piece::Node(index),
-                Piece::Text("]"),
-            ]),
+            Node::Index { base, index } => {
+                pieces.extend(self.base(base));
+                pieces.extend([Piece::Text("["), Piece::Node(index), Piece::Text("]")]);
+            }
             Node::Call { callee, ref arguments } => {
-                pieces.extend([Piece::Node(callee), Piece::Text("(")]);
+                pieces.extend(self.base(callee));
+                pieces.push(Piece::Text("("));
                 for (i, argument) in self.arguments(arguments).iter().enumerate() {
                     pieces.push(Piece::Text(if i == 0 { "" } else { ", " }));
                     pieces.push(Piece::Node(*argument));
@@ -94,7 +103,7 @@ impl fmt::Display for Printed<'_> {
                 Step::Piece(Piece::Node(id)) => match *self.ast.node(id) {
                     Node::Field { base, .. } => {
                         open.push(Step::Field(id));
-                        open.push(Step::Piece(Piece::Node(base)));
+                        open.extend(self.ast.base(base).into_iter().rev().map(Step::Piece));
                     }
                     Node::Quantified { all, name, set, body, .. } => {
                         let slice = |span| self.ast.source().slice(span);
