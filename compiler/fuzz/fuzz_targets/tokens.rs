@@ -39,19 +39,25 @@ fuzz_target!(|text: &str| {
 });
 
 /// Without what the text says otherwise than its tokens do: comments, strings, attributes of the
-/// macro itself, and numbers and names that only Rust has.
+/// macro itself, numbers and names that only Rust has, and blanks that tokens cannot keep.
 fn is_of_the_language(text: &str, input: TokenStream) -> bool {
     let apart = ["//", "/*", "\"", "'", "#!", "\u{feff}", "\u{200e}", "\u{200f}"]
         .iter()
         .all(|other| !text.contains(other));
     // Rust knows more blanks.
     let blanks = text.chars().all(|c| !c.is_whitespace() || " \t\r\n".contains(c));
-    // A dot and a number are `.5` for tokens, whatever stood between them.
-    let dots = text.split('.').skip(1).all(|after| {
-        let number = after.trim_start();
-        number.len() == after.len() || !number.starts_with(|c: char| c.is_ascii_digit())
-    });
-    apart && blanks && dots && input.into_iter().all(|tree| is_token(&tree))
+    // A dot and a number are `.5` for tokens, empty brackets `[]`, whatever stood between them.
+    let dots = !parted(text, '.', |c| c.is_ascii_digit());
+    let brackets = !parted(text, '[', |c| c == ']');
+    apart && blanks && dots && brackets && input.into_iter().all(|tree| is_token(&tree))
+}
+
+/// Whether blanks stand between the two characters somewhere.
+fn parted(text: &str, before: char, after: impl Fn(char) -> bool) -> bool {
+    text.split(before).skip(1).any(|rest| {
+        let next = rest.trim_start();
+        next.len() < rest.len() && next.starts_with(&after)
+    })
 }
 
 fn is_token(tree: &TokenTree) -> bool {
