@@ -43,7 +43,7 @@ impl Flat {
                 before = None;
                 continue;
             }
-            if before.as_ref().is_some_and(|before| apart(before, &tree)) {
+            if before.as_ref().is_some_and(|before| apart(before, &tree, trees.peek())) {
                 self.text.push(' ');
             }
             self.tree(&tree);
@@ -142,15 +142,18 @@ fn delimiters(group: &Group) -> (&'static str, &'static str) {
 }
 
 /// Whether a blank belongs between two tokens: always where they would run together, else where
-/// a reader wants one.
-fn apart(before: &TokenTree, after: &TokenTree) -> bool {
+/// a reader wants one. The second may belong with `next`.
+fn apart(before: &TokenTree, after: &TokenTree, next: Option<&TokenTree>) -> bool {
+    let is_dot =
+        |tree: &TokenTree| matches!(tree, TokenTree::Punct(punct) if punct.as_char() == '.');
     match (before, after) {
         (TokenTree::Punct(punct), _) if punct.spacing() == Spacing::Joint => false,
         // What the author kept apart must not become one symbol, as `: :` would.
         (TokenTree::Punct(_), TokenTree::Punct(_)) => true,
         // A number must not take the dot of what follows, as in `1 .5`; two dots are a range.
         (TokenTree::Literal(number), TokenTree::Punct(punct)) if punct.as_char() == '.' => {
-            punct.spacing() == Spacing::Alone || number.to_string().ends_with('.')
+            let range = punct.spacing() == Spacing::Joint && next.is_some_and(is_dot);
+            !range || number.to_string().ends_with('.')
         }
         (TokenTree::Punct(punct), _) => !matches!(punct.as_char(), '.' | ':' | '!' | '#'),
         (_, TokenTree::Punct(punct)) => !matches!(punct.as_char(), '.' | ':' | ',' | ';'),

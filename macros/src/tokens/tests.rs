@@ -151,7 +151,9 @@ fn strings_are_their_content() {
 
 #[test]
 fn what_stands_apart_stays_apart() {
-    for text in ["s: : G", "a ! = b", "a < > b", "a - > b", "0. .6", "1 .5", "s.0 .1", "x . . y"] {
+    for text in
+        ["s: : G", "a ! = b", "a < > b", "a - > b", "0. .6", "1 .5", "1 .!a", "s.0 .1", "x . . y"]
+    {
         let flat = Flat::new(tokens(text));
         let solid = |text: &str| text.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
         let again = Flat::new(tokens(&flat.text));
