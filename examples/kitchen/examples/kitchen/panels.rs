@@ -116,17 +116,16 @@ impl Chart {
             text(svg, (x(value), HEIGHT + 16.0), 11, "middle", INK, &thousands(value));
         }
         text(svg, (WIDTH / 2.0, HEIGHT + 32.0), 11, "middle", PALE, x_name);
-        let mut taken: Vec<f64> = Vec::new();
+        let mut free = 0.0;
         for &(value, name) in &self.lines {
             let at = y(value);
             let _ = writeln!(
                 svg,
                 "<path d=\"M0 {at:.1}h{WIDTH}\" stroke=\"{INK}\" stroke-dasharray=\"4 3\"/>"
             );
-            let beside =
-                if taken.iter().any(|other| (other - at).abs() < 11.0) { 11.0 } else { -4.0 };
-            taken.push(at);
-            text(svg, (WIDTH - 4.0, at + beside), 10, "end", INK, &format!("{name} {value:.1}"));
+            let label = f64::max(at + 3.0, free);
+            free = label + 11.0;
+            text(svg, (WIDTH + 5.0, label), 10, "start", INK, &format!("{name} {value:.1}"));
         }
         for (i, curve) in self.curves.iter().enumerate().filter(|(_, c)| !c.points.is_empty()) {
             curve.draw(svg, COLOURS[i % COLOURS.len()], &x, &y);
@@ -165,7 +164,7 @@ impl Curve {
 }
 
 fn thousands(value: f64) -> String {
-    if value >= 1000.0 { format!("{} k", value / 1000.0) } else { format!("{value}") }
+    if value >= 1000.0 { format!("{:.0} k", value / 1000.0) } else { format!("{value}") }
 }
 
 fn text(svg: &mut String, (x, y): (f64, f64), size: u32, anchor: &str, ink: &str, content: &str) {
