@@ -104,7 +104,7 @@ fn a_chain_is_learned_to_its_exact_values() {
     learner.train(&mut env, 6_000).unwrap();
     assert_optimal(&task, 1e-2, |q, s| learner.values(q, s).unwrap());
     // The network alone says the same.
-    let (network, mut inputs) = (learner.network(), [0.0; 6]);
+    let (network, mut inputs) = (learner.network().unwrap(), [0.0; 6]);
     inputs[3] = 1.0;
     for (a, b) in network.values(1, &inputs, &[]).iter().zip(learner.values(1, &3).unwrap()) {
         assert!((a - b).abs() < 1e-5, "{a} {b}");
@@ -169,7 +169,7 @@ fn a_composition_reaches_the_optimum_without_a_step() {
     second.train(&mut env, 3_000).unwrap();
     let steps = env.steps();
     let product = Product::conjunction(&[&left, &right]);
-    let networks = [first.network(), second.network()];
+    let networks = [first.network().unwrap(), second.network().unwrap()];
     let skills = [
         Learned {
             network: &networks[0],
@@ -307,9 +307,10 @@ fn what_is_not_finite_is_named_at_once() {
     let mut learner = Learner::new(Skill::new(task, Bad), 2, settings.clone(), &device, 1);
     assert_eq!(learner.train(&mut env, 1_000), Err(Error::Feature(1)));
 
-    settings.learning_rate = Schedule::Constant(1e38);
+    settings.learning_rate = Schedule::Constant(1e300);
     let mut env = ModelEnv::new(Row).unwrap();
     let mut learner = Learner::new(Skill::new(task, OneHot), 2, settings, &device, 1);
     let error = learner.train(&mut env, 2_000).unwrap_err();
     assert!(matches!(error, Error::Loss(_)), "{error}");
+    assert!(learner.network().is_err(), "weights that are no numbers are no network");
 }

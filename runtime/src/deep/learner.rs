@@ -15,7 +15,7 @@ use super::{Error, Goals, Skill};
 use crate::augmented::Moves;
 use crate::env::{Env, Step, below, unit};
 use crate::learn::episode::{self, Agent, Done, Move, Seen, World};
-use crate::network::{Dense, Features, Network, Shape};
+use crate::network::{Dense, Features, Invalid, Network, Shape};
 use crate::q::argmax;
 use crate::task::{self, Monitor};
 
@@ -238,8 +238,10 @@ where
     }
 
     /// The network; its heads are the automaton's live states, in order.
-    #[must_use]
-    pub fn network(&self) -> Network {
+    ///
+    /// # Errors
+    /// If learning has diverged so far that a weight is infinite or not a number.
+    pub fn network(&self) -> Result<Network, Invalid> {
         self.core.trainer.network()
     }
 

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use std::vec::Vec;
 
 use super::popart::PopArt;
-use crate::network::{Dense, Features, Network, Shape};
+use crate::network::{Dense, Features, Invalid, Network, Shape};
 
 /// The features of some states.
 #[derive(Clone, Debug, Default)]
@@ -131,8 +131,9 @@ impl Model {
         &self.shape
     }
 
-    /// The network: the values of states added to those of their actions.
-    pub(super) fn network(&self) -> Network {
+    /// The network: the values of states added to those of their actions. Invalid if a weight has
+    /// become infinite or no number.
+    pub(super) fn network(&self) -> Result<Network, Invalid> {
         let mut layers = self.dense();
         let (width, levels) = (self.shape.head_width(), self.shape.levels());
         let heads = layers.last_mut().expect("a network has heads");
@@ -146,7 +147,7 @@ impl Model {
         };
         heads.weights = fold(&heads.weights);
         heads.bias = fold(&heads.bias);
-        Network::new(self.shape.clone(), layers).expect("a model is a network")
+        Network::new(self.shape.clone(), layers)
     }
 
     fn device(&self) -> Device {

@@ -11,7 +11,7 @@ use super::{Error, Goals};
 use crate::augmented::{Moves, Reward};
 use crate::env::unit;
 use crate::learn::episode::Move;
-use crate::network::{Features, Network};
+use crate::network::{Features, Invalid, Network};
 use crate::q::argmax;
 use crate::task::{self, Monitor};
 
@@ -164,7 +164,7 @@ impl Trainer {
     }
 
     /// The network, its normalisation taken back.
-    pub(super) fn network(&self) -> Network {
+    pub(super) fn network(&self) -> Result<Network, Invalid> {
         let mut model = self.model.clone();
         model.rescale(&self.popart, &PopArt::new(self.heads.states.len(), 0.0));
         model.network()

@@ -72,12 +72,12 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
     let (plan, folder) = match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         [] => (Plan::quick(), PathBuf::from("target/kitchen")),
         ["--full"] => (Plan::full(5), studies()),
-        ["--full", "--seeds", n] => (Plan::full(n.parse()?), studies()),
+        ["--full", "--seeds", n] => match n.parse() {
+            Ok(seeds) if seeds > 0 => (Plan::full(seeds), studies()),
+            _ => return Err(format!("`{n}` is no number of seeds, from 1").into()),
+        },
         _ => return Err("usage: kitchen [--full [--seeds N]]".into()),
     };
-    if plan.seeds == 0 {
-        return Err("at least one seed".into());
-    }
     let trials = Trials::new(plan.budget)?;
     let study =
         Study::at(folder, "kitchen", &(&plan.specifications, plan.budget)).every(plan.per_seed());

@@ -216,7 +216,7 @@ impl Trials {
             curves.push(curve);
         }
         let product = Product::conjunction(&[&*monitors[0], &*monitors[1]]);
-        let networks: Vec<_> = trained.iter().map(Learner::network).collect();
+        let networks = trained.iter().map(Learner::network).collect::<Result<Vec<_>, _>>()?;
         let learned = |i: usize| Learned {
             network: &networks[i],
             features: &trained[i].skill().features,
