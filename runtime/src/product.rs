@@ -312,6 +312,10 @@ impl<'a, S: ?Sized> Product<'a, S> {
             Operator::Sequence => Ok(progress),
             Operator::Disjunction => {
                 let at = self.components(q)[i];
+                if self.operands[i].is_trap(at) {
+                    // Lost already: being so is no further move.
+                    return Ok(f64::NEG_INFINITY);
+                }
                 let lost = self.operands[i].trap_robustness(at, s)?;
                 Ok(progress.max(lost.min(self.other_alive(i, q, s)?)))
             }

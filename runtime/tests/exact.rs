@@ -5,10 +5,11 @@ mod world;
 use tltl::Monitor;
 use tltl::augmented::{Labelled, Reward, Rewards};
 use tltl::compose::{Combine, Composition, Skill};
-use tltl::product::Product;
+use tltl::model::FiniteModel;
+use tltl::product::{Operand, Operator, Product};
 use tltl::q::QTable;
 use tltl::solve::Problem;
-use world::{A, B, C, GAMMA, avoid, both, dynamics, eventually, next, on_paper};
+use world::{A, B, C, Cell, GAMMA, PAPER, avoid, both, dynamics, eventually, next, on_paper};
 
 const PROGRESS: Rewards = Rewards::of(Reward::Progress);
 
@@ -180,4 +181,43 @@ fn disjunction_survives_a_lost_operand() {
     let either = Product::disjunction(&[&phi, &b]);
     let walk = |cells: &[_]| cells.iter().fold(0, |q, s| either.next(q, s).unwrap());
     assert!(!either.is_terminal(walk(&[C])) && either.is_accepting(walk(&[C, B])));
+}
+
+/// What composition with networks relies on: it learns nothing where all operands but one are
+/// decided. (Potentials of `Shaped` depend on the whole automaton.)
+#[test]
+fn where_one_operand_is_left_its_values_are_the_product_s() {
+    let (phi1, phi2) = (avoid(C, A), both(B, C));
+    let operands: [Operand<'_, Cell>; 2] = [&phi1, &phi2];
+    let dynamics = dynamics();
+    let modes =
+        [Reward::Progress, Reward::Literal, Reward::Acceptance, Reward::Robustness { bound: 10.0 }];
+    let mut compared = 0;
+    for mode in modes {
+        let rewards = Rewards { mode, trap_penalty: 0.5, step_penalty: 0.01, ..PROGRESS };
+        for operator in [Operator::Conjunction, Operator::Disjunction, Operator::Sequence] {
+            let whole = Product::new(operator, &operands);
+            let table = |task: Operand<'_, Cell>| {
+                let cells = (0..PAPER.states()).map(|s| PAPER.state(s));
+                on_paper(task).with_robustness(cells, task).unwrap()
+            };
+            let task = table(&whole);
+            let exact = Problem::new(&dynamics, &task).optimal_q(&rewards, GAMMA);
+            let parts = operands.map(table);
+            let of = |part| Problem::new(&dynamics, part).optimal_q(&rewards, GAMMA);
+            let values = [of(&parts[0]), of(&parts[1])];
+            for q in task.live() {
+                let at = whole.components(q);
+                let open: Vec<usize> = (0..2).filter(|&i| parts[i].end(at[i]).is_none()).collect();
+                if let [i] = open[..] {
+                    for s in 0..task.states() {
+                        let rows = exact.row(q, s).iter().zip(values[i].row(at[i], s));
+                        rows.for_each(|(a, b)| near(*a, *b, 1e-8));
+                        compared += 1;
+                    }
+                }
+            }
+        }
+    }
+    assert!(compared > 1_000);
 }

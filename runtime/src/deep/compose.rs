@@ -6,6 +6,12 @@
 //! networks stay as they are; one further network, with a head for each live state of the
 //! product, is added to their sum, and it alone is trained: from zero in
 //! [`Composition::compensate`], and on from there in [`Composition::refine`].
+//!
+//! Three things keep the errors of networks from choosing the action, for the values of two actions
+//! differ by a few per cent where a network errs by as much. Both steps widen the gaps between actions
+//! ([`Settings::advantage_learning`]); what was never seen of an action stays as the skills have it
+//! ([`Settings::advantage_penalty`]); and where all skills but one are done, that skill's values
+//! are the product's, and nothing is learned.
 
 use burn::tensor::Device;
 use rand::SeedableRng;
@@ -17,7 +23,7 @@ use super::replay::Replay;
 use super::settings::Settings;
 use super::trainer::{Heads, Objective, Trainer, bounds};
 use super::{Error, Goals};
-use crate::augmented::Moves;
+use crate::augmented::{Moves, Reward};
 use crate::compose::Combine;
 use crate::learn::episode::Move;
 use crate::network::{Features, Network, Shape};
@@ -105,9 +111,6 @@ pub struct Composition<'a, S, G> {
     replay: Replay<S>,
     rng: Xoshiro256PlusPlus,
     actions: usize,
-    /// Whether what is being learned is the compensation, and since which update.
-    stage: Option<bool>,
-    begun: u64,
 }
 
 impl<'a, S: Clone, G: Goals<S>> Composition<'a, S, G> {
@@ -163,8 +166,6 @@ impl<'a, S: Clone, G: Goals<S>> Composition<'a, S, G> {
             replay,
             rng,
             actions,
-            stage: None,
-            begun: 0,
         };
         if combine != Combine::Sum {
             composition.normalise()?;
@@ -208,9 +209,6 @@ impl<'a, S: Clone, G: Goals<S>> Composition<'a, S, G> {
     }
 
     fn learn(&mut self, updates: u64, evaluates: bool) -> Result<(), Error> {
-        if self.stage != Some(evaluates) {
-            (self.stage, self.begun) = (Some(evaluates), self.trainer.updates);
-        }
         let base = Base {
             product: self.product,
             parts: &self.parts,
@@ -220,7 +218,7 @@ impl<'a, S: Clone, G: Goals<S>> Composition<'a, S, G> {
             bounds: &self.bounds,
             actions: self.actions,
             evaluates,
-            levels: self.begun + self.settings.levels,
+            settings: &self.settings,
         };
         for _ in 0..updates {
             let from = (&self.features, &self.goals);
@@ -229,7 +227,8 @@ impl<'a, S: Clone, G: Goals<S>> Composition<'a, S, G> {
         Ok(())
     }
 
-    /// Q(s, q, ·) at a state of the product; zeros where the task is decided.
+    /// Q(s, q, ·) at a state of the product; zeros where the task is decided. With
+    /// [`Settings::advantage_learning`] actions other than the best are lower than that.
     ///
     /// # Errors
     /// If a feature is not a finite number.
@@ -313,8 +312,7 @@ struct Base<'a, S> {
     bounds: &'a [(f64, f64)],
     actions: usize,
     evaluates: bool,
-    /// Until which update only the values of states are learned.
-    levels: u64,
+    settings: &'a Settings,
 }
 
 impl<S> Objective<S> for Base<'_, S> {
@@ -362,7 +360,19 @@ impl<S> Objective<S> for Base<'_, S> {
         self.evaluates
     }
 
-    fn only_states(&self, update: u64) -> bool {
-        update < self.levels
+    /// Where all operands but one are decided, the product's optimum is that operand's, unless potentials
+    /// are paid: those depend on the whole automaton.
+    fn learns(&self, q: u32) -> bool {
+        let exact = self.combine == Combine::Sum && self.settings.rewards.mode != Reward::Shaped;
+        let ends = self.product.components(q).iter().zip(self.parts);
+        !exact || ends.filter(|(at, part)| part.heads.of(**at).is_some()).count() > 1
+    }
+
+    fn advantage_learning(&self) -> f64 {
+        self.settings.advantage_learning
+    }
+
+    fn advantage_penalty(&self) -> f64 {
+        self.settings.advantage_penalty
     }
 }

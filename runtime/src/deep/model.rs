@@ -37,7 +37,11 @@ impl Batch {
         let (inputs, entities) = (&mut self.inputs[from..], &mut self.entities[entities_from..]);
         features.write(s, inputs, entities);
         let all = inputs.iter().chain(entities.iter());
-        all.enumerate().find(|(_, x)| !x.is_finite()).map_or(Ok(()), |(i, _)| Err(i))
+        // Without an early end, so that many are looked at at once.
+        if all.clone().fold(true, |finite, x| finite & x.is_finite()) {
+            return Ok(());
+        }
+        Err(all.take_while(|x| x.is_finite()).count())
     }
 
     fn tensors(&self, shape: &Shape, device: &Device) -> (Tensor<2>, Tensor<3>) {
@@ -157,11 +161,13 @@ impl Model {
     /// All heads' values of all states, indexed `(row * heads + head) * actions + action`.
     pub(super) fn values(&self, batch: &Batch) -> Vec<f32> {
         let (inputs, entities) = batch.tensors(&self.shape, &self.device());
-        numbers(self.forward(inputs, entities))
+        let (states, advantages) = self.forward(inputs, entities);
+        numbers(states + advantages)
     }
 
-    /// `[batch, inputs]` and `[batch, channels, entities]` to `[batch, heads, actions]`.
-    fn forward(&self, inputs: Tensor<2>, entities: Tensor<3>) -> Tensor<3> {
+    /// `[batch, inputs]` and `[batch, channels, entities]` to the values of states, `[batch, heads, 1]`,
+    /// and what the actions add to them, `[batch, heads, actions]`.
+    fn forward(&self, inputs: Tensor<2>, entities: Tensor<3>) -> (Tensor<3>, Tensor<3>) {
         let Shape { heads, entities: n, channels, .. } = self.shape;
         let (plain, width) = (self.shape.plain(), self.shape.head_width());
         let (last, trunk) = self.layers.split_last().expect("a network has heads");
@@ -172,14 +178,14 @@ impl Model {
         let out = dense(x, last).reshape([rows, heads, 1 + width]);
         let state = out.clone().narrow(2, 0, 1);
         if n == 0 {
-            return state + out.narrow(2, 1, plain);
+            return (state, out.narrow(2, 1, plain));
         }
         let query = out.clone().narrow(2, plain + 2, channels);
         let pointing = out.clone().narrow(2, plain + 1, 1) + query.matmul(entities);
         if plain == 0 {
-            return state + pointing;
+            return (state, pointing);
         }
-        state + Tensor::cat(std::vec![out.narrow(2, 1, plain), pointing], 2)
+        (state, Tensor::cat(std::vec![out.narrow(2, 1, plain), pointing], 2))
     }
 
     /// The layers with gradients.
@@ -192,18 +198,21 @@ impl Model {
     }
 
     /// The weighted Huber loss of the values of `actions` (one a row) under all heads, with
-    /// `targets` indexed `row * heads + head`; the values; and the gradients, layer by layer.
+    /// `targets` indexed `row * heads + head`, and `penalty` times the mean square of what the actions
+    /// add to the values of states; the values; and the gradients, layer by layer.
     pub(super) fn gradients(
         &self,
         batch: &Batch,
         actions: &[u32],
         targets: &[Target],
+        penalty: f64,
     ) -> (f32, Vec<f32>, Vec<(Tensor<2>, Tensor<1>)>) {
         let (rows, heads) = (batch.len, self.shape.heads);
         let model = self.tracked();
         let device = model.device();
         let (inputs, entities) = batch.tensors(&self.shape, &device);
-        let values = model.forward(inputs, entities);
+        let (states, advantages) = model.forward(inputs, entities);
+        let values = states + advantages.clone();
         let chosen = actions.iter().flat_map(|&a| core::iter::repeat_n(i64::from(a), heads));
         let chosen = TensorData::new(chosen.collect::<Vec<i64>>(), [rows, heads, 1]);
         let values = values.gather(2, Tensor::<3, Int>::from_data(chosen, &device));
@@ -215,7 +224,11 @@ impl Model {
         // Huber's loss: e²/2 up to 1, then e − 1/2.
         let small = error.clone().clamp_max(1.0);
         let huber = small.clone() * (error - small.mul_scalar(0.5));
-        let loss = (huber * of(|target| target.weight)).sum().div_scalar(rows as f32);
+        let mut loss = (huber * of(|target| target.weight)).sum().div_scalar(rows as f32);
+        if penalty > 0.0 {
+            let squares = advantages.powi_scalar(2).mean();
+            loss = loss + squares.mul_scalar(penalty * heads as f64);
+        }
         let gradients = loss.backward();
         let of = |layer: &Layer| {
             let weights = layer.weights.grad(&gradients).expect("every layer is used");
@@ -223,18 +236,6 @@ impl Model {
         };
         let layers = model.layers.iter().map(of).collect();
         (loss.inner().into_scalar(), numbers(values.inner()), layers)
-    }
-
-    /// Leaves, of the heads' gradients, those of the values of states.
-    pub(super) fn only_states(&self, gradients: &mut [(Tensor<2>, Tensor<1>)]) {
-        let width = 1 + self.shape.head_width();
-        let mask: Vec<f32> =
-            (0..self.shape.heads * width).map(|i| f32::from(u8::from(i % width == 0))).collect();
-        let length = mask.len();
-        let mask = Tensor::<1>::from_data(TensorData::new(mask, [length]), &self.device());
-        let (weights, bias) = gradients.last_mut().expect("a network has heads");
-        *weights = weights.clone() * mask.clone().unsqueeze();
-        *bias = bias.clone() * mask;
     }
 
     /// Moves every weight to `other`'s by the share `rate`.

@@ -47,11 +47,15 @@ pub struct Settings {
     pub relabelled: f64,
     /// How fast the normalisation of the targets follows them; 0 is none.
     pub normalisation: f64,
-    /// In a composition: the number of updates, at the start of each stage, that only bring the
-    /// values of states in line and leave the differences between actions alone. The sum of the
-    /// skills' values is far above the product's, by how much depends on the state, and learned at
-    /// once the error of that drowns the small differences that the sum has right.
-    pub levels: u64,
+    /// In a composition: the share α, 0 ≤ α < 1, of what an action falls short of the policy's that is
+    /// taken off its value again (advantage learning, Baird 1999; Bellemare et al. 2016). The values of
+    /// states and the best actions stay what they are, and all other actions fall behind by
+    /// 1 / (1 − α) times as much. Without it that is a few per cent of a value, less than a network
+    /// errs by, and the policy goes back and forth between the skills.
+    pub advantage_learning: f64,
+    /// In a composition: the weight of the mean square of what is added to the skills' differences
+    /// between actions. What was never seen of an action so stays as the skills have it.
+    pub advantage_penalty: f64,
     /// The probability of a random action, at the number of earlier environment steps.
     pub epsilon: Schedule,
 }
@@ -76,7 +80,8 @@ impl Default for Settings {
             counterfactual: true,
             relabelled: 0.8,
             normalisation: 1e-3,
-            levels: 5_000,
+            advantage_learning: 0.9,
+            advantage_penalty: 1.0,
             epsilon: Schedule::Linear { from: 1.0, to: 0.05, steps: 20_000 },
         }
     }

@@ -81,21 +81,21 @@ fn the_plain_forward_pass_is_the_library_s() {
 }
 
 /// The loss of a model, of which the gradient is the gradient.
-fn loss(model: &Model, batch: &Batch, actions: &[u32], targets: &[Target]) -> f64 {
-    f64::from(model.gradients(batch, actions, targets).0)
+fn loss(model: &Model, batch: &Batch, actions: &[u32], targets: &[Target], penalty: f64) -> f64 {
+    f64::from(model.gradients(batch, actions, targets, penalty).0)
 }
 
 #[test]
 fn gradients_agree_with_finite_differences() {
     const STEP: f32 = 1e-2;
-    for entities in [0, 4] {
+    for (entities, penalty) in [(0, 0.0), (4, 0.0), (4, 0.7)] {
         let Case { network, batch, shape, mut rng, .. } = case(entities, &[6], 3);
         let device = Device::flex();
         let model = Model::new(&network, &device);
         let actions = [0, 1, shape.actions as u32 - 1, 0];
         let target = |i: usize| Target { value: unit(&mut rng) as f32, weight: [1.0, 0.3][i % 2] };
         let targets: Vec<Target> = (0..8).map(target).collect();
-        let (_, _, gradients) = model.gradients(&batch, &actions, &targets);
+        let (_, _, gradients) = model.gradients(&batch, &actions, &targets, penalty);
         let layers = model.dense();
         for (layer, (weights, bias)) in gradients.into_iter().enumerate() {
             let gradient = Dense {
@@ -106,7 +106,7 @@ fn gradients_agree_with_finite_differences() {
                 let mut layers = layers.clone();
                 change(&mut layers[layer]);
                 let model = Model::resume(shape.clone(), &layers, &device).unwrap();
-                loss(&model, &batch, &actions, &targets)
+                loss(&model, &batch, &actions, &targets, penalty)
             };
             let check = |exact: f32, difference: f64| {
                 let estimate = difference / f64::from(2.0 * STEP);
@@ -158,7 +158,7 @@ fn descent_goes_on_from_its_moments() {
     let device = Device::flex();
     let targets = [Target { value: 1.0, weight: 1.0 }; 8];
     let step = |model: &mut Model, descent: &mut Descent| {
-        let (_, _, gradients) = model.gradients(&batch, &[0, 1, 2, 3], &targets);
+        let (_, _, gradients) = model.gradients(&batch, &[0, 1, 2, 3], &targets, 0.0);
         descent.step(model, gradients, 1e-2, 10.0)
     };
     let mut model = Model::new(&network, &device);

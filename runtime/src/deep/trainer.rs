@@ -61,9 +61,20 @@ pub(super) trait Objective<S> {
         (f64::NEG_INFINITY, f64::INFINITY)
     }
 
-    /// Whether the update with this number leaves the differences between actions as they are.
-    fn only_states(&self, _update: u64) -> bool {
-        false
+    /// Whether there is anything to learn at an automaton state; where not, the base is right.
+    fn learns(&self, _q: u32) -> bool {
+        true
+    }
+
+    /// α of advantage learning: the share of what an action falls short of the policy's that is taken
+    /// off its value again.
+    fn advantage_learning(&self) -> f64 {
+        0.0
+    }
+
+    /// The weight of the squares of what actions add to the values of states.
+    fn advantage_penalty(&self) -> f64 {
+        0.0
     }
 
     /// Whether the policy is the greedy one of the base, not of base and network: then the network
@@ -201,15 +212,14 @@ impl Trainer {
         encode(&mut self.before, features, &sample.before)?;
         encode(&mut self.after, features, &sample.after)?;
         let wanted = self.targets(&sample, objective)?;
-        self.normalise(&sample, &wanted, settings);
-        let targets = self.weighted(&sample, &wanted, settings);
-        let (loss, values, mut gradients) =
-            self.model.gradients(&self.before, &sample.actions, &targets);
+        let counts = self.counts(&sample, objective, settings);
+        self.normalise(&wanted, &counts);
+        let targets = self.weighted(&sample, &wanted, &counts);
+        let penalty = objective.advantage_penalty();
+        let (loss, values, gradients) =
+            self.model.gradients(&self.before, &sample.actions, &targets, penalty);
         if !loss.is_finite() {
             return Err(Error::Loss(self.updates));
-        }
-        if objective.only_states(self.updates) {
-            self.model.only_states(&mut gradients);
         }
         let rate = settings.learning_rate.at(self.updates);
         self.descent.step(&mut self.model, gradients, rate, settings.gradient_norm);
@@ -291,20 +301,29 @@ impl Trainer {
     }
 
     /// What the network should say of each step, indexed `row * heads + head`.
+    ///
+    /// With base and network B and f, and Q = B + f, the target of Q is
+    /// `r + γ Q(s', π(s')) + α (Q(s, a) − Q(s, π(s)))`; π is greedy for Q, or, if the network evaluates
+    /// it, for B, and then what B adds to the target is left out of r.
     fn targets<S, O: Objective<S>>(
         &self,
         sample: &Sample<S>,
         objective: &O,
     ) -> Result<Vec<f64>, Error> {
         let (heads, actions) = (self.heads.states.len(), self.model.shape().actions);
+        let (base, own) = (objective.base(&sample.after)?, objective.base(&sample.before)?);
         let target = self.values(&self.target, &self.after);
-        let base = objective.base(&sample.after)?;
-        let chooses = match &base {
-            Some(base) if objective.evaluates() => base.clone(),
-            _ => sum(self.values(&self.model, &self.after), base.as_deref()),
+        let (chooses, target) = match base {
+            Some(base) if objective.evaluates() => (base, target),
+            base => {
+                let now = self.values(&self.model, &self.after);
+                (sum(now, base.as_deref()), sum(target, base.as_deref()))
+            }
         };
-        let target = if objective.evaluates() { target } else { sum(target, base.as_deref()) };
-        let subtract = if objective.evaluates() { None } else { objective.base(&sample.before)? };
+        let share = objective.advantage_learning();
+        let before =
+            (share > 0.0).then(|| sum(self.values(&self.target, &self.before), own.as_deref()));
+        let own = own.as_deref();
         let wanted = sample.outcomes.iter().enumerate().map(|(i, outcome)| {
             let mut wanted = outcome.paid;
             if outcome.discount > 0.0 {
@@ -313,33 +332,53 @@ impl Trainer {
                 let (least, most) = objective.bounds(self.heads.states[outcome.head]);
                 wanted += outcome.discount * f64::from(target[from + best]).clamp(least, most);
             }
-            let action = sample.actions[i / heads] as usize;
-            wanted - subtract.as_ref().map_or(0.0, |base| f64::from(base[i * actions + action]))
+            let (row, action) = (i * actions, sample.actions[i / heads] as usize);
+            if let Some(before) = before.as_deref() {
+                let chooses = own.filter(|_| objective.evaluates()).unwrap_or(before);
+                let best = argmax(&chooses[row..row + actions]) as usize;
+                wanted += share * f64::from(before[row + action] - before[row + best]);
+            }
+            match own {
+                Some(own) if !objective.evaluates() => wanted - f64::from(own[row + action]),
+                _ => wanted,
+            }
         });
         Ok(wanted.collect())
     }
 
+    /// Which targets are learned, indexed `row * heads + head`.
+    fn counts<S, O: Objective<S>>(
+        &self,
+        sample: &Sample<S>,
+        objective: &O,
+        settings: &Settings,
+    ) -> Vec<bool> {
+        let learns: Vec<bool> = self.heads.states.iter().map(|&q| objective.learns(q)).collect();
+        let all = settings.counterfactual;
+        let of = |&taken: &Option<usize>| {
+            let learns = learns.iter().enumerate();
+            learns.map(move |(head, &learns)| learns && (all || taken == Some(head)))
+        };
+        sample.taken.iter().flat_map(of).collect()
+    }
+
     /// Takes the targets into the normalisation.
-    fn normalise<S>(&mut self, sample: &Sample<S>, wanted: &[f64], settings: &Settings) {
+    fn normalise(&mut self, wanted: &[f64], counts: &[bool]) {
         let old = self.popart.clone();
         let heads = self.heads.states.len();
         for head in 0..heads {
-            let rows = wanted.iter().skip(head).step_by(heads).zip(&sample.taken);
-            let counts = |taken: &Option<usize>| settings.counterfactual || *taken == Some(head);
-            let targets = rows.filter(|(_, taken)| counts(taken)).map(|(wanted, _)| *wanted);
-            self.popart.observe(head, targets);
+            let rows = wanted.iter().zip(counts).skip(head).step_by(heads);
+            self.popart.observe(head, rows.filter(|(_, counts)| **counts).map(|(w, _)| *w));
         }
         self.model.rescale(&old, &self.popart);
         self.target.rescale(&old, &self.popart);
     }
 
-    fn weighted<S>(&self, sample: &Sample<S>, wanted: &[f64], settings: &Settings) -> Vec<Target> {
+    fn weighted<S>(&self, sample: &Sample<S>, wanted: &[f64], counts: &[bool]) -> Vec<Target> {
         let heads = self.heads.states.len();
-        let targets = wanted.iter().enumerate().map(|(i, wanted)| {
-            let (row, head) = (i / heads, i % heads);
-            let (mean, deviation) = self.popart.scale(head);
-            let counts = settings.counterfactual || sample.taken[row] == Some(head);
-            let weight = if counts { sample.weights[row] as f32 } else { 0.0 };
+        let targets = wanted.iter().zip(counts).enumerate().map(|(i, (wanted, counts))| {
+            let (mean, deviation) = self.popart.scale(i % heads);
+            let weight = if *counts { sample.weights[i / heads] as f32 } else { 0.0 };
             Target { value: ((wanted - mean) / deviation) as f32, weight }
         });
         targets.collect()

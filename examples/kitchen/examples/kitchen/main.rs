@@ -39,7 +39,7 @@ impl Plan {
 
     /// Everything of the paper's Figure 3.
     fn full(seeds: u64) -> Self {
-        let budget = Budget { steps: [60_000, 200_000], updates: [5_000, 40_000], points: 10 };
+        let budget = Budget { steps: [60_000, 200_000], updates: [5_000, 25_000], points: 10 };
         let all = [0, 1].into_iter().flat_map(|task| {
             [0, 1, 2].into_iter().flat_map(move |j| [(task, j, false), (task, j, true)])
         });

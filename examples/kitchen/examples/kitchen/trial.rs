@@ -227,10 +227,9 @@ impl Trials {
         let updates = self.budget.updates;
         let composed = |combine| {
             let mut settings = self.settings(0, HORIZONS[2], true);
-            settings.relabelled = 1.0;
+            (settings.relabelled, settings.batch) = (1.0, 64);
             settings.learning_rate =
                 Schedule::Linear { from: 5e-4, to: 5e-6, steps: updates[0] + updates[1] };
-            settings.levels = settings.levels.min(updates[1] / 3);
             let goals = FeasibleGoals::new(&self.layout, Some(self.apple.object));
             let device = Device::flex();
             Composition::new(&product, &skills, goals, combine, settings, &device, seed)
