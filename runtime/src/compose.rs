@@ -16,8 +16,11 @@
 //!   state.
 //!
 //! All values are *flat* (they bootstrap at q'), never sub-policy values.
+//!
+//! Networks are composed in `deep`; [`Compose`] is what the two have in common.
 
 use alloc::vec::Vec;
+use core::convert::Infallible;
 
 use crate::augmented::{Labelled, Payment, Rewards};
 use crate::model::Dynamics;
@@ -43,6 +46,80 @@ pub enum Combine {
     NormalisedSum,
     /// Their maximum: go for the most promising skill.
     Max,
+}
+
+/// Skills that are being composed, step by step, whatever holds their values: tables
+/// ([`Composition::on`]) or networks (`deep::Composition`). It begins at step 2.
+pub trait Compose {
+    /// A state of the world; of tables, its number.
+    type State: ?Sized;
+    /// Why a step can fail.
+    type Error;
+
+    /// Steps 3–5, by so many updates; tables need one, of everything.
+    ///
+    /// # Errors
+    /// If a value is not a finite number.
+    ///
+    /// # Panics
+    /// Unless the skills are combined by [`Combine::Sum`].
+    fn compensate(&mut self, updates: u64) -> Result<(), Self::Error>;
+
+    /// Step 6, by so many updates; tables need one, of everything.
+    ///
+    /// # Errors
+    /// If a value is not a finite number.
+    fn refine(&mut self, updates: u64) -> Result<(), Self::Error>;
+
+    /// The greedy action in (s, q), at a state of the product.
+    ///
+    /// # Errors
+    /// If a value is not a finite number.
+    fn act(&self, q: u32, s: &Self::State) -> Result<usize, Self::Error>;
+}
+
+/// A composition of tables that is carried out step by step.
+#[derive(Clone, Debug)]
+pub struct Stepwise<'a> {
+    composition: Composition<'a>,
+    dynamics: &'a Dynamics,
+    rewards: Rewards,
+    gamma: f64,
+    combine: Combine,
+    q: QTable,
+}
+
+impl Stepwise<'_> {
+    /// The values so far.
+    #[must_use]
+    pub const fn q(&self) -> &QTable {
+        &self.q
+    }
+}
+
+impl Compose for Stepwise<'_> {
+    type State = usize;
+    type Error = Infallible;
+
+    fn compensate(&mut self, updates: u64) -> Result<(), Infallible> {
+        assert_eq!(self.combine, Combine::Sum, "compensation is of the plain sum");
+        if updates > 0 {
+            self.q = self.composition.compensated(self.dynamics, &self.rewards, self.gamma);
+        }
+        Ok(())
+    }
+
+    fn refine(&mut self, updates: u64) -> Result<(), Infallible> {
+        if updates > 0 {
+            let Self { composition, dynamics, rewards, gamma, q, .. } = self;
+            *q = composition.refined(dynamics, rewards, *gamma, q);
+        }
+        Ok(())
+    }
+
+    fn act(&self, q: u32, &s: &usize) -> Result<usize, Infallible> {
+        Ok(self.q.greedy(q, s) as usize)
+    }
 }
 
 /// Skills that are to be composed.
@@ -82,6 +159,22 @@ impl<'a> Composition<'a> {
             components: states.clone().map(|q| product.components(q)).collect(),
             running: states.map(|q| product.running(q)).collect(),
         }
+    }
+
+    /// The composition, carried out step by step on `dynamics`.
+    ///
+    /// # Panics
+    /// In its steps, as [`Self::compensated`].
+    #[must_use]
+    pub fn on(
+        self,
+        dynamics: &'a Dynamics,
+        rewards: Rewards,
+        gamma: f64,
+        combine: Combine,
+    ) -> Stepwise<'a> {
+        let q = self.initial(combine);
+        Stepwise { composition: self, dynamics, rewards, gamma, combine, q }
     }
 
     /// Step 2: the skills' values at their components of each product state. In a sequence only

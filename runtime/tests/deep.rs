@@ -2,7 +2,7 @@
 #![cfg(feature = "deep")]
 
 use tltl::augmented::{Labelled, Rewards};
-use tltl::compose::Combine;
+use tltl::compose::{self, Combine, Compose};
 use tltl::deep::{
     AsGiven, Checkpoint, Composition, Device, Error, Learned, Learner, Replay, Settings, Skill,
     SumTree,
@@ -162,6 +162,12 @@ fn a_learner_resumed_goes_on_bit_for_bit() {
     assert!(Learner::resume(other, whole.checkpoint(), &device).is_err(), "another task's heads");
 }
 
+/// All of Algorithm 2, whatever holds the values.
+fn carry_out<C: Compose>(composition: &mut C) -> Result<(), C::Error> {
+    composition.compensate(1_000)?;
+    composition.refine(7_000)
+}
+
 #[test]
 fn a_composition_reaches_the_optimum_without_a_step() {
     let left = tltl! { |x: &i32| F ({ *x } == 0) };
@@ -198,20 +204,43 @@ fn a_composition_reaches_the_optimum_without_a_step() {
     let pending = (0..product.states()).find(|&q| product.components(q)[1] == 1).unwrap();
     let sum = refined.values(pending, &3).unwrap();
     assert!((sum[0] - networks[0].values(0, &[0., 0., 0., 1., 0., 0.], &[])[0]).abs() < 1e-5);
-    refined.compensate(1_000).unwrap();
-    refined.refine(7_000).unwrap();
+    carry_out(&mut refined).unwrap();
     assert_optimal(&product, 2e-2, |q, s| refined.values(q, s).unwrap());
     // Advantage learning moves the other actions away, and leaves the values of states.
     let settings = Settings { advantage_learning: 0.8, ..settings(8_000) };
     let mut wide =
         Composition::new(&product, &skills, AsGiven, Combine::Sum, settings, &device, 3).unwrap();
-    wide.compensate(1_000).unwrap();
-    wide.refine(7_000).unwrap();
+    carry_out(&mut wide).unwrap();
     let both = (0..product.states()).find(|&q| product.components(q) == [0, 0]).unwrap();
-    let [narrow, wide] = [&refined, &wide].map(|composition| composition.values(both, &1).unwrap());
-    assert!((wide[0] - narrow[0]).abs() < 4e-2, "{wide:?} {narrow:?}");
-    let gaps = [narrow, wide].map(|values| values[0] - values[1]);
-    assert!((gaps[1] / gaps[0] - 5.0).abs() < 1.0, "{gaps:?}");
+    let values = [&refined, &wide].map(|composition| composition.values(both, &1).unwrap());
+    assert!((values[0][0] - values[1][0]).abs() < 4e-2, "{values:?}");
+    let [narrow, wider] = values.map(|values| values[0] - values[1]);
+    assert!((wider / narrow - 5.0).abs() < 1.0, "{narrow} {wider}");
+
+    // Tables go the same way.
+    let labelled = |task: &dyn Monitor<i32>| Labelled::of_env(&env, task).unwrap();
+    let (task, tasks) = (labelled(&product), [labelled(&left), labelled(&right)]);
+    let rewards = Rewards::default();
+    let [one, two] =
+        [0, 1].map(|i| Problem::new(env.dynamics(), &tasks[i]).optimal_q(&rewards, GAMMA));
+    let skills =
+        [compose::Skill { q: &one, task: &tasks[0] }, compose::Skill { q: &two, task: &tasks[1] }];
+    let mut tables = compose::Composition::new(&product, &task, &skills).on(
+        env.dynamics(),
+        rewards,
+        GAMMA,
+        Combine::Sum,
+    );
+    carry_out(&mut tables).unwrap();
+    let exact = Problem::new(env.dynamics(), &task).optimal_q(&rewards, GAMMA);
+    for s in 0..6 {
+        let own = [tables.act(both, &(s as usize)).unwrap(), wide.act(both, &s).unwrap()];
+        let row = exact.row(both, s as usize);
+        // Both ends are as near in the middle of the row, and states at an end have been read.
+        let best = (1..5).contains(&s).then(|| row.iter().copied().fold(f64::MIN, f64::max));
+        let right = |a: usize| best.is_none_or(|best| best - row[a] < 2e-2);
+        assert!(own.into_iter().all(right), "{own:?} of {row:?} at {s}");
+    }
     assert_eq!(env.steps(), steps, "no step in the world");
 }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use tltl::Monitor;
-use tltl::compose::Combine;
+use tltl::compose::{Combine, Compose};
 use tltl::deep::{Composition, Device, Goals as _, Learned, Learner, Settings, Skill};
 use tltl::env::Env;
 use tltl::learn::Schedule;

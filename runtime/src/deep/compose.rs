@@ -5,7 +5,7 @@
 //! relabelled with every state of the product's automaton, is all that is learned from. The skills'
 //! networks stay as they are; one further network, with a head for each live state of the
 //! product, is added to their sum, and it alone is trained: from zero in
-//! [`Composition::compensate`], and on from there in [`Composition::refine`].
+//! [`Compose::compensate`], and on from there in [`Compose::refine`].
 //!
 //! Three things keep the errors of networks from choosing the action, for the values of two actions
 //! differ by a few per cent where a network errs by as much. Both steps widen the gaps between actions
@@ -24,7 +24,7 @@ use super::settings::Settings;
 use super::trainer::{Heads, Objective, Trainer, bounds};
 use super::{Error, Goals};
 use crate::augmented::{Moves, Reward};
-use crate::compose::Combine;
+use crate::compose::{Combine, Compose};
 use crate::learn::episode::Move;
 use crate::network::{Features, Network, Shape};
 use crate::product::{Operator, Product};
@@ -186,28 +186,6 @@ impl<'a, S: Clone, G: Goals<S>> Composition<'a, S, G> {
         Ok(())
     }
 
-    /// Steps 3–5: trains the further network by `updates` updates to be what the plain sum counts too
-    /// much, negated, under the sum's greedy policy (Eq. 3C10, trap-aware).
-    ///
-    /// # Errors
-    /// If a number is not finite.
-    ///
-    /// # Panics
-    /// Unless the skills are combined by [`Combine::Sum`].
-    pub fn compensate(&mut self, updates: u64) -> Result<(), Error> {
-        assert_eq!(self.combine, Combine::Sum, "compensation is of the plain sum");
-        self.learn(updates, true)
-    }
-
-    /// Step 6: trains the further network by `updates` updates until the whole is the optimum of the
-    /// product, as far as what was seen tells.
-    ///
-    /// # Errors
-    /// If a number is not finite.
-    pub fn refine(&mut self, updates: u64) -> Result<(), Error> {
-        self.learn(updates, false)
-    }
-
     fn learn(&mut self, updates: u64, evaluates: bool) -> Result<(), Error> {
         let base = Base {
             product: self.product,
@@ -249,17 +227,31 @@ impl<'a, S: Clone, G: Goals<S>> Composition<'a, S, G> {
         Ok(row)
     }
 
-    /// The greedy action in (s, q).
-    ///
-    /// # Errors
-    /// If a feature is not a finite number.
-    pub fn act(&self, q: u32, s: &S) -> Result<usize, Error> {
-        Ok(argmax(&self.values(q, s)?) as usize)
-    }
-
     /// Updates so far.
     pub const fn updates(&self) -> u64 {
         self.trainer.updates
+    }
+}
+
+impl<S: Clone, G: Goals<S>> Compose for Composition<'_, S, G> {
+    type State = S;
+    type Error = Error;
+
+    /// Trains the further network to be what the plain sum counts too much, negated, under the sum's
+    /// greedy policy (Eq. 3C10, trap-aware).
+    fn compensate(&mut self, updates: u64) -> Result<(), Error> {
+        assert_eq!(self.combine, Combine::Sum, "compensation is of the plain sum");
+        self.learn(updates, true)
+    }
+
+    /// Trains the further network until the whole is the optimum of the product, as far as what was
+    /// seen tells.
+    fn refine(&mut self, updates: u64) -> Result<(), Error> {
+        self.learn(updates, false)
+    }
+
+    fn act(&self, q: u32, s: &S) -> Result<usize, Error> {
+        Ok(argmax(&self.values(q, s)?) as usize)
     }
 }
 

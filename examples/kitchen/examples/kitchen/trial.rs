@@ -6,7 +6,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 use tltl::Monitor;
 use tltl::augmented::Rewards;
-use tltl::compose::Combine;
+use tltl::compose::{Combine, Compose};
 use tltl::deep::{Composition, Device, Learned, Learner, Settings, Skill};
 use tltl::env::Env;
 use tltl::learn::Schedule;
