@@ -20,3 +20,4 @@ mod static_corpus;
 mod stages;
 mod static_corpus_source;
 mod ui;
+mod units;

@@ -49,9 +49,9 @@ fn stages(ast: &tltl_compiler::ast::Ast, compiled: &Compiled) -> String {
     let mut out = String::from("== parsed\n");
     for item in ast.items() {
         let root = match item.kind {
-            ItemKind::Constant(root) | ItemKind::Predicate(_, root) | ItemKind::Task(_, root) => {
-                root
-            }
+            ItemKind::Constant(_, root)
+            | ItemKind::Predicate(_, root)
+            | ItemKind::Task(_, root) => root,
             _ => continue,
         };
         let name = ast.source().slice(item.name);

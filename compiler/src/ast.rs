@@ -177,7 +177,29 @@ pub struct FieldType {
     pub span: Span,
 }
 
-/// `name: type`
+/// A unit, as written: `N*m`, `1/s^2`.
+#[derive(Clone, Debug)]
+pub struct WrittenUnit {
+    /// Its factors, in order; a `1` is none.
+    pub factors: Vec<UnitFactor>,
+    /// All of it.
+    pub span: Span,
+}
+
+/// A name in a unit, with its power.
+#[derive(Clone, Debug)]
+pub struct UnitFactor {
+    /// The name.
+    pub name: Span,
+    /// Whether a `/` stands before it.
+    pub divides: bool,
+    /// The digits of its power, and whether a minus stands before them.
+    pub power: Option<(Span, bool)>,
+    /// All of it.
+    pub span: Span,
+}
+
+/// `name: type in unit`
 #[derive(Clone, Debug)]
 pub struct Declaration {
     /// What the author says about it.
@@ -186,6 +208,8 @@ pub struct Declaration {
     pub name: Span,
     /// Its type.
     pub ty: FieldType,
+    /// Its unit, if it has one.
+    pub unit: Option<WrittenUnit>,
 }
 
 /// What an item declares.
@@ -199,8 +223,8 @@ pub enum ItemKind {
     Struct(Vec<Declaration>),
     /// `enum Name { variants }`
     Enum(Vec<Span>),
-    /// `const name = value`
-    Constant(NodeId),
+    /// `const name = value`, or `const name in unit = value`
+    Constant(Option<WrittenUnit>, NodeId),
     /// `predicate name = condition`
     Predicate(Vec<Declaration>, NodeId),
     /// `task name = formula`; a bare formula is one whose name is empty

@@ -2,8 +2,8 @@
 //!
 //! The stages of one expression: `role` goes from the root down and decides what each operand
 //! has to be, a number or a formula, and whether it stands under a negation; `term` and
-//! `atom` go from the leaves up and resolve names and comparisons; `formula` builds the
-//! [`Spec`](crate::spec::Spec). All are loops over the arena. A mistake is noted once, where it is
+//! `atom` go from the leaves up and resolve names and comparisons, and `unit` what numbers are
+//! measured in; `formula` builds the [`Spec`](crate::spec::Spec). All are loops over the arena. A mistake is noted once, where it is
 //! made, and what depends on it is left alone.
 
 mod apply;
@@ -17,6 +17,7 @@ mod order;
 mod role;
 mod scope;
 mod term;
+mod unit;
 mod value;
 
 use std::collections::{BTreeMap, HashMap, HashSet};
@@ -31,6 +32,7 @@ use crate::predicate::{
 use crate::source::{Source, Span};
 use expand::{Environment, Expanded};
 use scope::Scope;
+use unit::Measure;
 
 /// What a name may be that the source does not declare.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -116,6 +118,8 @@ struct Checker<'a> {
     mistakes: Vec<Error>,
     /// The value of each constant, by item.
     constants: BTreeMap<usize, f64>,
+    /// What each constant is measured in, by item.
+    measures: BTreeMap<usize, Measure>,
     /// The predicate of each predicate item.
     declared: BTreeMap<usize, PredicateId>,
     /// The predicate that a condition is, and whether it is its negation.
@@ -126,6 +130,8 @@ struct Checker<'a> {
     values: HashMap<String, Span>,
     /// In a bare formula, what each name has been used as first.
     free: HashMap<String, (bool, Span)>,
+    /// The mistakes in units, by place and message.
+    told: HashSet<(Span, String)>,
 }
 
 impl<'a> Checker<'a> {
@@ -142,6 +148,7 @@ impl<'a> Checker<'a> {
             state: scope.state(ast, names),
             structs: scope.structs.clone(),
             enums: scope.enums.clone(),
+            units: scope.units.clone(),
             constants: Vec::new(),
             predicates: Vec::new(),
             arena: Arena::default(),
@@ -161,11 +168,13 @@ impl<'a> Checker<'a> {
             tasks,
             mistakes,
             constants: BTreeMap::new(),
+            measures: BTreeMap::new(),
             declared: BTreeMap::new(),
             known: HashMap::new(),
             used: HashSet::new(),
             values: HashMap::new(),
             free: HashMap::new(),
+            told: HashSet::new(),
         }
     }
 
@@ -177,7 +186,7 @@ impl<'a> Checker<'a> {
             self.parameters = self.scope.parameters(item).to_vec();
             let known = self.mistakes.len();
             match self.ast.items()[item].kind {
-                ItemKind::Constant(root) => self.constant(item, root),
+                ItemKind::Constant(_, root) => self.constant(item, root),
                 ItemKind::Predicate(_, root) => self.predicate(item, root),
                 ItemKind::Task(_, root) => self.task(item, root),
                 _ => {}
@@ -195,15 +204,23 @@ impl<'a> Checker<'a> {
 
     fn constant(&mut self, item: usize, root: NodeId) {
         let roles = self.roles(root, role::Role::Number);
-        let Some(term) = self.terms(root, &roles).last().copied().flatten() else { return };
+        let terms = self.terms(root, &roles);
+        let measure = self.units(root, &roles, &terms);
+        let Some(term) = terms.last().copied().flatten() else { return };
         let Some(value) = self.module.arena.constant(term) else {
             let message = "a constant is made of numbers and other constants only";
             return self.mistakes.push(Error::new(Kind::Type, message, self.ast.span(root)));
         };
         self.constants.insert(item, value);
+        let measure = self.constant_unit(item, root, measure);
+        let unit = match &measure {
+            Measure::In(unit) => Some(unit.clone()),
+            _ => None,
+        };
+        self.measures.insert(item, measure);
         let entry = &self.ast.items()[item];
         let name = self.ast.source().slice(entry.name).to_owned();
-        self.module.constants.push(Constant { name, docs: entry.docs.clone(), value });
+        self.module.constants.push(Constant { name, docs: entry.docs.clone(), value, unit });
     }
 
     fn predicate(&mut self, item: usize, root: NodeId) {
@@ -243,7 +260,7 @@ impl<'a> Checker<'a> {
         for (index, item) in self.ast.items().iter().enumerate() {
             let what = match item.kind {
                 ItemKind::Predicate(..) => "predicate",
-                ItemKind::Constant(_) => "constant",
+                ItemKind::Constant(..) => "constant",
                 _ => continue,
             };
             let name = self.ast.source().slice(item.name);

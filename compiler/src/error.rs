@@ -37,6 +37,8 @@ pub enum Kind {
     Cycle,
     /// A number where a formula is needed, or the like.
     Type,
+    /// Numbers of different units, or a unit that there is not.
+    Unit,
     /// A comparison chain that points both ways.
     Chain,
     /// Nothing uses it.
@@ -70,6 +72,7 @@ impl Kind {
             Self::Keyword => "keyword",
             Self::Cycle => "cycle",
             Self::Type => "type",
+            Self::Unit => "unit",
             Self::Chain => "chain",
             Self::Unused => "unused",
             Self::Unsatisfiable => "unsatisfiable",

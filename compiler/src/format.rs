@@ -79,6 +79,7 @@ impl<'a> Layout<'a> {
     /// Whether a token is an operator before its operand.
     fn is_prefix(&self, token: &Token<'_>) -> bool {
         match token.text {
+            _ if token.kind == Kind::Unit => false,
             "!" | "¬" | "◇" | "○" | "<>" => true,
             "F" | "X" | "not" => token.kind == Kind::Word,
             "-" | "−" => self.before.is_none_or(|before| !before.ends_operand()),
@@ -95,6 +96,7 @@ impl<'a> Layout<'a> {
         }
         let calls = before.ends_operand() && !before.is_operator_word();
         match token.text {
+            _ if token.kind == Kind::Unit => before.kind != Kind::Unit,
             _ if token.kind == Kind::Rust => !symbol("("),
             "," | ";" | ":" | "?" => false,
             "." | "::" | ".." | "..=" => false,
@@ -161,6 +163,16 @@ mod tests {
             ),
             ("predicate p = { s . ok( ) }", "predicate p = { s . ok( ) }\n"),
             ("task t = a /* x\n  y */ && b", "task t = a /* x\n  y */ && b\n"),
+            (
+                "state S{x:f64 in m,v:[f64;2]in m / s ^ - 2}",
+                "state S { x: f64 in m, v: [f64; 2] in m/s^-2 }\n",
+            ),
+            ("const  r in  1 / s=- 2", "const r in 1/s = -2\n"),
+            ("predicate p(d:f64 in N * m,e:u8)=x<d", "predicate p(d: f64 in N*m, e: u8) = x < d\n"),
+            ("const g in F* /* ? */T = 1", "const g in F* /* ? */ T = 1\n"),
+            ("state S{k:K?in m}", "state S { k: K? in m }\n"),
+            ("task t = for all in in R: F in", "task t = for all in in R: F in\n"),
+            ("task t = for all r in F:F r", "task t = for all r in F: F r\n"),
             ("", ""),
         ] {
             assert_eq!(laid_out(text), expected);

@@ -39,6 +39,9 @@ pub enum Rule {
     r#optional,
     r#array_open,
     r#array_close,
+    r#unit,
+    r#unit_one,
+    r#unit_power,
     r#header,
     r#header_type,
     r#host_type,
@@ -140,6 +143,9 @@ impl Rule {
             Rule::r#optional,
             Rule::r#array_open,
             Rule::r#array_close,
+            Rule::r#unit,
+            Rule::r#unit_one,
+            Rule::r#unit_power,
             Rule::r#header,
             Rule::r#header_type,
             Rule::r#host_type,
@@ -926,6 +932,18 @@ impl ::pest::Parser<Rule> for Grammar {
                                             .and_then(|state| { super::hidden::skip(state) })
                                             .and_then(|state| { self::r#identifier(state) })
                                             .and_then(|state| { super::hidden::skip(state) })
+                                            .and_then(|state| {
+                                                state
+                                                    .optional(|state| {
+                                                        state
+                                                            .sequence(|state| {
+                                                                self::r#word_in(state)
+                                                                    .and_then(|state| { super::hidden::skip(state) })
+                                                                    .and_then(|state| { self::r#unit(state) })
+                                                            })
+                                                    })
+                                            })
+                                            .and_then(|state| { super::hidden::skip(state) })
                                             .and_then(|state| { state.match_string("=") })
                                             .and_then(|state| { super::hidden::skip(state) })
                                             .and_then(|state| { self::r#expression(state) })
@@ -1163,6 +1181,18 @@ impl ::pest::Parser<Rule> for Grammar {
                                             .and_then(|state| { state.match_string(":") })
                                             .and_then(|state| { super::hidden::skip(state) })
                                             .and_then(|state| { self::r#field_type(state) })
+                                            .and_then(|state| { super::hidden::skip(state) })
+                                            .and_then(|state| {
+                                                state
+                                                    .optional(|state| {
+                                                        state
+                                                            .sequence(|state| {
+                                                                self::r#word_in(state)
+                                                                    .and_then(|state| { super::hidden::skip(state) })
+                                                                    .and_then(|state| { self::r#unit(state) })
+                                                            })
+                                                    })
+                                            })
                                     })
                             },
                         )
@@ -1306,6 +1336,123 @@ impl ::pest::Parser<Rule> for Grammar {
                                             })
                                             .and_then(|state| { super::hidden::skip(state) })
                                             .and_then(|state| { state.match_string("]") })
+                                    })
+                            },
+                        )
+                }
+                #[inline]
+                #[allow(non_snake_case, unused_variables)]
+                pub fn r#unit(
+                    state: ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                ) -> ::pest::ParseResult<
+                    ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                > {
+                    state
+                        .rule(
+                            Rule::r#unit,
+                            |state| {
+                                state
+                                    .sequence(|state| {
+                                        self::r#unit_one(state)
+                                            .or_else(|state| { self::r#unit_power(state) })
+                                            .and_then(|state| { super::hidden::skip(state) })
+                                            .and_then(|state| {
+                                                state
+                                                    .sequence(|state| {
+                                                        state
+                                                            .optional(|state| {
+                                                                state
+                                                                    .sequence(|state| {
+                                                                        self::r#times(state)
+                                                                            .or_else(|state| { self::r#divide(state) })
+                                                                            .and_then(|state| { super::hidden::skip(state) })
+                                                                            .and_then(|state| { self::r#unit_power(state) })
+                                                                    })
+                                                                    .and_then(|state| {
+                                                                        state
+                                                                            .repeat(|state| {
+                                                                                state
+                                                                                    .sequence(|state| {
+                                                                                        super::hidden::skip(state)
+                                                                                            .and_then(|state| {
+                                                                                                state
+                                                                                                    .sequence(|state| {
+                                                                                                        self::r#times(state)
+                                                                                                            .or_else(|state| { self::r#divide(state) })
+                                                                                                            .and_then(|state| { super::hidden::skip(state) })
+                                                                                                            .and_then(|state| { self::r#unit_power(state) })
+                                                                                                    })
+                                                                                            })
+                                                                                    })
+                                                                            })
+                                                                    })
+                                                            })
+                                                    })
+                                            })
+                                    })
+                            },
+                        )
+                }
+                #[inline]
+                #[allow(non_snake_case, unused_variables)]
+                pub fn r#unit_one(
+                    state: ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                ) -> ::pest::ParseResult<
+                    ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                > {
+                    state
+                        .rule(
+                            Rule::r#unit_one,
+                            |state| {
+                                state
+                                    .atomic(
+                                        ::pest::Atomicity::Atomic,
+                                        |state| {
+                                            state
+                                                .sequence(|state| {
+                                                    state
+                                                        .match_string("1")
+                                                        .and_then(|state| {
+                                                            state
+                                                                .lookahead(false, |state| { self::r#XID_CONTINUE(state) })
+                                                        })
+                                                })
+                                        },
+                                    )
+                            },
+                        )
+                }
+                #[inline]
+                #[allow(non_snake_case, unused_variables)]
+                pub fn r#unit_power(
+                    state: ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                ) -> ::pest::ParseResult<
+                    ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                > {
+                    state
+                        .rule(
+                            Rule::r#unit_power,
+                            |state| {
+                                state
+                                    .sequence(|state| {
+                                        self::r#identifier(state)
+                                            .and_then(|state| { super::hidden::skip(state) })
+                                            .and_then(|state| {
+                                                state
+                                                    .optional(|state| {
+                                                        state
+                                                            .sequence(|state| {
+                                                                state
+                                                                    .match_string("^")
+                                                                    .and_then(|state| { super::hidden::skip(state) })
+                                                                    .and_then(|state| {
+                                                                        state.optional(|state| { self::r#minus(state) })
+                                                                    })
+                                                                    .and_then(|state| { super::hidden::skip(state) })
+                                                                    .and_then(|state| { self::r#digits(state) })
+                                                            })
+                                                    })
+                                            })
                                     })
                             },
                         )
@@ -3319,6 +3466,9 @@ impl ::pest::Parser<Rule> for Grammar {
                     Rule::r#optional => rules::r#optional(state),
                     Rule::r#array_open => rules::r#array_open(state),
                     Rule::r#array_close => rules::r#array_close(state),
+                    Rule::r#unit => rules::r#unit(state),
+                    Rule::r#unit_one => rules::r#unit_one(state),
+                    Rule::r#unit_power => rules::r#unit_power(state),
                     Rule::r#header => rules::r#header(state),
                     Rule::r#header_type => rules::r#header_type(state),
                     Rule::r#host_type => rules::r#host_type(state),

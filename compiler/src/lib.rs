@@ -69,3 +69,4 @@ pub mod spec;
 #[cfg(feature = "cli")]
 pub mod trace;
 pub mod translate;
+pub mod unit;

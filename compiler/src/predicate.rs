@@ -15,6 +15,7 @@ use crate::ast::{Arithmetic, Comparison};
 use crate::error::Error;
 use crate::source::Span;
 use crate::spec::Spec;
+use crate::unit::{Unit, Units};
 
 /// A predicate of a [`Module`]: an index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -110,6 +111,8 @@ pub struct Field {
     pub docs: Vec<String>,
     /// Its type.
     pub ty: Type,
+    /// What its numbers are measured in, if the source says so.
+    pub unit: Option<Unit>,
 }
 
 /// A struct that the source declares; the state is one too.
@@ -163,6 +166,8 @@ pub struct Constant {
     pub docs: Vec<String>,
     /// Its value.
     pub value: f64,
+    /// What it is measured in, if the source says so.
+    pub unit: Option<Unit>,
 }
 
 /// A part of a place within the state: `.pose`, `[2]`.
@@ -210,6 +215,8 @@ pub struct Parameter {
     pub name: String,
     /// Its type.
     pub ty: ParameterType,
+    /// What it is measured in, if the source says so.
+    pub unit: Option<Unit>,
     /// Where the source has its name.
     pub span: Span,
 }
@@ -579,6 +586,8 @@ pub struct Module {
     pub structs: Vec<Struct>,
     /// The enumerations.
     pub enums: Vec<Enum>,
+    /// The names that units are made of.
+    pub units: Units,
     /// The constants.
     pub constants: Vec<Constant>,
     /// The predicates; one that another one uses stands before it.

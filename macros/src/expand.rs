@@ -109,7 +109,9 @@ fn message(error: &Error, source: &Source, flat: &Flat) -> TokenStream {
         if never {
             text.push_str(&format!("\n= note: {}", error.place_label()));
         }
-        for (span, label) in error.places().iter().skip(1).filter(|_| !never) {
+        // The message of a unit has both sides in it.
+        let whole = never || error.kind() == Kind::Unit;
+        for (span, label) in error.places().iter().skip(1).filter(|_| !whole) {
             let quoted = source.text().get(span.start..span.end).unwrap_or_default();
             text.push_str(&format!("\n= note: `{quoted}`: {label}"));
         }

@@ -67,7 +67,7 @@ fn is_token(tree: &TokenTree) -> bool {
     match tree {
         TokenTree::Group(group) => group.stream().into_iter().all(|tree| is_token(&tree)),
         TokenTree::Ident(_) => true,
-        TokenTree::Punct(punct) => "!&|=<>-+*/.,;:?#".contains(punct.as_char()),
+        TokenTree::Punct(punct) => "!&|=<>-+*/^.,;:?#".contains(punct.as_char()),
         TokenTree::Literal(literal) => {
             literal.to_string().starts_with(|c: char| c.is_ascii_digit())
         }

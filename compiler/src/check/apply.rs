@@ -230,7 +230,7 @@ impl Checker<'_> {
 
     /// The error for a constant with arguments.
     pub(super) fn called_number(&self, id: NodeId, callee: NodeId, item: usize) -> Option<Error> {
-        let constant = matches!(self.ast.items()[item].kind, ItemKind::Constant(_));
+        let constant = matches!(self.ast.items()[item].kind, ItemKind::Constant(..));
         constant.then(|| self.miscounted(id, callee, item, 0)).flatten()
     }
 
@@ -239,7 +239,7 @@ impl Checker<'_> {
         let entry = &self.ast.items()[item];
         let parameters = self.scope.parameters(item);
         let message = match entry.kind {
-            ItemKind::Constant(_) => format!("`{text}` is a number and takes no arguments"),
+            ItemKind::Constant(..) => format!("`{text}` is a number and takes no arguments"),
             _ if parameters.is_empty() => format!("`{text}` takes no arguments: write it alone"),
             _ if parameters.len() == found => return None,
             _ => {

@@ -127,7 +127,7 @@ impl Checker<'_> {
                 Some(Atom::Conditions(vec![condition]))
             }
             ItemKind::Task(..) => self.task_id(item).map(|task| Atom::Task(task, Vec::new())),
-            ItemKind::Constant(_) => {
+            ItemKind::Constant(..) => {
                 let message = format!("`{text}` is a number, but a formula is needed here");
                 let declared = self.ast.items()[item].name;
                 self.mistakes.push(
@@ -220,6 +220,7 @@ impl Checker<'_> {
     pub(super) fn condition(&mut self, root: NodeId) -> Option<ConditionId> {
         let roles = self.roles(root, Role::Condition);
         let terms = self.terms(root, &roles);
+        self.units(root, &roles, &terms);
         let mut built: Vec<Option<ConditionId>> = Vec::new();
         for (id, role) in roles.iter() {
             let condition = match role {

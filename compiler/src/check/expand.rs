@@ -53,7 +53,9 @@ pub(super) fn expand(ast: &Ast, scope: &Scope<'_>, mistakes: &mut Vec<Error>) ->
         Expansion { from: ast, scope, to, bound: HashMap::new(), mistakes, full: false };
     for item in ast.items() {
         let kind = match &item.kind {
-            ItemKind::Constant(root) => ItemKind::Constant(expansion.item(*root)),
+            ItemKind::Constant(unit, root) => {
+                ItemKind::Constant(unit.clone(), expansion.item(*root))
+            }
             ItemKind::Predicate(takes, root) => {
                 ItemKind::Predicate(takes.clone(), expansion.item(*root))
             }
@@ -67,7 +69,7 @@ pub(super) fn expand(ast: &Ast, scope: &Scope<'_>, mistakes: &mut Vec<Error>) ->
 
 fn root(item: &Item) -> Option<NodeId> {
     match item.kind {
-        ItemKind::Constant(root) | ItemKind::Predicate(_, root) | ItemKind::Task(_, root) => {
+        ItemKind::Constant(_, root) | ItemKind::Predicate(_, root) | ItemKind::Task(_, root) => {
             Some(root)
         }
         _ => None,
@@ -298,7 +300,7 @@ impl Expansion<'_, '_> {
             Some(Bound::Variant(..)) => {}
             None => {
                 if let Some(item) = self.scope.item(text)
-                    && let ItemKind::Constant(root) = self.from.items()[item].kind
+                    && let ItemKind::Constant(_, root) = self.from.items()[item].kind
                 {
                     node = self.from.node(root);
                 }

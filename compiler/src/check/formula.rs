@@ -18,6 +18,7 @@ impl Checker<'_> {
     pub(super) fn task(&mut self, item: usize, root: NodeId) {
         let roles = self.roles(root, Role::Formula { negated: None });
         let terms = self.terms(root, &roles);
+        self.units(root, &roles, &terms);
         let mut atoms = Vec::new();
         for (id, role) in roles.iter() {
             let atom = match role {

@@ -46,7 +46,7 @@ pub(super) fn order(ast: &Ast, scope: &Scope<'_>, mistakes: &mut Vec<Error>) -> 
 
 /// The items that `item` uses, with the place of the use.
 fn uses(ast: &Ast, scope: &Scope<'_>, item: usize) -> Vec<(usize, Span)> {
-    let (ItemKind::Constant(root) | ItemKind::Predicate(_, root) | ItemKind::Task(_, root)) =
+    let (ItemKind::Constant(_, root) | ItemKind::Predicate(_, root) | ItemKind::Task(_, root)) =
         ast.items()[item].kind
     else {
         return Vec::new();

@@ -2,13 +2,14 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use super::{Names, name};
-use crate::ast::{Ast, Declaration, FieldType, Item, ItemKind};
+use super::{Names, name, unit};
+use crate::ast::{Ast, Declaration, FieldType, Item, ItemKind, WrittenUnit, quoted};
 use crate::error::{Error, Kind};
 use crate::predicate::{
     Enum, Field, Parameter, ParameterType, Scalar, State, Struct, TaskId, Type,
 };
 use crate::source::Span;
+use crate::unit::{Unit, Units};
 
 /// The declared names and types.
 pub(super) struct Scope<'a> {
@@ -24,6 +25,11 @@ pub(super) struct Scope<'a> {
     parameters: BTreeMap<usize, Vec<Parameter>>,
     /// The parameters whose types have mistakes, by item.
     unclear: BTreeMap<usize, Vec<String>>,
+    pub(super) units: Units,
+    /// The declared units of constants, by item, and where they stand.
+    constants: BTreeMap<usize, (Unit, Span)>,
+    /// Whether anything has a declared unit.
+    measured: bool,
     /// Whether an item of types could not be read.
     incomplete: bool,
 }
@@ -40,12 +46,16 @@ impl<'a> Scope<'a> {
             variants: HashMap::new(),
             parameters: BTreeMap::new(),
             unclear: BTreeMap::new(),
+            units: Units::default(),
+            constants: BTreeMap::new(),
+            measured: false,
             incomplete: false,
         };
         scope.declare(ast, mistakes);
         scope.declare_types(ast, mistakes);
         scope.declare_state(ast, mistakes);
         scope.declare_parameters(ast, names, mistakes);
+        scope.declare_constants(ast, mistakes);
         scope
     }
 
@@ -84,6 +94,16 @@ impl<'a> Scope<'a> {
     /// The parameters of the item whose types have mistakes: nothing is known of them.
     pub(super) fn unclear(&self, item: usize) -> &[String] {
         self.unclear.get(&item).map_or(&[], Vec::as_slice)
+    }
+
+    /// The declared unit of the constant `item`, and where it stands.
+    pub(super) fn constant_unit(&self, item: usize) -> Option<&(Unit, Span)> {
+        self.constants.get(&item)
+    }
+
+    /// Whether anything has a declared unit.
+    pub(super) fn has_units(&self) -> bool {
+        self.measured
     }
 
     /// Whether `name` is unknown only because its declaration has a mistake.
@@ -213,8 +233,16 @@ impl<'a> Scope<'a> {
                 if let Some(error) = self.shadowed(ast, declaration.name) {
                     mistakes.push(error);
                 }
-                match self.parameter_type(ast, names, &declaration.ty) {
-                    Ok(ty) => parameters.push(Parameter { name, ty, span: declaration.name }),
+                let ty = self.parameter_type(ast, names, &declaration.ty);
+                let is_number = match &ty {
+                    Ok(ty) => matches!(ty.scalar(), Some(Scalar::Number(_))),
+                    Err(_) => true,
+                };
+                let unit = self.declared_unit(ast, declaration, is_number, mistakes);
+                match ty {
+                    Ok(ty) => {
+                        parameters.push(Parameter { name, ty, unit, span: declaration.name });
+                    }
                     Err(error) => {
                         mistakes.push(error);
                         unclear.push(name);
@@ -295,8 +323,50 @@ impl<'a> Scope<'a> {
         }
     }
 
+    fn declare_constants(&mut self, ast: &Ast, mistakes: &mut Vec<Error>) {
+        for (item, entry) in ast.items().iter().enumerate() {
+            let ItemKind::Constant(Some(written), _) = &entry.kind else { continue };
+            if let Some(unit) = self.unit(ast, written, mistakes) {
+                self.constants.insert(item, (unit, written.span));
+            }
+        }
+    }
+
+    fn unit(
+        &mut self,
+        ast: &Ast,
+        written: &WrittenUnit,
+        mistakes: &mut Vec<Error>,
+    ) -> Option<Unit> {
+        self.measured = true;
+        let unit = unit::resolve(ast, written, &mut self.units);
+        unit.map_err(|error| mistakes.push(error)).ok()
+    }
+
+    /// The unit of a field or a parameter; what is not a number has none.
+    fn declared_unit(
+        &mut self,
+        ast: &Ast,
+        declaration: &Declaration,
+        is_number: bool,
+        mistakes: &mut Vec<Error>,
+    ) -> Option<Unit> {
+        let written = declaration.unit.as_ref()?;
+        if is_number {
+            return self.unit(ast, written, mistakes);
+        }
+        let name = ast.source().slice(declaration.name);
+        let ty = ast.source().slice(declaration.ty.span);
+        let message = format!("only numbers have units, and `{name}` is none");
+        mistakes.push(
+            Error::new(Kind::Unit, message, written.span)
+                .related(declaration.ty.span, format!("`{}` is no type of numbers", quoted(ty))),
+        );
+        None
+    }
+
     fn declare_fields(
-        &self,
+        &mut self,
         ast: &Ast,
         declarations: &[Declaration],
         mistakes: &mut Vec<Error>,
@@ -309,12 +379,12 @@ impl<'a> Scope<'a> {
                 mistakes.push(duplicate(text, field.name, before));
                 continue;
             }
-            match self.resolve(ast, &field.ty) {
-                Ok(ty) => {
-                    let docs = field.docs.clone();
-                    fields.push(Field { name: text.to_owned(), docs, ty });
-                }
-                Err(error) => mistakes.push(error),
+            let ty = self.resolve(ast, &field.ty).map_err(|error| mistakes.push(error)).ok();
+            let is_number = ty.as_ref().is_none_or(has_numbers);
+            let unit = self.declared_unit(ast, field, is_number, mistakes);
+            if let Some(ty) = ty {
+                let docs = field.docs.clone();
+                fields.push(Field { name: text.to_owned(), docs, ty, unit });
             }
         }
         fields
@@ -378,6 +448,14 @@ fn index(at: usize) -> u32 {
     u32::try_from(at).expect("fewer than 2^32 of a kind")
 }
 
+/// Whether a type is that of numbers, or of an array of them.
+fn has_numbers(mut ty: &Type) -> bool {
+    while let Type::Array(element, _) | Type::Table(element, _) = ty {
+        ty = element;
+    }
+    matches!(ty, Type::Scalar(Scalar::Number(_)))
+}
+
 fn is_broken_type(ast: &Ast, item: &Item) -> bool {
     let text = ast.source().slice(item.span);
     matches!(item.kind, ItemKind::Broken(_))
@@ -387,7 +465,7 @@ fn is_broken_type(ast: &Ast, item: &Item) -> bool {
 fn is_value(kind: &ItemKind) -> bool {
     matches!(
         kind,
-        ItemKind::Constant(_) | ItemKind::Predicate(..) | ItemKind::Task(..) | ItemKind::Broken(_)
+        ItemKind::Constant(..) | ItemKind::Predicate(..) | ItemKind::Task(..) | ItemKind::Broken(_)
     )
 }
 

@@ -213,7 +213,7 @@ impl Checker<'_> {
     fn number_item(&mut self, id: NodeId, item: usize) -> Option<TermId> {
         self.used.insert(item);
         let what = match self.ast.items()[item].kind {
-            ItemKind::Constant(_) => {
+            ItemKind::Constant(..) => {
                 let value = *self.constants.get(&item)?;
                 return Some(self.number(value));
             }

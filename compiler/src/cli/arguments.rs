@@ -34,6 +34,10 @@ pub(super) fn bind(module: &mut Module, task: &Task, given: &[&str]) -> Result<(
     }
     let mut arguments = Arguments::new();
     for (parameter, text) in task.parameters.iter().zip(given) {
+        if let Some(unit) = other_unit(module, parameter, text) {
+            let wanted = declared(module, parameter);
+            return Err(format!("`{name}` takes `{wanted}`, and `{text}` is in {unit}"));
+        }
         let term = value(module, parameter, text).ok_or_else(|| {
             let (wanted, known) = (declared(module, parameter), values(module, parameter));
             format!("`{name}` takes `{wanted}`, and `{text}` is not one of {known}")
@@ -53,6 +57,13 @@ pub(super) fn bind(module: &mut Module, task: &Task, given: &[&str]) -> Result<(
     }
 }
 
+/// The unit of the constant `text` if the parameter is in another.
+fn other_unit(module: &Module, parameter: &Parameter, text: &str) -> Option<String> {
+    let constant = module.constants.iter().find(|known| known.name == text)?;
+    let (wanted, found) = (parameter.unit.as_ref()?, constant.unit.as_ref()?);
+    (wanted != found).then(|| module.units.text(found))
+}
+
 /// `name: type`
 fn declared(module: &Module, parameter: &Parameter) -> String {
     let ty = match parameter.ty {
@@ -63,7 +74,8 @@ fn declared(module: &Module, parameter: &Parameter) -> String {
         ParameterType::Scalar(scalar) => scalar.name().to_owned(),
         ParameterType::Host(_) => "a type of Rust".to_owned(),
     };
-    format!("{}: {ty}", parameter.name)
+    let unit = parameter.unit.as_ref().map(|unit| format!(" in {}", module.units.text(unit)));
+    format!("{}: {ty}{}", parameter.name, unit.unwrap_or_default())
 }
 
 /// What a parameter's values are, in words.

@@ -17,6 +17,7 @@ use crate::predicate::{
     Condition, Enum, Parameter, ParameterType, PredicateId, Scalar, State, Struct, Task, Type,
 };
 use crate::source::Span;
+use crate::unit::Unit;
 
 /// How the code is fitted to the place where it stands.
 pub struct Options<'a> {
@@ -184,8 +185,9 @@ impl<'a> Emitter<'a> {
         let (s, state) = (self.scope().state(), self.state());
         let robustness = self.scope().condition(predicate.condition, Reading::Robustness);
         let holds = self.scope().condition(predicate.condition, Reading::Truth);
-        let text = format!("Robustness of the predicate `{}`.", predicate.name);
-        let docs = documentation(&predicate.docs, &[text]);
+        let mut about = vec![format!("Robustness of the predicate `{}`.", predicate.name)];
+        about.extend(self.measures(&predicate.parameters));
+        let docs = documentation(&predicate.docs, &about);
         let implementing = format!("The predicate `{}`.", predicate.name);
         let parameters = self.parameters(&predicate.parameters);
         let (names, types) = (&parameters.names, &parameters.types);
@@ -318,7 +320,9 @@ impl<'a> Emitter<'a> {
             scratch: tables::operator_count(&task.spec),
         }
         .tokens();
-        let docs = documentation(&task.docs, about_it);
+        let about_it: Vec<_> =
+            about_it.iter().cloned().chain(self.measures(&task.parameters)).collect();
+        let docs = documentation(&task.docs, &about_it);
         let about = format!("The predicates of the task `{name}`.");
         let declared = parameters.declared();
         let structure = parameters.structure(&function, &about);
@@ -394,11 +398,26 @@ impl<'a> Emitter<'a> {
         }
     }
 
+    /// What something is measured in, as a sentence that starts with `subject`.
+    fn measured(&self, subject: &str, unit: &Unit) -> String {
+        match unit.is_plain() {
+            true => format!("{subject} a plain number."),
+            false => format!("{subject} in {}.", self.compiled.module.units.text(unit)),
+        }
+    }
+
+    /// What the parameters are measured in, a paragraph each.
+    fn measures(&self, parameters: &[Parameter]) -> impl Iterator<Item = String> {
+        let units = parameters.iter().filter_map(|known| Some((&known.name, known.unit.as_ref()?)));
+        units.map(|(name, unit)| self.measured(&format!("`{name}` is"), unit))
+    }
+
     fn structure(&self, declared: &Struct) -> TokenStream {
         let name = identifier(&declared.name);
         let docs = documentation(&declared.docs, &[]);
         let fields = declared.fields.iter().map(|field| {
-            let docs = documentation(&field.docs, &[]);
+            let unit: Vec<_> = field.unit.iter().map(|unit| self.measured("It is", unit)).collect();
+            let docs = documentation(&field.docs, &unit);
             let (name, ty) = (identifier(&field.name), self.ty(&field.ty));
             quote! { #docs pub #name: #ty }
         });

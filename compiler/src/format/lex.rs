@@ -7,6 +7,8 @@ pub(super) enum Kind {
     Word,
     /// An operator or a bracket.
     Symbol,
+    /// A part of a unit.
+    Unit,
     /// A comment.
     Comment,
     /// A doc comment.
@@ -29,7 +31,7 @@ impl Token<'_> {
         match self.kind {
             Kind::Word => !self.is_operator_word(),
             Kind::Symbol => matches!(self.text, ")" | "]" | "⊤" | "⊥"),
-            Kind::Rust => true,
+            Kind::Rust | Kind::Unit => true,
             Kind::Comment | Kind::Doc => false,
         }
     }
@@ -69,22 +71,58 @@ fn one(rest: &str, first: char, before: &[Token<'_>]) -> (Kind, usize) {
         (Kind::Comment, line)
     } else if rest.starts_with("/*") {
         (Kind::Comment, rest.find("*/").map_or(rest.len(), |end| end + 2))
+    } else if UNIT.contains(first) && unit_goes_on(first, before) {
+        (Kind::Unit, first.len_utf8())
     } else if host_type_follows(before) {
         (Kind::Rust, rest.find([';', '\n', '=', '{']).unwrap_or(rest.len()).max(1))
     } else if first == '{' && !declares(before) {
         (Kind::Rust, braces(rest))
+    } else if (first.is_alphanumeric() || first == '_') && unit_goes_on(first, before) {
+        (Kind::Unit, word(rest))
     } else if first.is_ascii_digit() || first == '.' && starts_fraction(rest, before) {
         (Kind::Word, number(rest, before))
     } else if first.is_alphabetic() || first == '_' {
-        let name = |c: char| !c.is_alphanumeric() && c != '_';
-        let raw = if rest.starts_with("r#") { 2 } else { 0 };
-        (Kind::Word, raw + rest[raw..].find(name).unwrap_or(rest.len() - raw))
+        (Kind::Word, word(rest))
     } else if first == '"' {
         (Kind::Word, quoted(rest, '"'))
     } else {
         let symbol = SYMBOLS.iter().find(|symbol| rest.starts_with(**symbol));
         (Kind::Symbol, symbol.map_or(first.len_utf8(), |symbol| symbol.len()))
     }
+}
+
+/// The operators of units.
+const UNIT: &str = "*×/÷^-−";
+
+/// Whether the operator or the word that starts with `first` is a part of a unit.
+fn unit_goes_on(first: char, before: &[Token<'_>]) -> bool {
+    let last = before.iter().rev().find(|token| token.kind != Kind::Comment);
+    let Some(last) = last else { return false };
+    let after_operator = last.text.starts_with(|c| UNIT.contains(c));
+    match (last.kind, UNIT.contains(first)) {
+        (Kind::Unit, true) => !after_operator || last.text == "^",
+        (Kind::Unit, false) => after_operator,
+        (_, operator) => !operator && last.text == "in" && declares_unit(before),
+    }
+}
+
+/// Whether the `in` that comes last is that of a declaration: it follows a type or a name, and is
+/// not that of `for all r in`.
+fn declares_unit(before: &[Token<'_>]) -> bool {
+    let mut last = before.iter().rev().filter(|token| token.kind != Kind::Comment).skip(1);
+    let Some(name) = last.next() else { return false };
+    let words = [Some(name), last.next(), last.next()].map(|token| token.map(|token| token.text));
+    let quantified =
+        |pair: &[Option<&str>]| matches!(pair[0], Some("all" | "some")) && pair[1] == Some("for");
+    let declared = name.ends_operand() || name.text == "?";
+    declared && !quantified(&words[..2]) && !quantified(&words[1..])
+}
+
+/// The length of a name or of digits.
+fn word(rest: &str) -> usize {
+    let name = |c: char| !c.is_alphanumeric() && c != '_';
+    let raw = if rest.starts_with("r#") { 2 } else { 0 };
+    raw + rest[raw..].find(name).unwrap_or(rest.len() - raw)
 }
 
 /// Whether a Rust type comes next: after `state name :`.

@@ -3,7 +3,7 @@
 use pest::Parser;
 
 use super::{Pair, expression, token};
-use crate::ast::{Ast, Attribute, Declaration, FieldType, Item, ItemKind};
+use crate::ast::{Ast, Attribute, Declaration, FieldType, Item, ItemKind, UnitFactor, WrittenUnit};
 use crate::error::{Error, Kind};
 use crate::grammar::{Grammar, Rule};
 use crate::source::Span;
@@ -91,12 +91,14 @@ fn declaration(
     let mut fields = Vec::new();
     let mut root = None;
     let mut host = None;
+    let mut measured = None;
     for part in pair.into_inner() {
         match part.as_rule() {
             Rule::identifier if name == Span::default() => name = place(&part, at),
             Rule::identifier => names.push(place(&part, at)),
             Rule::fields | Rule::parameters => fields = declarations(ast, part, at, mistakes),
             Rule::host_type => host = Some(trimmed(ast, place(&part, at))),
+            Rule::unit => measured = Some(unit(part, at)),
             Rule::expression => root = expression::build(ast, part, at, mistakes),
             _ => {}
         }
@@ -106,7 +108,7 @@ fn declaration(
         (Rule::state, ..) => ItemKind::State(fields),
         (Rule::record, ..) => ItemKind::Struct(fields),
         (Rule::enumeration, ..) => ItemKind::Enum(names),
-        (Rule::constant, Some(root), _) => ItemKind::Constant(root),
+        (Rule::constant, Some(root), _) => ItemKind::Constant(measured, root),
         (Rule::predicate, Some(root), _) => ItemKind::Predicate(fields, root),
         (Rule::task, Some(root), _) => ItemKind::Task(fields, root),
         _ => ItemKind::Broken(fields),
@@ -131,7 +133,13 @@ fn declarations(
                 Rule::field_type => {
                     check_word(ast, name, mistakes);
                     let docs = std::mem::take(&mut docs);
-                    fields.push(Declaration { docs, name, ty: field_type(part, at) });
+                    let ty = field_type(part, at);
+                    fields.push(Declaration { docs, name, ty, unit: None });
+                }
+                Rule::unit => {
+                    if let Some(field) = fields.last_mut() {
+                        field.unit = Some(unit(part, at));
+                    }
                 }
                 _ => {}
             }
@@ -154,6 +162,35 @@ fn field_type(pair: Pair<'_>, at: usize) -> FieldType {
         }
     }
     FieldType { name, optional, lengths, span }
+}
+
+fn unit(pair: Pair<'_>, at: usize) -> WrittenUnit {
+    let span = place(&pair, at);
+    let mut factors = Vec::new();
+    let mut divides = false;
+    for part in pair.into_inner() {
+        match part.as_rule() {
+            Rule::times => divides = false,
+            Rule::divide => divides = true,
+            Rule::unit_power => factors.push(unit_factor(part, at, divides)),
+            _ => {}
+        }
+    }
+    WrittenUnit { factors, span }
+}
+
+fn unit_factor(pair: Pair<'_>, at: usize, divides: bool) -> UnitFactor {
+    let span = place(&pair, at);
+    let (mut name, mut minus, mut power) = (span, false, None);
+    for part in pair.into_inner() {
+        match part.as_rule() {
+            Rule::identifier => name = place(&part, at),
+            Rule::minus => minus = true,
+            Rule::digits => power = Some((place(&part, at), minus)),
+            _ => {}
+        }
+    }
+    UnitFactor { name, divides, power, span }
 }
 
 /// Refuses an operator's word as a declared name.

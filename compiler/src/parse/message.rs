@@ -208,6 +208,9 @@ fn other(found: &Found<'_>, expected: &[Rule]) -> Error {
         return Error::new(Kind::Syntax, message, found.here_or_end())
             .help(format!("such as `{here}: f64`"));
     }
+    if let Some(error) = broken_unit(found, expected) {
+        return error;
+    }
     let mut names: Vec<_> = expected.iter().filter_map(|rule| rule_name(*rule)).collect();
     names.dedup();
     let expected = match names.split_last() {
@@ -218,6 +221,21 @@ fn other(found: &Found<'_>, expected: &[Rule]) -> Error {
     let found_text = if here.is_empty() { "the end".to_owned() } else { format!("`{here}`") };
     let message = format!("expected {expected}, found {found_text}");
     Error::new(Kind::Syntax, message, found.here_or_end())
+}
+
+/// The error for a unit without its `in`, or with a power that is none.
+fn broken_unit(found: &Found<'_>, expected: &[Rule]) -> Option<Error> {
+    let here = found.word(found.here);
+    let error = |message: String| Error::new(Kind::Syntax, message, found.here_or_end());
+    if here.starts_with(token::is_word_start)
+        && expected.contains(&Rule::word_in)
+        && expected.contains(&Rule::array_close)
+    {
+        return Some(error(format!("`in` is missing before the unit `{here}`")));
+    }
+    let power = found.word(found.before).starts_with(|c: char| c.is_ascii_digit());
+    (here == "." && power && expected.contains(&Rule::times))
+        .then(|| error("the power of a unit is a whole number".to_owned()))
 }
 
 fn rule_name(rule: Rule) -> Option<&'static str> {
@@ -235,6 +253,10 @@ fn rule_name(rule: Rule) -> Option<&'static str> {
         Rule::header_type | Rule::host_type => "a type",
         Rule::array_close => "`; 6]`",
         Rule::digits | Rule::end => "a number",
+        Rule::unit | Rule::unit_power => "a unit such as `m` or `m/s`",
+        Rule::word_in => "`in`",
+        Rule::times => "`*`",
+        Rule::divide => "`/`",
         Rule::parameters => "`(`",
         Rule::expression => "a formula",
         _ => return None,

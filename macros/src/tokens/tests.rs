@@ -54,7 +54,7 @@ fn stream() -> impl Strategy<Value = String> {
     let leaf = prop::sample::select(vec![
         "a", "F", "U", "r#in", "s.x", "1.5e-3", "0.1", "'a", "'b'", "\"◇a\"", "&&", "||", "=>",
         "!", "-", "<", "<=", "<-", "::", "..", ",", ";", ":", "|", "&", "#", "1", "x.0.1",
-        "b\"y\"", "=", "->", "'static", "r\"x\"", "::a", "?", "@", "_",
+        "b\"y\"", "=", "->", "^", "^-", "'static", "r\"x\"", "::a", "?", "@", "_",
     ]);
     let leaf = leaf.prop_map(str::to_owned);
     leaf.prop_recursive(4, 40, 6, |inner| {
@@ -131,6 +131,27 @@ fn docs_are_comments_again() {
     assert_eq!(ast.source().slice(ast.items()[1].name), "r#loop");
     let ItemKind::Host(ty) = ast.items()[0].kind else { panic!() };
     assert_eq!(listed(flat.tokens(ty)), listed(tokens("Grid<'a, T>")));
+}
+
+#[test]
+fn units_of_tokens_are_those_of_their_text() {
+    let units = |text: &str| {
+        let ast = parse::fragment(&Source::new("<tokens>", text)).unwrap();
+        let written = |kind: &ItemKind| match kind {
+            ItemKind::Predicate(takes, _) => takes.iter().map(|one| one.unit.clone()).collect(),
+            ItemKind::Constant(unit, _) => vec![unit.clone()],
+            _ => Vec::new(),
+        };
+        let all = ast.items().iter().flat_map(|item| written(&item.kind));
+        let slice = |span| ast.source().slice(span).replace(' ', "");
+        all.flatten().map(|unit| slice(unit.span)).collect::<Vec<_>>()
+    };
+    for unit in ["m", "m/s", "kg*m^2/s^2", "s^-1", "1/s", "m ^ - 2", "1 / s ^ -1", "r#in", "F*T"] {
+        let text = format!("const c in {unit} = 1; predicate p(d: f64 in {unit}, e: u8) = d < c;");
+        let flat = Flat::new(tokens(&text));
+        assert_eq!(units(&flat.text), units(&text), "{}", flat.text);
+        assert_eq!(units(&text), [(); 2].map(|()| unit.replace(' ', "")));
+    }
 }
 
 #[test]

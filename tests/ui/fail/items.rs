@@ -65,4 +65,13 @@ mod incomplete {
     }
 }
 
+mod measured {
+    tltl::tltl! {
+        state s: super::Grid;
+        const pause in s = 0.5;
+        predicate near(d: f64 in m, v: f64 in m/s^1) = s.x < d - v / pause; //~ m and m/s^2
+        task go = F near(1.0, 2.0);
+    }
+}
+
 fn main() {}

@@ -48,8 +48,13 @@ tltl! {
     /// of words.
     predicate near = 1.0 < s.x < 3.0 && s.cells[1][0] > 0.5;
     predicate fine = { s.is_fine() };
+    /// Constants and parameters have units.
+    const gap in m = 0.5;
+    const rate in s^-1 = 2.0;
+    predicate within(d: f64 in m, v: f64 in m/s) = s.x < d + v / rate + gap;
+    predicate wide = within(2.0, 1.0);
     /// Both.
-    task both = F raw && (F near || fine);
+    task both = F raw && (F near || fine) && F wide;
     /// A name that is a keyword.
     task r#loop = !raw U near;
 }

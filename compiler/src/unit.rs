@@ -1,0 +1,141 @@
+//! Physical units: what the numbers of a source are measured in.
+//!
+//! The names in a unit are opaque, so `m` and `cm` are two units, and nothing is ever converted. A
+//! [`Unit`] is a product of powers of names in normal form: equal units are equal values, however
+//! they were written. Names are numbers here, in order of first appearance; [`Units`] has their
+//! texts. Both the powers and the count of names are bounded, so a unit is small and every
+//! operation on it takes constant time.
+
+use std::collections::{BTreeMap, HashMap};
+
+use crate::ast::quoted;
+
+/// The greatest power of a name, and the least with a minus.
+pub const MOST_POWER: i32 = 99;
+
+/// The most names that a unit is made of.
+pub const MOST_NAMES: usize = 16;
+
+/// A unit: powers of names, none of them zero, by name.
+///
+/// Without any it is that of a plain number.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Unit(Vec<(u32, i32)>);
+
+impl Unit {
+    /// The product of some powers of names; `None` if that is beyond the bounds.
+    pub fn product(powers: impl IntoIterator<Item = (u32, i64)>) -> Option<Self> {
+        let mut sum: BTreeMap<u32, i64> = BTreeMap::new();
+        for (name, power) in powers {
+            let known = sum.entry(name).or_default();
+            *known = known.checked_add(power)?;
+        }
+        sum.retain(|_, power| *power != 0);
+        if sum.len() > MOST_NAMES {
+            return None;
+        }
+        let within = |power: i64| {
+            i32::try_from(power).ok().filter(|power| (-MOST_POWER..=MOST_POWER).contains(power))
+        };
+        let powers = sum.into_iter().map(|(name, power)| Some((name, within(power)?)));
+        powers.collect::<Option<_>>().map(Self)
+    }
+
+    /// Whether it is that of a plain number.
+    #[must_use]
+    pub fn is_plain(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Whether it is one name, as it is.
+    #[must_use]
+    pub fn is_name(&self, name: u32) -> bool {
+        self.0 == [(name, 1)]
+    }
+
+    /// The unit of a product; `None` if that is beyond the bounds.
+    #[must_use]
+    pub fn times(&self, other: &Self) -> Option<Self> {
+        Self::product(self.powers(1).chain(other.powers(1)))
+    }
+
+    /// The unit of a quotient; `None` if that is beyond the bounds.
+    #[must_use]
+    pub fn over(&self, other: &Self) -> Option<Self> {
+        Self::product(self.powers(1).chain(other.powers(-1)))
+    }
+
+    /// The unit of a power; `None` if that is beyond the bounds.
+    #[must_use]
+    pub fn power(&self, power: i32) -> Option<Self> {
+        Self::product(self.powers(power.into()))
+    }
+
+    /// The unit of the square root; `None` if it has none.
+    #[must_use]
+    pub fn root(&self) -> Option<Self> {
+        let half = |&(name, power): &(u32, i32)| (power % 2 == 0).then_some((name, power / 2));
+        self.0.iter().map(half).collect::<Option<_>>().map(Self)
+    }
+
+    /// The names `a` and `b` if it is `a/b`.
+    #[must_use]
+    pub fn ratio(&self) -> Option<(u32, u32)> {
+        match self.0[..] {
+            [(a, 1), (b, -1)] | [(b, -1), (a, 1)] => Some((a, b)),
+            _ => None,
+        }
+    }
+
+    fn powers(&self, times: i64) -> impl Iterator<Item = (u32, i64)> {
+        self.0.iter().map(move |&(name, power)| (name, times * i64::from(power)))
+    }
+}
+
+/// The names that the units of a source are made of.
+#[derive(Clone, Debug, Default)]
+pub struct Units {
+    names: Vec<String>,
+    known: HashMap<String, u32>,
+}
+
+impl Units {
+    /// The number of a name, which is known from now on.
+    pub fn name(&mut self, text: &str) -> u32 {
+        if let Some(known) = self.known.get(text) {
+            return *known;
+        }
+        let fresh = u32::try_from(self.names.len()).expect("fewer than 2^32 names");
+        self.names.push(text.to_owned());
+        self.known.insert(text.to_owned(), fresh);
+        fresh
+    }
+
+    /// The number of a name, if it is one.
+    #[must_use]
+    pub fn find(&self, text: &str) -> Option<u32> {
+        self.known.get(text).copied()
+    }
+
+    /// The text of a name, not too long.
+    #[must_use]
+    pub fn text_of(&self, name: u32) -> String {
+        quoted(&self.names[name as usize])
+    }
+
+    /// A unit as a source has it: `N*m`, `kg*m/s^2`, `1/s`; `1` for that of a plain number.
+    #[must_use]
+    pub fn text(&self, unit: &Unit) -> String {
+        let mut powers = unit.0.clone();
+        powers.sort_unstable_by_key(|(name, _)| &self.names[*name as usize]);
+        let one = |(name, power): &(u32, i32)| match power.unsigned_abs() {
+            1 => self.text_of(*name),
+            power => format!("{}^{power}", self.text_of(*name)),
+        };
+        let (above, below): (Vec<_>, Vec<_>) = powers.iter().partition(|(_, power)| *power > 0);
+        let above: Vec<String> = above.into_iter().map(one).collect();
+        let below = below.into_iter().map(|power| format!("/{}", one(power)));
+        let above = if above.is_empty() { "1".to_owned() } else { above.join("*") };
+        above + &below.collect::<String>()
+    }
+}
