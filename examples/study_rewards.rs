@@ -21,7 +21,7 @@ use tltl_examples::study::{FAMILIES, GRID, PAPER, Study, at, layout, mean, quant
 
 const GAMMA: f64 = 0.95;
 const LAYOUTS: u64 = 100;
-const LEARNED: u64 = 6_000_000;
+const LEARNED: u64 = 100_000_000;
 
 /// The settings that are compared.
 fn modes() -> [(&'static str, Rewards, f64); 9] {

@@ -158,6 +158,10 @@ fn a_learner_resumed_goes_on_bit_for_bit() {
     resumed.train(&mut env, 1_000).unwrap();
     assert_eq!(whole.checkpoint(), resumed.checkpoint());
 
+    let mut broken: serde_json::Value = serde_json::from_str(&saved).unwrap();
+    broken["moments"]["second"][0]["bias"].as_array_mut().unwrap().pop();
+    let broken: Checkpoint<i32> = serde_json::from_value(broken).unwrap();
+    assert!(Learner::resume(skill, broken, &device).is_err(), "moments of another network");
     let other = Skill::new(tltl! { |x: &i32| F ({ *x } == 5) }, OneHot);
     assert!(Learner::resume(other, whole.checkpoint(), &device).is_err(), "another task's heads");
 }

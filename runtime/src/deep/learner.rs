@@ -309,7 +309,9 @@ where
         let actions = shape.actions;
         let wanted = Shape::of(&skill.features, &settings.hidden, heads.states.len(), actions);
         let model = |layers| Model::resume(wanted.clone(), layers, device);
-        let (true, Some(model), Some(target)) = (*shape == wanted, model(network), model(target))
+        let fit = checkpoint.moments.as_ref().is_none_or(|moments| moments.fit(network));
+        let (true, true, Some(model), Some(target)) =
+            (*shape == wanted, fit, model(network), model(target))
         else {
             return Err(shape.clone());
         };

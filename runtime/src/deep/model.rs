@@ -287,6 +287,16 @@ pub(super) struct Moments {
     second: Vec<Dense>,
 }
 
+impl Moments {
+    /// Whether these are moments of such layers.
+    pub(super) fn fit(&self, layers: &[Dense]) -> bool {
+        let sizes = |layers: &[Dense]| {
+            layers.iter().map(|l| (l.weights.len(), l.bias.len())).collect::<Vec<_>>()
+        };
+        [&self.first, &self.second].iter().all(|moments| sizes(moments) == sizes(layers))
+    }
+}
+
 impl Descent {
     pub(super) fn new(layers: usize) -> Self {
         let moments = core::iter::repeat_with(|| (None, None)).take(layers).collect();
