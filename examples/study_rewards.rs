@@ -21,7 +21,10 @@ use tltl_examples::study::{FAMILIES, GRID, PAPER, Study, at, layout, mean, quant
 
 const GAMMA: f64 = 0.95;
 const LAYOUTS: u64 = 100;
-const LEARNED: u64 = 100_000_000;
+/// Steps that are learned from, and from how many where the certificate then says that more than 0.1 %
+/// of P(satisfied) is given away.
+const LEARNED: [u64; 2] = [6_000_000, 100_000_000];
+const TOLERATED: f64 = 1e-3;
 
 /// The settings that are compared.
 fn modes() -> [(&'static str, Rewards, f64); 9] {
@@ -49,6 +52,8 @@ struct Case {
     /// Whether the task can be lost.
     trap: bool,
     regrets: [Regret; 10],
+    /// Whether the learned policy needed the longer training.
+    longer: bool,
 }
 
 /// The regrets of all modes' optima on one task.
@@ -67,16 +72,20 @@ fn judge(task: &dyn Monitor<Cell>) -> Case {
     for (own, (_, rewards, gamma)) in regrets.iter_mut().zip(modes()) {
         *own = regret(&problem.optimal_q(&rewards, gamma));
     }
-    regrets[9] = regret(&learned(&labelled));
+    regrets[9] = regret(&learned(&labelled, LEARNED[0]));
+    let longer = regrets[9].0 > TOLERATED;
+    if longer {
+        regrets[9] = regret(&learned(&labelled, LEARNED[1]));
+    }
     let lost = |q| labelled.end(q) == Some(End::Lost);
-    Case { trap: (0..labelled.automaton_states()).any(lost), regrets }
+    Case { trap: (0..labelled.automaton_states()).any(lost), regrets, longer }
 }
 
 /// What `Settings::safe` learns from experience, replayed.
-fn learned(task: &Labelled) -> QTable {
+fn learned(task: &Labelled, steps: u64) -> QTable {
     let mut env = ModelEnv::new(GRID).expect("a model");
     let mut learner = Learner::new(task, 5, Settings::safe(), 100);
-    learner.train(&mut env, task, LEARNED);
+    learner.train(&mut env, task, steps);
     learner.replay(task).expect("experience");
     learner.q().clone()
 }
@@ -182,10 +191,12 @@ fn head() -> String {
          worth for the task itself, on the paper's grid, exactly: regret in P(satisfied) against the \
          largest possible, and E[steps given success] over the fewest possible (negative where safety \
          is given away). γ is {GAMMA}, and {gamma} for `Settings::safe`, which pays acceptance alone: \
-         the setting to take where a task has a trap; its last row is what it learns from {} million \
-         steps of experience, replayed. The figure has the percentages of all tasks and layouts, the \
+         the setting to take where a task has a trap. The last row is what it learns from {} million \
+         steps of experience, replayed, and from {} million where the certificate of that gives away more \
+         than 0.1 %. The figure has the percentages of all tasks and layouts, the \
          dashed line at 0.1 %. Written by `cargo run --release --example study_rewards`.\n",
-        LEARNED / 1_000_000
+        LEARNED[0] / 1_000_000,
+        LEARNED[1] / 1_000_000
     )
 }
 
@@ -202,14 +213,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         section(&mut text, &format!("{}, 100 random layouts", name(i)), &of_task[1..]);
     }
     let [worst, worst_learned] = [8, 9].map(|i| quantile(&of(i, cases.iter()).0, 1.0));
-    let missed = cases.iter().filter(|case| case.regrets[9].0 > 1e-3).count();
+    let longer = cases.iter().filter(|case| case.longer).count();
     let _ = writeln!(
         text,
-        "\nLargest P regret of `Settings::safe`: {} % as an optimum, {} % as learned from {LEARNED} \
-         steps, by which {missed} of {} cases give away more than 0.1 %.",
+        "\nLargest P regret of `Settings::safe`: {} % as an optimum, {} % as learned; {longer} of {} cases \
+         needed {} steps for it.",
         percent(worst),
         percent(worst_learned),
-        cases.len()
+        cases.len(),
+        LEARNED[1]
     );
     let lines = cases.iter().enumerate().flat_map(|(number, case)| {
         let (layout, task) = (number / TASKS, name(number % TASKS));
@@ -221,6 +233,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     study.publish(".svg", &figure(&cases).svg())?;
     study.publish(".md", &text)?;
     study.publish_lines(lines)?;
-    assert!(worst < 1e-3, "the safe setting is not safe: {worst}");
+    let all = [worst, worst_learned];
+    assert!(all.iter().all(|&worst| worst < TOLERATED), "the safe setting is not safe: {all:?}");
     Ok(study.finish()?)
 }

@@ -123,7 +123,8 @@ impl Settings {
     /// decides. What is left is sampling alone: random episodes seldom come to a narrow place beside
     /// a trap, and where two actions there were tried 5,000 times each, a risk of 4 % is known to
     /// ±0.28 %. After 6 million steps and a replay 2 of 707 tasks and layouts give away more than
-    /// 0.1 %, the worst 0.19 %.
+    /// 0.1 %, the worst 0.19 %; after 100 million, a few seconds, none. Where there is a model, the
+    /// certificate tells.
     #[must_use]
     pub fn safe() -> Self {
         Self { gamma: 0.99999, rewards: Rewards::of(Reward::Acceptance), ..Self::default() }

@@ -197,7 +197,8 @@ the heads of all automaton states, and in task 2 it is relabelled with other goa
 the agent has observed, relative to the goal, and the public rules (what may hold what, where one must \
 look). Curves are of 50 greedy episodes, the tables of 500 (250 for the composition), all from random starts \
 that were not trained on. The composition learns from what the skills have seen, without a step \
-in the kitchen; c1 is their normalised sum, `max` their maximum, c2 the sum compensated, c3 all of Algorithm 2. \
+in the kitchen; c1 is their normalised sum, `max` their maximum, c2 the sum compensated, c3 all of Algorithm 2, \
+with advantage learning in both steps ([what that is for](kitchen_notes.md)). \
 From scratch has as many updates, at one environment step each. An episode is cut at 100 steps in task 1, else at 200, and counts as so long. \
 Written by `cargo run --release -p tltl-kitchen --example kitchen -- --full`.\n\n## Results\n";
 
