@@ -2993,6 +2993,7 @@ impl ::pest::Parser<Rule> for Grammar {
                                                                                                     |state| {
                                                                                                         state
                                                                                                             .match_string(".")
+                                                                                                            .or_else(|state| { state.match_string("_") })
                                                                                                             .or_else(|state| { self::r#XID_START(state) })
                                                                                                     },
                                                                                                 )

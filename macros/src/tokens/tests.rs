@@ -185,3 +185,15 @@ fn what_stands_apart_stays_apart() {
     assert_eq!(Flat::new(tokens("3..2 && s.0.1 < .5")).text, "3..2 && s.0.1 < .5");
     assert_eq!(Flat::new(tokens("for all i in 0..=6: !!a")).text, "for all i in 0..= 6: !!a");
 }
+
+/// A dot that Rust takes for a field's is a field's in the language too.
+#[test]
+fn text_and_tokens_have_the_same_dots() {
+    for text in ["x < 3.__ e", "x < 3.a e", "x < 3. e"] {
+        let message = |text: &str| {
+            let errors = parse::fragment(&Source::new("<tokens>", text)).unwrap_err();
+            errors.iter().next().unwrap().message().replace(' ', "")
+        };
+        assert_eq!(message(text), message(&Flat::new(tokens(text)).text));
+    }
+}
