@@ -105,7 +105,7 @@ impl Checker<'_> {
                 Some(Term::Parameter { name: name.clone(), ty: *ty })
             }
             (_, None) if self.names == Names::Host && rust && !is_item => {
-                self.refuse_rust_words(id)?;
+                self.refuse_unlike_rust(id)?;
                 return Some(self.host_term(id, false));
             }
             (_, None) if self.names == Names::Declared && named && !is_item => {

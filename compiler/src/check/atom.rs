@@ -79,7 +79,7 @@ impl Checker<'_> {
         match self.names {
             Names::Free => self.free_name(id, true).map(Condition::Free),
             Names::Host => {
-                self.refuse_rust_words(id)?;
+                self.refuse_unlike_rust(id)?;
                 let text = self.compact(id);
                 if self.host().is_some_and(|host| crate::parse::mentions(&text, host)) {
                     return Some(Condition::Bool(self.host_term(id, false)));

@@ -182,7 +182,7 @@ impl Checker<'_> {
         }
         match self.names {
             Names::Host => {
-                self.refuse_rust_words(id)?;
+                self.refuse_unlike_rust(id)?;
                 Some(self.host_term(id, false))
             }
             Names::Declared => {
@@ -265,14 +265,23 @@ impl Checker<'_> {
     fn not_a_free_name(&self, id: NodeId) -> Option<Error> {
         let mut at = id;
         loop {
-            let span = self.ast.span(at);
             match self.ast.node(at) {
                 Node::Name => return None,
                 Node::Field { base, .. } | Node::Index { base, .. } => at = *base,
                 Node::Call { callee, .. } => return Some(self.unknown_function(*callee)),
-                _ => return Some(rust_only(&self.ast.quote(at), span)),
+                _ => return Some(self.not_a_place(at)),
             }
         }
+    }
+
+    /// The error for a part of `id`, which has none.
+    pub(super) fn not_a_place(&self, id: NodeId) -> Error {
+        let text = self.ast.quote(id);
+        let message = match self.ast.node(id) {
+            Node::Number(_) => format!("`{text}` is a number, and has no parts"),
+            _ => format!("`{text}` is a Rust expression, which only the macro can read"),
+        };
+        Error::new(Kind::Type, message, self.ast.span(id))
     }
 
     pub(super) fn unknown_function(&self, callee: NodeId) -> Error {
@@ -314,7 +323,7 @@ impl Checker<'_> {
                 Node::Field { base, .. } | Node::Index { base, .. } => path.push(*base),
                 Node::Name => break,
                 Node::Call { callee, .. } => return Err(self.unknown_function(*callee)),
-                _ => return Err(rust_only(&self.ast.quote(last), self.ast.span(last))),
+                _ => return Err(self.not_a_place(last)),
             }
         }
         let mut ty: Option<&Type> = None;
@@ -538,9 +547,4 @@ pub(super) fn a_type(scalar: Scalar) -> String {
         Scalar::Bool => "true or false".to_owned(),
         Scalar::Enum { .. } => "a value of an enumeration".to_owned(),
     }
-}
-
-fn rust_only(text: &str, span: Span) -> Error {
-    let message = format!("`{text}` is a Rust expression, which only the macro can read");
-    Error::new(Kind::Type, message, span)
 }

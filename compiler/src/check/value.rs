@@ -79,7 +79,7 @@ impl Checker<'_> {
         match found {
             Ok(Some((of, number))) => Some(self.add_variant(of, number)),
             Ok(None) if self.names == Names::Host => {
-                self.refuse_rust_words(id)?;
+                self.refuse_unlike_rust(id)?;
                 Some(self.host_term(id, true))
             }
             Ok(None) if self.ast.text(id) == "none" => {
@@ -160,11 +160,19 @@ impl Checker<'_> {
         self.module.arena.add_term(term)
     }
 
-    /// Refuses a word that Rust has for itself in the name or the path `id`.
-    pub(super) fn refuse_rust_words(&mut self, id: NodeId) -> Option<()> {
+    /// Refuses what is no Rust in the name or the path `id`: a word that Rust has for itself, a part of
+    /// a number, which may be written as Rust does not.
+    pub(super) fn refuse_unlike_rust(&mut self, id: NodeId) -> Option<()> {
         for at in (self.ast.first(id).0..=id.0).map(NodeId) {
             let span = match *self.ast.node(at) {
                 Node::Name => self.ast.span(at),
+                Node::Field { base, .. } | Node::Index { base, .. }
+                    if matches!(self.ast.node(base), Node::Number(_)) =>
+                {
+                    let error = self.not_a_place(base);
+                    self.mistakes.push(error);
+                    return None;
+                }
                 Node::Field { field, .. } => field,
                 _ => continue,
             };
