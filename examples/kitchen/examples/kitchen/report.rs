@@ -85,7 +85,7 @@ impl<'a> Report<'a> {
         panels::svg(&(0..3).map(row).collect::<Vec<_>>())
     }
 
-    /// A curve: mean and range over the seeds.
+    /// A curve: the mean over the seeds, and that less and plus its standard error, within the range.
     fn curve(&self, name: &str, of: fn(&Worth) -> f64) -> panels::Curve {
         let seeds = self.curves.get(name).map_or(&[][..], Vec::as_slice);
         let length = seeds.iter().map(|curve| curve.points.len()).min().unwrap_or(0);
@@ -96,7 +96,10 @@ impl<'a> Report<'a> {
                 .fold((f64::MAX, f64::MIN), |(low, high), v| (v.min(low), v.max(high)));
             let x = seeds.iter().map(|curve| curve.points[i].x as f64).sum::<f64>();
             let n = seeds.len() as f64;
-            (x / n, values.sum::<f64>() / n, low, high)
+            let mean = values.clone().sum::<f64>() / n;
+            let squares = values.map(|v| (v - mean).powi(2)).sum::<f64>();
+            let error = if n > 1.0 { (squares / (n - 1.0) / n).sqrt() } else { 0.0 };
+            (x / n, mean, low.max(mean - error), high.min(mean + error))
         };
         let points: Vec<Point> = (0..length).map(point).collect();
         // What is not learned is a level.
@@ -195,7 +198,7 @@ is known and what is reconstructed is in the documentation of `tltl_kitchen`, an
 Double DQN with prioritized replay and PopArt, 2×128 units, one update every two steps; each step updates \
 the heads of all automaton states, and in task 2 it is relabelled with other goals. The network sees what \
 the agent has observed, relative to the goal, and the public rules (what may hold what, where one must \
-look). Curves are of 50 greedy episodes, the tables of 500 (250 for the composition), all from random starts \
+look). Curves are of 50 greedy episodes, with bands of a standard error over the seeds; the tables are of 500 (250 for the composition), all from random starts \
 that were not trained on. The composition learns from what the skills have seen, without a step \
 in the kitchen; c1 is their normalised sum, `max` their maximum, c2 the sum compensated, c3 all of Algorithm 2, \
 with advantage learning in both steps ([what that is for](kitchen_notes.md)). \
