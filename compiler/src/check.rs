@@ -3,8 +3,8 @@
 //! The stages of one expression: `role` goes from the root down and decides what each operand
 //! has to be, a number or a formula, and whether it stands under a negation; `term` and
 //! `atom` go from the leaves up and resolve names and comparisons, and `unit` what numbers are
-//! measured in; `formula` builds the [`Spec`](crate::spec::Spec). All are loops over the arena. A mistake is noted once, where it is
-//! made, and what depends on it is left alone.
+//! measured in; `formula` builds the [`Spec`](crate::spec::Spec). All are loops over the arena. A
+//! mistake is noted once, where it is made, and what depends on it is left alone.
 
 mod apply;
 mod atom;

@@ -115,7 +115,8 @@ pub struct Composition<'a, S, G> {
 
 impl<'a, S: Clone, G: Goals<S>> Composition<'a, S, G> {
     /// Step 2: the composition of `skills`, in the order of the operands of `product`, on what
-    /// they have seen. Of `settings` it reads those of updates and rewards; the goals of
+    /// they have seen. Of `settings` it reads those of updates and rewards; γ and rewards must be
+    /// those that the skills were learned with, whose values are taken as they are. The goals of
     /// replayed steps are drawn from `goals` by the share `settings.relabelled`.
     ///
     /// # Errors

@@ -297,7 +297,7 @@ where
     /// the same kind of device, with the same numbers.
     ///
     /// # Errors
-    /// If the checkpoint is of a network of another shape.
+    /// If the checkpoint, or the moments in it, are of a network of another shape: that shape.
     pub fn resume(
         skill: Skill<M, F, G>,
         checkpoint: Checkpoint<S>,
