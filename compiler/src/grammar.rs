@@ -1,6 +1,8 @@
 // Generated from grammar.pest by tests/grammar.rs; do not edit.
 
 pub(crate) struct Grammar;
+type State<'i> = Box<::pest::ParserState<'i, Rule>>;
+type Step = for<'i> fn(State<'i>) -> ::pest::ParseResult<State<'i>>;
 /**The language: task files, bare formulas, and what stands inside `tltl!`.
 
 An expression is a flat sequence of operands and operators. Brackets are tokens like any
@@ -239,26 +241,38 @@ impl ::pest::Parser<Rule> for Grammar {
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
                     if state.atomicity() == ::pest::Atomicity::NonAtomic {
-                        state
-                            .sequence(|state| {
-                                state
-                                    .repeat(|state| super::visible::WHITESPACE(state))
-                                    .and_then(|state| {
-                                        state
-                                            .repeat(|state| {
-                                                state
-                                                    .sequence(|state| {
-                                                        super::visible::COMMENT(state)
-                                                            .and_then(|state| {
-                                                                state.repeat(|state| super::visible::WHITESPACE(state))
-                                                            })
-                                                    })
-                                            })
-                                    })
-                            })
+                        state.sequence(step_4 as crate::grammar::Step)
                     } else {
                         Ok(state)
                     }
+                }
+                fn step_0(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.repeat(super::visible::WHITESPACE as crate::grammar::Step)
+                }
+                fn step_1(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    super::visible::COMMENT(state)
+                        .and_then(step_0 as crate::grammar::Step)
+                }
+                fn step_2(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_1 as crate::grammar::Step)
+                }
+                fn step_3(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.repeat(step_2 as crate::grammar::Step)
+                }
+                fn step_4(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .repeat(super::visible::WHITESPACE as crate::grammar::Step)
+                        .and_then(step_3 as crate::grammar::Step)
                 }
             }
             pub mod visible {
@@ -273,14 +287,7 @@ impl ::pest::Parser<Rule> for Grammar {
                     state
                         .atomic(
                             ::pest::Atomicity::Atomic,
-                            |state| {
-                                state
-                                    .match_string(" ")
-                                    .or_else(|state| { state.match_string("\t") })
-                                    .or_else(|state| { state.match_string("\r") })
-                                    .or_else(|state| { state.match_string("\n") })
-                                    .or_else(|state| { state.match_string("\u{feff}") })
-                            },
+                            step_4 as crate::grammar::Step,
                         )
                 }
                 #[inline]
@@ -293,47 +300,7 @@ impl ::pest::Parser<Rule> for Grammar {
                     state
                         .atomic(
                             ::pest::Atomicity::Atomic,
-                            |state| {
-                                self::r#block_comment(state)
-                                    .or_else(|state| {
-                                        state
-                                            .sequence(|state| {
-                                                state
-                                                    .match_string("//")
-                                                    .and_then(|state| {
-                                                        state
-                                                            .lookahead(
-                                                                false,
-                                                                |state| {
-                                                                    state
-                                                                        .match_string("!")
-                                                                        .or_else(|state| {
-                                                                            state
-                                                                                .sequence(|state| {
-                                                                                    state
-                                                                                        .match_string("/")
-                                                                                        .and_then(|state| {
-                                                                                            state.lookahead(false, |state| { state.match_string("/") })
-                                                                                        })
-                                                                                })
-                                                                        })
-                                                                },
-                                                            )
-                                                    })
-                                                    .and_then(|state| {
-                                                        state
-                                                            .repeat(|state| {
-                                                                state
-                                                                    .sequence(|state| {
-                                                                        state
-                                                                            .lookahead(false, |state| { state.match_string("\n") })
-                                                                            .and_then(|state| { self::r#ANY(state) })
-                                                                    })
-                                                            })
-                                                    })
-                                            })
-                                    })
-                            },
+                            step_16 as crate::grammar::Step,
                         )
                 }
                 #[inline]
@@ -343,47 +310,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .sequence(|state| {
-                            state
-                                .match_string("/*")
-                                .and_then(|state| { super::hidden::skip(state) })
-                                .and_then(|state| {
-                                    state
-                                        .sequence(|state| {
-                                            state
-                                                .optional(|state| {
-                                                    state
-                                                        .sequence(|state| {
-                                                            state
-                                                                .lookahead(false, |state| { state.match_string("*/") })
-                                                                .and_then(|state| { super::hidden::skip(state) })
-                                                                .and_then(|state| { self::r#ANY(state) })
-                                                        })
-                                                        .and_then(|state| {
-                                                            state
-                                                                .repeat(|state| {
-                                                                    state
-                                                                        .sequence(|state| {
-                                                                            super::hidden::skip(state)
-                                                                                .and_then(|state| {
-                                                                                    state
-                                                                                        .sequence(|state| {
-                                                                                            state
-                                                                                                .lookahead(false, |state| { state.match_string("*/") })
-                                                                                                .and_then(|state| { super::hidden::skip(state) })
-                                                                                                .and_then(|state| { self::r#ANY(state) })
-                                                                                        })
-                                                                                })
-                                                                        })
-                                                                })
-                                                        })
-                                                })
-                                        })
-                                })
-                                .and_then(|state| { super::hidden::skip(state) })
-                                .and_then(|state| { state.match_string("*/") })
-                        })
+                    state.sequence(step_26 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -392,14 +319,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .sequence(|state| {
-                            self::r#SOI(state)
-                                .and_then(|state| { super::hidden::skip(state) })
-                                .and_then(|state| { self::r#expression(state) })
-                                .and_then(|state| { super::hidden::skip(state) })
-                                .and_then(|state| { self::r#EOI(state) })
-                        })
+                    state.sequence(step_27 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -408,38 +328,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .sequence(|state| {
-                            self::r#SOI(state)
-                                .and_then(|state| { super::hidden::skip(state) })
-                                .and_then(|state| {
-                                    state
-                                        .sequence(|state| {
-                                            state
-                                                .optional(|state| {
-                                                    self::r#attribute(state)
-                                                        .and_then(|state| {
-                                                            state
-                                                                .repeat(|state| {
-                                                                    state
-                                                                        .sequence(|state| {
-                                                                            super::hidden::skip(state)
-                                                                                .and_then(|state| { self::r#attribute(state) })
-                                                                        })
-                                                                })
-                                                        })
-                                                })
-                                        })
-                                })
-                                .and_then(|state| { super::hidden::skip(state) })
-                                .and_then(|state| {
-                                    state.optional(|state| { self::r#header(state) })
-                                })
-                                .and_then(|state| { super::hidden::skip(state) })
-                                .and_then(|state| { self::r#expression(state) })
-                                .and_then(|state| { super::hidden::skip(state) })
-                                .and_then(|state| { self::r#EOI(state) })
-                        })
+                    state.sequence(step_35 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -448,30 +337,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .sequence(|state| {
-                            self::r#SOI(state)
-                                .and_then(|state| { super::hidden::skip(state) })
-                                .and_then(|state| {
-                                    state
-                                        .sequence(|state| {
-                                            state
-                                                .optional(|state| {
-                                                    self::r#file_doc(state)
-                                                        .and_then(|state| {
-                                                            state
-                                                                .repeat(|state| {
-                                                                    state
-                                                                        .sequence(|state| {
-                                                                            super::hidden::skip(state)
-                                                                                .and_then(|state| { self::r#file_doc(state) })
-                                                                        })
-                                                                })
-                                                        })
-                                                })
-                                        })
-                                })
-                        })
+                    state.sequence(step_42 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -480,14 +346,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .sequence(|state| {
-                            self::r#SOI(state)
-                                .and_then(|state| { super::hidden::skip(state) })
-                                .and_then(|state| {
-                                    self::r#item(state).or_else(|state| { self::r#EOI(state) })
-                                })
-                        })
+                    state.sequence(step_44 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -496,43 +355,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .sequence(|state| {
-                            self::r#SOI(state)
-                                .and_then(|state| { super::hidden::skip(state) })
-                                .and_then(|state| {
-                                    state
-                                        .sequence(|state| {
-                                            state
-                                                .optional(|state| {
-                                                    self::r#doc(state)
-                                                        .or_else(|state| { self::r#attribute(state) })
-                                                        .and_then(|state| {
-                                                            state
-                                                                .repeat(|state| {
-                                                                    state
-                                                                        .sequence(|state| {
-                                                                            super::hidden::skip(state)
-                                                                                .and_then(|state| {
-                                                                                    self::r#doc(state)
-                                                                                        .or_else(|state| { self::r#attribute(state) })
-                                                                                })
-                                                                        })
-                                                                })
-                                                        })
-                                                })
-                                        })
-                                })
-                                .and_then(|state| { super::hidden::skip(state) })
-                                .and_then(|state| {
-                                    self::r#word_predicate(state)
-                                        .or_else(|state| { self::r#word_task(state) })
-                                })
-                                .and_then(|state| { super::hidden::skip(state) })
-                                .and_then(|state| { self::r#identifier(state) })
-                                .and_then(|state| { super::hidden::skip(state) })
-                                .and_then(|state| { self::r#parameters(state) })
-                        })
+                    state.sequence(step_53 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -541,60 +364,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#item,
-                            |state| {
-                                state
-                                    .sequence(|state| {
-                                        state
-                                            .sequence(|state| {
-                                                state
-                                                    .optional(|state| {
-                                                        self::r#doc(state)
-                                                            .or_else(|state| { self::r#attribute(state) })
-                                                            .and_then(|state| {
-                                                                state
-                                                                    .repeat(|state| {
-                                                                        state
-                                                                            .sequence(|state| {
-                                                                                super::hidden::skip(state)
-                                                                                    .and_then(|state| {
-                                                                                        self::r#doc(state)
-                                                                                            .or_else(|state| { self::r#attribute(state) })
-                                                                                    })
-                                                                            })
-                                                                    })
-                                                            })
-                                                    })
-                                            })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| {
-                                                self::r#state(state)
-                                                    .or_else(|state| { self::r#record(state) })
-                                                    .or_else(|state| { self::r#enumeration(state) })
-                                                    .or_else(|state| { self::r#constant(state) })
-                                                    .or_else(|state| { self::r#predicate(state) })
-                                                    .or_else(|state| { self::r#task(state) })
-                                            })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| {
-                                                state.optional(|state| { state.match_string(";") })
-                                            })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| {
-                                                state
-                                                    .lookahead(
-                                                        true,
-                                                        |state| {
-                                                            self::r#boundary(state)
-                                                                .or_else(|state| { self::r#EOI(state) })
-                                                        },
-                                                    )
-                                            })
-                                    })
-                            },
-                        )
+                    state.rule(Rule::r#item, step_60 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -605,15 +375,8 @@ impl ::pest::Parser<Rule> for Grammar {
                 > {
                     let state = state.check_stack_limit()?;
                     self::r#doc(state)
-                        .or_else(|state| { self::r#attribute(state) })
-                        .or_else(|state| {
-                            state
-                                .sequence(|state| {
-                                    self::r#item_word(state)
-                                        .and_then(|state| { super::hidden::skip(state) })
-                                        .and_then(|state| { self::r#identifier(state) })
-                                })
-                        })
+                        .or_else(self::r#attribute as crate::grammar::Step)
+                        .or_else(step_62 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -622,84 +385,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#attribute,
-                            |state| {
-                                state
-                                    .sequence(|state| {
-                                        state
-                                            .match_string("#")
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { state.match_string("[") })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { self::r#identifier(state) })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| {
-                                                state
-                                                    .optional(|state| {
-                                                        state
-                                                            .sequence(|state| {
-                                                                state
-                                                                    .match_string("(")
-                                                                    .and_then(|state| { super::hidden::skip(state) })
-                                                                    .and_then(|state| {
-                                                                        state
-                                                                            .optional(|state| {
-                                                                                state
-                                                                                    .sequence(|state| {
-                                                                                        self::r#setting(state)
-                                                                                            .and_then(|state| { super::hidden::skip(state) })
-                                                                                            .and_then(|state| {
-                                                                                                state
-                                                                                                    .sequence(|state| {
-                                                                                                        state
-                                                                                                            .optional(|state| {
-                                                                                                                state
-                                                                                                                    .sequence(|state| {
-                                                                                                                        state
-                                                                                                                            .match_string(",")
-                                                                                                                            .and_then(|state| { super::hidden::skip(state) })
-                                                                                                                            .and_then(|state| { self::r#setting(state) })
-                                                                                                                    })
-                                                                                                                    .and_then(|state| {
-                                                                                                                        state
-                                                                                                                            .repeat(|state| {
-                                                                                                                                state
-                                                                                                                                    .sequence(|state| {
-                                                                                                                                        super::hidden::skip(state)
-                                                                                                                                            .and_then(|state| {
-                                                                                                                                                state
-                                                                                                                                                    .sequence(|state| {
-                                                                                                                                                        state
-                                                                                                                                                            .match_string(",")
-                                                                                                                                                            .and_then(|state| { super::hidden::skip(state) })
-                                                                                                                                                            .and_then(|state| { self::r#setting(state) })
-                                                                                                                                                    })
-                                                                                                                                            })
-                                                                                                                                    })
-                                                                                                                            })
-                                                                                                                    })
-                                                                                                            })
-                                                                                                    })
-                                                                                            })
-                                                                                            .and_then(|state| { super::hidden::skip(state) })
-                                                                                            .and_then(|state| {
-                                                                                                state.optional(|state| { state.match_string(",") })
-                                                                                            })
-                                                                                    })
-                                                                            })
-                                                                    })
-                                                                    .and_then(|state| { super::hidden::skip(state) })
-                                                                    .and_then(|state| { state.match_string(")") })
-                                                            })
-                                                    })
-                                            })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { state.match_string("]") })
-                                    })
-                            },
-                        )
+                    state.rule(Rule::r#attribute, step_83 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -708,20 +394,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#setting,
-                            |state| {
-                                state
-                                    .sequence(|state| {
-                                        self::r#identifier(state)
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { state.match_string("=") })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { self::r#digits(state) })
-                                    })
-                            },
-                        )
+                    state.rule(Rule::r#setting, step_86 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -730,30 +403,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#doc,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .sequence(|state| {
-                                                    state
-                                                        .match_string("///")
-                                                        .and_then(|state| {
-                                                            state.lookahead(false, |state| { state.match_string("/") })
-                                                        })
-                                                        .and_then(|state| {
-                                                            let strings = ["\n"];
-                                                            state.skip_until(&strings)
-                                                        })
-                                                })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#doc, step_90 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -762,27 +412,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#file_doc,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .sequence(|state| {
-                                                    state
-                                                        .match_string("//!")
-                                                        .and_then(|state| {
-                                                            let strings = ["\n"];
-                                                            state.skip_until(&strings)
-                                                        })
-                                                })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#file_doc, step_93 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -791,35 +421,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#state,
-                            |state| {
-                                state
-                                    .sequence(|state| {
-                                        self::r#word_state(state)
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { self::r#identifier(state) })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| {
-                                                self::r#fields(state)
-                                                    .or_else(|state| {
-                                                        state
-                                                            .sequence(|state| {
-                                                                state
-                                                                    .match_string(":")
-                                                                    .and_then(|state| { super::hidden::skip(state) })
-                                                                    .and_then(|state| { self::r#host_type(state) })
-                                                                    .and_then(|state| { super::hidden::skip(state) })
-                                                                    .and_then(|state| {
-                                                                        state.lookahead(true, |state| { state.match_string(";") })
-                                                                    })
-                                                            })
-                                                    })
-                                            })
-                                    })
-                            },
-                        )
+                    state.rule(Rule::r#state, step_99 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -828,20 +430,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#record,
-                            |state| {
-                                state
-                                    .sequence(|state| {
-                                        self::r#word_struct(state)
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { self::r#identifier(state) })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { self::r#fields(state) })
-                                    })
-                            },
-                        )
+                    state.rule(Rule::r#record, step_101 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -850,70 +439,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#enumeration,
-                            |state| {
-                                state
-                                    .sequence(|state| {
-                                        self::r#word_enum(state)
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { self::r#identifier(state) })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { state.match_string("{") })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| {
-                                                state
-                                                    .optional(|state| {
-                                                        state
-                                                            .sequence(|state| {
-                                                                self::r#identifier(state)
-                                                                    .and_then(|state| { super::hidden::skip(state) })
-                                                                    .and_then(|state| {
-                                                                        state
-                                                                            .sequence(|state| {
-                                                                                state
-                                                                                    .optional(|state| {
-                                                                                        state
-                                                                                            .sequence(|state| {
-                                                                                                state
-                                                                                                    .match_string(",")
-                                                                                                    .and_then(|state| { super::hidden::skip(state) })
-                                                                                                    .and_then(|state| { self::r#identifier(state) })
-                                                                                            })
-                                                                                            .and_then(|state| {
-                                                                                                state
-                                                                                                    .repeat(|state| {
-                                                                                                        state
-                                                                                                            .sequence(|state| {
-                                                                                                                super::hidden::skip(state)
-                                                                                                                    .and_then(|state| {
-                                                                                                                        state
-                                                                                                                            .sequence(|state| {
-                                                                                                                                state
-                                                                                                                                    .match_string(",")
-                                                                                                                                    .and_then(|state| { super::hidden::skip(state) })
-                                                                                                                                    .and_then(|state| { self::r#identifier(state) })
-                                                                                                                            })
-                                                                                                                    })
-                                                                                                            })
-                                                                                                    })
-                                                                                            })
-                                                                                    })
-                                                                            })
-                                                                    })
-                                                                    .and_then(|state| { super::hidden::skip(state) })
-                                                                    .and_then(|state| {
-                                                                        state.optional(|state| { state.match_string(",") })
-                                                                    })
-                                                            })
-                                                    })
-                                            })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { state.match_string("}") })
-                                    })
-                            },
-                        )
+                    state.rule(Rule::r#enumeration, step_116 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -922,34 +448,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#constant,
-                            |state| {
-                                state
-                                    .sequence(|state| {
-                                        self::r#word_const(state)
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { self::r#identifier(state) })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| {
-                                                state
-                                                    .optional(|state| {
-                                                        state
-                                                            .sequence(|state| {
-                                                                self::r#word_in(state)
-                                                                    .and_then(|state| { super::hidden::skip(state) })
-                                                                    .and_then(|state| { self::r#unit(state) })
-                                                            })
-                                                    })
-                                            })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { state.match_string("=") })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { self::r#expression(state) })
-                                    })
-                            },
-                        )
+                    state.rule(Rule::r#constant, step_121 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -958,26 +457,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#predicate,
-                            |state| {
-                                state
-                                    .sequence(|state| {
-                                        self::r#word_predicate(state)
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { self::r#identifier(state) })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| {
-                                                state.optional(|state| { self::r#parameters(state) })
-                                            })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { state.match_string("=") })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { self::r#expression(state) })
-                                    })
-                            },
-                        )
+                    state.rule(Rule::r#predicate, step_124 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -986,26 +466,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#task,
-                            |state| {
-                                state
-                                    .sequence(|state| {
-                                        self::r#word_task(state)
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { self::r#identifier(state) })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| {
-                                                state.optional(|state| { self::r#parameters(state) })
-                                            })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { state.match_string("=") })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { self::r#expression(state) })
-                                    })
-                            },
-                        )
+                    state.rule(Rule::r#task, step_126 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1014,67 +475,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#fields,
-                            |state| {
-                                state
-                                    .sequence(|state| {
-                                        state
-                                            .match_string("{")
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| {
-                                                state
-                                                    .optional(|state| {
-                                                        state
-                                                            .sequence(|state| {
-                                                                self::r#field_declaration(state)
-                                                                    .and_then(|state| { super::hidden::skip(state) })
-                                                                    .and_then(|state| {
-                                                                        state
-                                                                            .sequence(|state| {
-                                                                                state
-                                                                                    .optional(|state| {
-                                                                                        state
-                                                                                            .sequence(|state| {
-                                                                                                state
-                                                                                                    .match_string(",")
-                                                                                                    .and_then(|state| { super::hidden::skip(state) })
-                                                                                                    .and_then(|state| { self::r#field_declaration(state) })
-                                                                                            })
-                                                                                            .and_then(|state| {
-                                                                                                state
-                                                                                                    .repeat(|state| {
-                                                                                                        state
-                                                                                                            .sequence(|state| {
-                                                                                                                super::hidden::skip(state)
-                                                                                                                    .and_then(|state| {
-                                                                                                                        state
-                                                                                                                            .sequence(|state| {
-                                                                                                                                state
-                                                                                                                                    .match_string(",")
-                                                                                                                                    .and_then(|state| { super::hidden::skip(state) })
-                                                                                                                                    .and_then(|state| { self::r#field_declaration(state) })
-                                                                                                                            })
-                                                                                                                    })
-                                                                                                            })
-                                                                                                    })
-                                                                                            })
-                                                                                    })
-                                                                            })
-                                                                    })
-                                                                    .and_then(|state| { super::hidden::skip(state) })
-                                                                    .and_then(|state| {
-                                                                        state.optional(|state| { state.match_string(",") })
-                                                                    })
-                                                            })
-                                                    })
-                                            })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { state.match_string("}") })
-                                    })
-                            },
-                        )
+                    state.rule(Rule::r#fields, step_139 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1083,67 +484,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#parameters,
-                            |state| {
-                                state
-                                    .sequence(|state| {
-                                        state
-                                            .match_string("(")
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| {
-                                                state
-                                                    .optional(|state| {
-                                                        state
-                                                            .sequence(|state| {
-                                                                self::r#field_declaration(state)
-                                                                    .and_then(|state| { super::hidden::skip(state) })
-                                                                    .and_then(|state| {
-                                                                        state
-                                                                            .sequence(|state| {
-                                                                                state
-                                                                                    .optional(|state| {
-                                                                                        state
-                                                                                            .sequence(|state| {
-                                                                                                state
-                                                                                                    .match_string(",")
-                                                                                                    .and_then(|state| { super::hidden::skip(state) })
-                                                                                                    .and_then(|state| { self::r#field_declaration(state) })
-                                                                                            })
-                                                                                            .and_then(|state| {
-                                                                                                state
-                                                                                                    .repeat(|state| {
-                                                                                                        state
-                                                                                                            .sequence(|state| {
-                                                                                                                super::hidden::skip(state)
-                                                                                                                    .and_then(|state| {
-                                                                                                                        state
-                                                                                                                            .sequence(|state| {
-                                                                                                                                state
-                                                                                                                                    .match_string(",")
-                                                                                                                                    .and_then(|state| { super::hidden::skip(state) })
-                                                                                                                                    .and_then(|state| { self::r#field_declaration(state) })
-                                                                                                                            })
-                                                                                                                    })
-                                                                                                            })
-                                                                                                    })
-                                                                                            })
-                                                                                    })
-                                                                            })
-                                                                    })
-                                                                    .and_then(|state| { super::hidden::skip(state) })
-                                                                    .and_then(|state| {
-                                                                        state.optional(|state| { state.match_string(",") })
-                                                                    })
-                                                            })
-                                                    })
-                                            })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { state.match_string(")") })
-                                    })
-                            },
-                        )
+                    state.rule(Rule::r#parameters, step_141 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1155,46 +496,7 @@ impl ::pest::Parser<Rule> for Grammar {
                     state
                         .rule(
                             Rule::r#field_declaration,
-                            |state| {
-                                state
-                                    .sequence(|state| {
-                                        state
-                                            .sequence(|state| {
-                                                state
-                                                    .optional(|state| {
-                                                        self::r#doc(state)
-                                                            .and_then(|state| {
-                                                                state
-                                                                    .repeat(|state| {
-                                                                        state
-                                                                            .sequence(|state| {
-                                                                                super::hidden::skip(state)
-                                                                                    .and_then(|state| { self::r#doc(state) })
-                                                                            })
-                                                                    })
-                                                            })
-                                                    })
-                                            })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { self::r#identifier(state) })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { state.match_string(":") })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { self::r#field_type(state) })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| {
-                                                state
-                                                    .optional(|state| {
-                                                        state
-                                                            .sequence(|state| {
-                                                                self::r#word_in(state)
-                                                                    .and_then(|state| { super::hidden::skip(state) })
-                                                                    .and_then(|state| { self::r#unit(state) })
-                                                            })
-                                                    })
-                                            })
-                                    })
-                            },
+                            step_149 as crate::grammar::Step,
                         )
                 }
                 #[inline]
@@ -1204,58 +506,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#field_type,
-                            |state| {
-                                state
-                                    .sequence(|state| {
-                                        state
-                                            .sequence(|state| {
-                                                state
-                                                    .optional(|state| {
-                                                        self::r#array_open(state)
-                                                            .and_then(|state| {
-                                                                state
-                                                                    .repeat(|state| {
-                                                                        state
-                                                                            .sequence(|state| {
-                                                                                super::hidden::skip(state)
-                                                                                    .and_then(|state| { self::r#array_open(state) })
-                                                                            })
-                                                                    })
-                                                            })
-                                                    })
-                                            })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { self::r#path(state) })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| {
-                                                state.optional(|state| { self::r#optional(state) })
-                                            })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| {
-                                                state
-                                                    .sequence(|state| {
-                                                        state
-                                                            .optional(|state| {
-                                                                self::r#array_close(state)
-                                                                    .and_then(|state| {
-                                                                        state
-                                                                            .repeat(|state| {
-                                                                                state
-                                                                                    .sequence(|state| {
-                                                                                        super::hidden::skip(state)
-                                                                                            .and_then(|state| { self::r#array_close(state) })
-                                                                                    })
-                                                                            })
-                                                                    })
-                                                            })
-                                                    })
-                                            })
-                                    })
-                            },
-                        )
+                    state.rule(Rule::r#field_type, step_163 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1264,37 +515,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#path,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .sequence(|state| {
-                                                    self::r#identifier(state)
-                                                        .and_then(|state| {
-                                                            state
-                                                                .repeat(|state| {
-                                                                    state
-                                                                        .sequence(|state| {
-                                                                            state
-                                                                                .repeat(|state| { self::r#trivia(state) })
-                                                                                .and_then(|state| { state.match_string("::") })
-                                                                                .and_then(|state| {
-                                                                                    state.repeat(|state| { self::r#trivia(state) })
-                                                                                })
-                                                                                .and_then(|state| { self::r#identifier(state) })
-                                                                        })
-                                                                })
-                                                        })
-                                                })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#path, step_171 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1303,7 +524,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#optional, |state| { state.match_string("?") })
+                    state.rule(Rule::r#optional, step_172 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1312,7 +533,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#array_open, |state| { state.match_string("[") })
+                    state.rule(Rule::r#array_open, step_63 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1321,24 +542,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#array_close,
-                            |state| {
-                                state
-                                    .sequence(|state| {
-                                        state
-                                            .match_string(";")
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| {
-                                                self::r#digits(state)
-                                                    .or_else(|state| { self::r#identifier(state) })
-                                            })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { state.match_string("]") })
-                                    })
-                            },
-                        )
+                    state.rule(Rule::r#array_close, step_175 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1347,51 +551,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#unit,
-                            |state| {
-                                state
-                                    .sequence(|state| {
-                                        self::r#unit_one(state)
-                                            .or_else(|state| { self::r#unit_power(state) })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| {
-                                                state
-                                                    .sequence(|state| {
-                                                        state
-                                                            .optional(|state| {
-                                                                state
-                                                                    .sequence(|state| {
-                                                                        self::r#times(state)
-                                                                            .or_else(|state| { self::r#divide(state) })
-                                                                            .and_then(|state| { super::hidden::skip(state) })
-                                                                            .and_then(|state| { self::r#unit_power(state) })
-                                                                    })
-                                                                    .and_then(|state| {
-                                                                        state
-                                                                            .repeat(|state| {
-                                                                                state
-                                                                                    .sequence(|state| {
-                                                                                        super::hidden::skip(state)
-                                                                                            .and_then(|state| {
-                                                                                                state
-                                                                                                    .sequence(|state| {
-                                                                                                        self::r#times(state)
-                                                                                                            .or_else(|state| { self::r#divide(state) })
-                                                                                                            .and_then(|state| { super::hidden::skip(state) })
-                                                                                                            .and_then(|state| { self::r#unit_power(state) })
-                                                                                                    })
-                                                                                            })
-                                                                                    })
-                                                                            })
-                                                                    })
-                                                            })
-                                                    })
-                                            })
-                                    })
-                            },
-                        )
+                    state.rule(Rule::r#unit, step_185 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1400,27 +560,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#unit_one,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .sequence(|state| {
-                                                    state
-                                                        .match_string("1")
-                                                        .and_then(|state| {
-                                                            state
-                                                                .lookahead(false, |state| { self::r#XID_CONTINUE(state) })
-                                                        })
-                                                })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#unit_one, step_189 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1429,33 +569,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#unit_power,
-                            |state| {
-                                state
-                                    .sequence(|state| {
-                                        self::r#identifier(state)
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| {
-                                                state
-                                                    .optional(|state| {
-                                                        state
-                                                            .sequence(|state| {
-                                                                state
-                                                                    .match_string("^")
-                                                                    .and_then(|state| { super::hidden::skip(state) })
-                                                                    .and_then(|state| {
-                                                                        state.optional(|state| { self::r#minus(state) })
-                                                                    })
-                                                                    .and_then(|state| { super::hidden::skip(state) })
-                                                                    .and_then(|state| { self::r#digits(state) })
-                                                            })
-                                                    })
-                                            })
-                                    })
-                            },
-                        )
+                    state.rule(Rule::r#unit_power, step_195 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1464,25 +578,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#header,
-                            |state| {
-                                state
-                                    .sequence(|state| {
-                                        state
-                                            .match_string("|")
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { self::r#identifier(state) })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { state.match_string(":") })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { self::r#header_type(state) })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { state.match_string("|") })
-                                    })
-                            },
-                        )
+                    state.rule(Rule::r#header, step_198 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1491,38 +587,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#header_type,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .sequence(|state| {
-                                                    state
-                                                        .sequence(|state| {
-                                                            state
-                                                                .lookahead(false, |state| { state.match_string("|") })
-                                                                .and_then(|state| { self::r#ANY(state) })
-                                                        })
-                                                        .and_then(|state| {
-                                                            state
-                                                                .repeat(|state| {
-                                                                    state
-                                                                        .sequence(|state| {
-                                                                            state
-                                                                                .lookahead(false, |state| { state.match_string("|") })
-                                                                                .and_then(|state| { self::r#ANY(state) })
-                                                                        })
-                                                                })
-                                                        })
-                                                })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#header_type, step_204 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1531,56 +596,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#host_type,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .sequence(|state| {
-                                                    state
-                                                        .sequence(|state| {
-                                                            state
-                                                                .lookahead(
-                                                                    false,
-                                                                    |state| {
-                                                                        state
-                                                                            .match_string(";")
-                                                                            .or_else(|state| { state.match_string("=") })
-                                                                            .or_else(|state| { state.match_string("{") })
-                                                                            .or_else(|state| { state.match_string("\n") })
-                                                                    },
-                                                                )
-                                                                .and_then(|state| { self::r#ANY(state) })
-                                                        })
-                                                        .and_then(|state| {
-                                                            state
-                                                                .repeat(|state| {
-                                                                    state
-                                                                        .sequence(|state| {
-                                                                            state
-                                                                                .lookahead(
-                                                                                    false,
-                                                                                    |state| {
-                                                                                        state
-                                                                                            .match_string(";")
-                                                                                            .or_else(|state| { state.match_string("=") })
-                                                                                            .or_else(|state| { state.match_string("{") })
-                                                                                            .or_else(|state| { state.match_string("\n") })
-                                                                                    },
-                                                                                )
-                                                                                .and_then(|state| { self::r#ANY(state) })
-                                                                        })
-                                                                })
-                                                        })
-                                                })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#host_type, step_211 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1591,11 +607,11 @@ impl ::pest::Parser<Rule> for Grammar {
                 > {
                     let state = state.check_stack_limit()?;
                     self::r#word_state(state)
-                        .or_else(|state| { self::r#word_struct(state) })
-                        .or_else(|state| { self::r#word_enum(state) })
-                        .or_else(|state| { self::r#word_const(state) })
-                        .or_else(|state| { self::r#word_predicate(state) })
-                        .or_else(|state| { self::r#word_task(state) })
+                        .or_else(self::r#word_struct as crate::grammar::Step)
+                        .or_else(self::r#word_enum as crate::grammar::Step)
+                        .or_else(self::r#word_const as crate::grammar::Step)
+                        .or_else(self::r#word_predicate as crate::grammar::Step)
+                        .or_else(self::r#word_task as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1604,27 +620,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#word_state,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .sequence(|state| {
-                                                    state
-                                                        .match_string("state")
-                                                        .and_then(|state| {
-                                                            state
-                                                                .lookahead(false, |state| { self::r#XID_CONTINUE(state) })
-                                                        })
-                                                })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#word_state, step_214 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1633,27 +629,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#word_struct,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .sequence(|state| {
-                                                    state
-                                                        .match_string("struct")
-                                                        .and_then(|state| {
-                                                            state
-                                                                .lookahead(false, |state| { self::r#XID_CONTINUE(state) })
-                                                        })
-                                                })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#word_struct, step_217 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1662,27 +638,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#word_enum,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .sequence(|state| {
-                                                    state
-                                                        .match_string("enum")
-                                                        .and_then(|state| {
-                                                            state
-                                                                .lookahead(false, |state| { self::r#XID_CONTINUE(state) })
-                                                        })
-                                                })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#word_enum, step_220 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1691,27 +647,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#word_const,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .sequence(|state| {
-                                                    state
-                                                        .match_string("const")
-                                                        .and_then(|state| {
-                                                            state
-                                                                .lookahead(false, |state| { self::r#XID_CONTINUE(state) })
-                                                        })
-                                                })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#word_const, step_223 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1720,27 +656,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#word_predicate,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .sequence(|state| {
-                                                    state
-                                                        .match_string("predicate")
-                                                        .and_then(|state| {
-                                                            state
-                                                                .lookahead(false, |state| { self::r#XID_CONTINUE(state) })
-                                                        })
-                                                })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#word_predicate, step_226 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1749,27 +665,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#word_task,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .sequence(|state| {
-                                                    state
-                                                        .match_string("task")
-                                                        .and_then(|state| {
-                                                            state
-                                                                .lookahead(false, |state| { self::r#XID_CONTINUE(state) })
-                                                        })
-                                                })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#word_task, step_229 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1778,48 +674,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#expression,
-                            |state| {
-                                state
-                                    .sequence(|state| {
-                                        self::r#operand(state)
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| {
-                                                state
-                                                    .sequence(|state| {
-                                                        state
-                                                            .optional(|state| {
-                                                                state
-                                                                    .sequence(|state| {
-                                                                        self::r#infix(state)
-                                                                            .and_then(|state| { super::hidden::skip(state) })
-                                                                            .and_then(|state| { self::r#operand(state) })
-                                                                    })
-                                                                    .and_then(|state| {
-                                                                        state
-                                                                            .repeat(|state| {
-                                                                                state
-                                                                                    .sequence(|state| {
-                                                                                        super::hidden::skip(state)
-                                                                                            .and_then(|state| {
-                                                                                                state
-                                                                                                    .sequence(|state| {
-                                                                                                        self::r#infix(state)
-                                                                                                            .and_then(|state| { super::hidden::skip(state) })
-                                                                                                            .and_then(|state| { self::r#operand(state) })
-                                                                                                    })
-                                                                                            })
-                                                                                    })
-                                                                            })
-                                                                    })
-                                                            })
-                                                    })
-                                            })
-                                    })
-                            },
-                        )
+                    state.rule(Rule::r#expression, step_239 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1828,58 +683,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .sequence(|state| {
-                            state
-                                .sequence(|state| {
-                                    state
-                                        .optional(|state| {
-                                            self::r#prefix(state)
-                                                .or_else(|state| { self::r#open(state) })
-                                                .and_then(|state| {
-                                                    state
-                                                        .repeat(|state| {
-                                                            state
-                                                                .sequence(|state| {
-                                                                    super::hidden::skip(state)
-                                                                        .and_then(|state| {
-                                                                            self::r#prefix(state)
-                                                                                .or_else(|state| { self::r#open(state) })
-                                                                        })
-                                                                })
-                                                        })
-                                                })
-                                        })
-                                })
-                                .and_then(|state| { super::hidden::skip(state) })
-                                .and_then(|state| { self::r#primary(state) })
-                                .and_then(|state| { super::hidden::skip(state) })
-                                .and_then(|state| {
-                                    state
-                                        .sequence(|state| {
-                                            state
-                                                .optional(|state| {
-                                                    self::r#field(state)
-                                                        .or_else(|state| { self::r#empty_call(state) })
-                                                        .or_else(|state| { self::r#close(state) })
-                                                        .and_then(|state| {
-                                                            state
-                                                                .repeat(|state| {
-                                                                    state
-                                                                        .sequence(|state| {
-                                                                            super::hidden::skip(state)
-                                                                                .and_then(|state| {
-                                                                                    self::r#field(state)
-                                                                                        .or_else(|state| { self::r#empty_call(state) })
-                                                                                        .or_else(|state| { self::r#close(state) })
-                                                                                })
-                                                                        })
-                                                                })
-                                                        })
-                                                })
-                                        })
-                                })
-                        })
+                    state.sequence(step_253 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1890,10 +694,10 @@ impl ::pest::Parser<Rule> for Grammar {
                 > {
                     let state = state.check_stack_limit()?;
                     self::r#not(state)
-                        .or_else(|state| { self::r#eventually(state) })
-                        .or_else(|state| { self::r#next_op(state) })
-                        .or_else(|state| { self::r#minus(state) })
-                        .or_else(|state| { self::r#quantifier(state) })
+                        .or_else(self::r#eventually as crate::grammar::Step)
+                        .or_else(self::r#next_op as crate::grammar::Step)
+                        .or_else(self::r#minus as crate::grammar::Step)
+                        .or_else(self::r#quantifier as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1902,38 +706,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#not,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .sequence(|state| {
-                                                    state
-                                                        .match_string("!")
-                                                        .and_then(|state| {
-                                                            state.lookahead(false, |state| { state.match_string("=") })
-                                                        })
-                                                })
-                                                .or_else(|state| { state.match_string("¬") })
-                                                .or_else(|state| {
-                                                    state
-                                                        .sequence(|state| {
-                                                            state
-                                                                .match_string("not")
-                                                                .and_then(|state| {
-                                                                    state
-                                                                        .lookahead(false, |state| { self::r#XID_CONTINUE(state) })
-                                                                })
-                                                        })
-                                                })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#not, step_260 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1942,28 +715,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#eventually,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .sequence(|state| {
-                                                    state
-                                                        .match_string("F")
-                                                        .and_then(|state| {
-                                                            state.lookahead(false, |state| { self::r#word_rest(state) })
-                                                        })
-                                                })
-                                                .or_else(|state| { state.match_string("◇") })
-                                                .or_else(|state| { state.match_string("<>") })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#eventually, step_266 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1972,27 +724,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#next_op,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .sequence(|state| {
-                                                    state
-                                                        .match_string("X")
-                                                        .and_then(|state| {
-                                                            state.lookahead(false, |state| { self::r#word_rest(state) })
-                                                        })
-                                                })
-                                                .or_else(|state| { state.match_string("○") })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#next_op, step_270 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2001,27 +733,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#minus,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .sequence(|state| {
-                                                    state
-                                                        .match_string("-")
-                                                        .and_then(|state| {
-                                                            state.lookahead(false, |state| { state.match_string(">") })
-                                                        })
-                                                })
-                                                .or_else(|state| { state.match_string("−") })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#minus, step_276 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2030,29 +742,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#quantifier,
-                            |state| {
-                                state
-                                    .sequence(|state| {
-                                        self::r#word_for(state)
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| {
-                                                self::r#word_all(state)
-                                                    .or_else(|state| { self::r#word_some(state) })
-                                            })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { self::r#identifier(state) })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { self::r#word_in(state) })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { self::r#set(state) })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { state.match_string(":") })
-                                    })
-                            },
-                        )
+                    state.rule(Rule::r#quantifier, step_279 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2061,69 +751,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#set,
-                            |state| {
-                                state
-                                    .sequence(|state| {
-                                        state
-                                            .match_string("{")
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| {
-                                                state
-                                                    .optional(|state| {
-                                                        state
-                                                            .sequence(|state| {
-                                                                self::r#element(state)
-                                                                    .and_then(|state| { super::hidden::skip(state) })
-                                                                    .and_then(|state| {
-                                                                        state
-                                                                            .sequence(|state| {
-                                                                                state
-                                                                                    .optional(|state| {
-                                                                                        state
-                                                                                            .sequence(|state| {
-                                                                                                state
-                                                                                                    .match_string(",")
-                                                                                                    .and_then(|state| { super::hidden::skip(state) })
-                                                                                                    .and_then(|state| { self::r#element(state) })
-                                                                                            })
-                                                                                            .and_then(|state| {
-                                                                                                state
-                                                                                                    .repeat(|state| {
-                                                                                                        state
-                                                                                                            .sequence(|state| {
-                                                                                                                super::hidden::skip(state)
-                                                                                                                    .and_then(|state| {
-                                                                                                                        state
-                                                                                                                            .sequence(|state| {
-                                                                                                                                state
-                                                                                                                                    .match_string(",")
-                                                                                                                                    .and_then(|state| { super::hidden::skip(state) })
-                                                                                                                                    .and_then(|state| { self::r#element(state) })
-                                                                                                                            })
-                                                                                                                    })
-                                                                                                            })
-                                                                                                    })
-                                                                                            })
-                                                                                    })
-                                                                            })
-                                                                    })
-                                                                    .and_then(|state| { super::hidden::skip(state) })
-                                                                    .and_then(|state| {
-                                                                        state.optional(|state| { state.match_string(",") })
-                                                                    })
-                                                            })
-                                                    })
-                                            })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { state.match_string("}") })
-                                    })
-                                    .or_else(|state| { self::r#range(state) })
-                                    .or_else(|state| { self::r#identifier(state) })
-                            },
-                        )
+                    state.rule(Rule::r#set, step_292 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2132,14 +760,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#element,
-                            |state| {
-                                self::r#digits(state)
-                                    .or_else(|state| { self::r#path(state) })
-                            },
-                        )
+                    state.rule(Rule::r#element, step_293 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2148,24 +769,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#range,
-                            |state| {
-                                state
-                                    .sequence(|state| {
-                                        self::r#end(state)
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { state.match_string("..") })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| {
-                                                state.optional(|state| { self::r#inclusive(state) })
-                                            })
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { self::r#end(state) })
-                                    })
-                            },
-                        )
+                    state.rule(Rule::r#range, step_297 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2174,14 +778,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#end,
-                            |state| {
-                                self::r#digits(state)
-                                    .or_else(|state| { self::r#identifier(state) })
-                            },
-                        )
+                    state.rule(Rule::r#end, step_173 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2190,7 +787,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#inclusive, |state| { state.match_string("=") })
+                    state.rule(Rule::r#inclusive, step_84 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2199,27 +796,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#word_for,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .sequence(|state| {
-                                                    state
-                                                        .match_string("for")
-                                                        .and_then(|state| {
-                                                            state
-                                                                .lookahead(false, |state| { self::r#XID_CONTINUE(state) })
-                                                        })
-                                                })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#word_for, step_300 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2228,27 +805,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#word_all,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .sequence(|state| {
-                                                    state
-                                                        .match_string("all")
-                                                        .and_then(|state| {
-                                                            state
-                                                                .lookahead(false, |state| { self::r#XID_CONTINUE(state) })
-                                                        })
-                                                })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#word_all, step_303 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2257,27 +814,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#word_some,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .sequence(|state| {
-                                                    state
-                                                        .match_string("some")
-                                                        .and_then(|state| {
-                                                            state
-                                                                .lookahead(false, |state| { self::r#XID_CONTINUE(state) })
-                                                        })
-                                                })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#word_some, step_306 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2286,27 +823,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#word_in,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .sequence(|state| {
-                                                    state
-                                                        .match_string("in")
-                                                        .and_then(|state| {
-                                                            state
-                                                                .lookahead(false, |state| { self::r#XID_CONTINUE(state) })
-                                                        })
-                                                })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#word_in, step_309 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2317,24 +834,24 @@ impl ::pest::Parser<Rule> for Grammar {
                 > {
                     let state = state.check_stack_limit()?;
                     self::r#implies(state)
-                        .or_else(|state| { self::r#iff(state) })
-                        .or_else(|state| { self::r#or(state) })
-                        .or_else(|state| { self::r#and(state) })
-                        .or_else(|state| { self::r#until(state) })
-                        .or_else(|state| { self::r#then(state) })
-                        .or_else(|state| { self::r#equal(state) })
-                        .or_else(|state| { self::r#unequal(state) })
-                        .or_else(|state| { self::r#at_most(state) })
-                        .or_else(|state| { self::r#at_least(state) })
-                        .or_else(|state| { self::r#less(state) })
-                        .or_else(|state| { self::r#greater(state) })
-                        .or_else(|state| { self::r#plus(state) })
-                        .or_else(|state| { self::r#minus(state) })
-                        .or_else(|state| { self::r#times(state) })
-                        .or_else(|state| { self::r#divide(state) })
-                        .or_else(|state| { self::r#comma(state) })
-                        .or_else(|state| { self::r#call(state) })
-                        .or_else(|state| { self::r#index(state) })
+                        .or_else(self::r#iff as crate::grammar::Step)
+                        .or_else(self::r#or as crate::grammar::Step)
+                        .or_else(self::r#and as crate::grammar::Step)
+                        .or_else(self::r#until as crate::grammar::Step)
+                        .or_else(self::r#then as crate::grammar::Step)
+                        .or_else(self::r#equal as crate::grammar::Step)
+                        .or_else(self::r#unequal as crate::grammar::Step)
+                        .or_else(self::r#at_most as crate::grammar::Step)
+                        .or_else(self::r#at_least as crate::grammar::Step)
+                        .or_else(self::r#less as crate::grammar::Step)
+                        .or_else(self::r#greater as crate::grammar::Step)
+                        .or_else(self::r#plus as crate::grammar::Step)
+                        .or_else(self::r#minus as crate::grammar::Step)
+                        .or_else(self::r#times as crate::grammar::Step)
+                        .or_else(self::r#divide as crate::grammar::Step)
+                        .or_else(self::r#comma as crate::grammar::Step)
+                        .or_else(self::r#call as crate::grammar::Step)
+                        .or_else(self::r#index as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2343,16 +860,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#implies,
-                            |state| {
-                                state
-                                    .match_string("=>")
-                                    .or_else(|state| { state.match_string("⇒") })
-                                    .or_else(|state| { state.match_string("->") })
-                            },
-                        )
+                    state.rule(Rule::r#implies, step_312 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2361,16 +869,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#iff,
-                            |state| {
-                                state
-                                    .match_string("<=>")
-                                    .or_else(|state| { state.match_string("<->") })
-                                    .or_else(|state| { state.match_string("⇔") })
-                            },
-                        )
+                    state.rule(Rule::r#iff, step_315 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2379,33 +878,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#or,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .match_string("||")
-                                                .or_else(|state| { state.match_string("∨") })
-                                                .or_else(|state| { state.match_string("|") })
-                                                .or_else(|state| {
-                                                    state
-                                                        .sequence(|state| {
-                                                            state
-                                                                .match_string("or")
-                                                                .and_then(|state| {
-                                                                    state
-                                                                        .lookahead(false, |state| { self::r#XID_CONTINUE(state) })
-                                                                })
-                                                        })
-                                                })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#or, step_320 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2414,33 +887,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#and,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .match_string("&&")
-                                                .or_else(|state| { state.match_string("∧") })
-                                                .or_else(|state| { state.match_string("&") })
-                                                .or_else(|state| {
-                                                    state
-                                                        .sequence(|state| {
-                                                            state
-                                                                .match_string("and")
-                                                                .and_then(|state| {
-                                                                    state
-                                                                        .lookahead(false, |state| { self::r#XID_CONTINUE(state) })
-                                                                })
-                                                        })
-                                                })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#and, step_326 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2449,27 +896,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#until,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .sequence(|state| {
-                                                    state
-                                                        .match_string("U")
-                                                        .and_then(|state| {
-                                                            state
-                                                                .lookahead(false, |state| { self::r#XID_CONTINUE(state) })
-                                                        })
-                                                })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#until, step_329 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2478,27 +905,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#then,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .sequence(|state| {
-                                                    state
-                                                        .match_string("T")
-                                                        .and_then(|state| {
-                                                            state
-                                                                .lookahead(false, |state| { self::r#XID_CONTINUE(state) })
-                                                        })
-                                                })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#then, step_332 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2507,7 +914,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#equal, |state| { state.match_string("==") })
+                    state.rule(Rule::r#equal, step_333 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2516,15 +923,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#unequal,
-                            |state| {
-                                state
-                                    .match_string("!=")
-                                    .or_else(|state| { state.match_string("≠") })
-                            },
-                        )
+                    state.rule(Rule::r#unequal, step_335 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2533,15 +932,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#at_most,
-                            |state| {
-                                state
-                                    .match_string("<=")
-                                    .or_else(|state| { state.match_string("≤") })
-                            },
-                        )
+                    state.rule(Rule::r#at_most, step_337 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2550,15 +941,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#at_least,
-                            |state| {
-                                state
-                                    .match_string(">=")
-                                    .or_else(|state| { state.match_string("≥") })
-                            },
-                        )
+                    state.rule(Rule::r#at_least, step_339 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2567,7 +950,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#less, |state| { state.match_string("<") })
+                    state.rule(Rule::r#less, step_340 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2576,7 +959,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#greater, |state| { state.match_string(">") })
+                    state.rule(Rule::r#greater, step_271 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2585,7 +968,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#plus, |state| { state.match_string("+") })
+                    state.rule(Rule::r#plus, step_341 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2594,15 +977,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#times,
-                            |state| {
-                                state
-                                    .match_string("*")
-                                    .or_else(|state| { state.match_string("×") })
-                            },
-                        )
+                    state.rule(Rule::r#times, step_343 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2611,15 +986,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#divide,
-                            |state| {
-                                state
-                                    .match_string("/")
-                                    .or_else(|state| { state.match_string("÷") })
-                            },
-                        )
+                    state.rule(Rule::r#divide, step_345 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2628,7 +995,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#comma, |state| { state.match_string(",") })
+                    state.rule(Rule::r#comma, step_72 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2637,7 +1004,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#call, |state| { state.match_string("(") })
+                    state.rule(Rule::r#call, step_346 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2646,7 +1013,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#index, |state| { state.match_string("[") })
+                    state.rule(Rule::r#index, step_63 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2655,7 +1022,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#open, |state| { state.match_string("(") })
+                    state.rule(Rule::r#open, step_346 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2664,15 +1031,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#close,
-                            |state| {
-                                state
-                                    .match_string(")")
-                                    .or_else(|state| { state.match_string("]") })
-                            },
-                        )
+                    state.rule(Rule::r#close, step_347 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2681,19 +1040,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#empty_call,
-                            |state| {
-                                state
-                                    .sequence(|state| {
-                                        state
-                                            .match_string("(")
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| { state.match_string(")") })
-                                    })
-                            },
-                        )
+                    state.rule(Rule::r#empty_call, step_349 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2702,22 +1049,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#field,
-                            |state| {
-                                state
-                                    .sequence(|state| {
-                                        state
-                                            .match_string(".")
-                                            .and_then(|state| { super::hidden::skip(state) })
-                                            .and_then(|state| {
-                                                self::r#identifier(state)
-                                                    .or_else(|state| { self::r#position(state) })
-                                            })
-                                    })
-                            },
-                        )
+                    state.rule(Rule::r#field, step_352 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2726,37 +1058,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#position,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .sequence(|state| {
-                                                    self::r#digits(state)
-                                                        .and_then(|state| {
-                                                            state
-                                                                .optional(|state| {
-                                                                    state
-                                                                        .sequence(|state| {
-                                                                            state
-                                                                                .match_string(".")
-                                                                                .and_then(|state| { self::r#digits(state) })
-                                                                        })
-                                                                })
-                                                        })
-                                                        .and_then(|state| {
-                                                            state
-                                                                .lookahead(false, |state| { self::r#XID_CONTINUE(state) })
-                                                        })
-                                                })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#position, step_358 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2767,11 +1069,11 @@ impl ::pest::Parser<Rule> for Grammar {
                 > {
                     let state = state.check_stack_limit()?;
                     self::r#truth(state)
-                        .or_else(|state| { self::r#falsity(state) })
-                        .or_else(|state| { self::r#number(state) })
-                        .or_else(|state| { self::r#verbatim(state) })
-                        .or_else(|state| { self::r#text(state) })
-                        .or_else(|state| { self::r#name(state) })
+                        .or_else(self::r#falsity as crate::grammar::Step)
+                        .or_else(self::r#number as crate::grammar::Step)
+                        .or_else(self::r#verbatim as crate::grammar::Step)
+                        .or_else(self::r#text as crate::grammar::Step)
+                        .or_else(self::r#name as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2780,31 +1082,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#truth,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .match_string("⊤")
-                                                .or_else(|state| {
-                                                    state
-                                                        .sequence(|state| {
-                                                            state
-                                                                .match_string("true")
-                                                                .and_then(|state| {
-                                                                    state
-                                                                        .lookahead(false, |state| { self::r#XID_CONTINUE(state) })
-                                                                })
-                                                        })
-                                                })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#truth, step_362 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2813,31 +1091,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#falsity,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .match_string("⊥")
-                                                .or_else(|state| {
-                                                    state
-                                                        .sequence(|state| {
-                                                            state
-                                                                .match_string("false")
-                                                                .and_then(|state| {
-                                                                    state
-                                                                        .lookahead(false, |state| { self::r#XID_CONTINUE(state) })
-                                                                })
-                                                        })
-                                                })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#falsity, step_366 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2846,73 +1100,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#name,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .sequence(|state| {
-                                                    state
-                                                        .lookahead(
-                                                            false,
-                                                            |state| {
-                                                                self::r#reserved(state)
-                                                                    .or_else(|state| {
-                                                                        state
-                                                                            .sequence(|state| {
-                                                                                self::r#item_word(state)
-                                                                                    .and_then(|state| {
-                                                                                        state
-                                                                                            .sequence(|state| {
-                                                                                                self::r#trivia(state)
-                                                                                                    .and_then(|state| {
-                                                                                                        state.repeat(|state| { self::r#trivia(state) })
-                                                                                                    })
-                                                                                            })
-                                                                                    })
-                                                                                    .and_then(|state| { self::r#identifier(state) })
-                                                                            })
-                                                                    })
-                                                            },
-                                                        )
-                                                        .and_then(|state| {
-                                                            state
-                                                                .optional(|state| {
-                                                                    state
-                                                                        .sequence(|state| {
-                                                                            state
-                                                                                .match_string("::")
-                                                                                .and_then(|state| {
-                                                                                    state.repeat(|state| { self::r#trivia(state) })
-                                                                                })
-                                                                        })
-                                                                })
-                                                        })
-                                                        .and_then(|state| { self::r#identifier(state) })
-                                                        .and_then(|state| {
-                                                            state
-                                                                .repeat(|state| {
-                                                                    state
-                                                                        .sequence(|state| {
-                                                                            state
-                                                                                .repeat(|state| { self::r#trivia(state) })
-                                                                                .and_then(|state| { state.match_string("::") })
-                                                                                .and_then(|state| {
-                                                                                    state.repeat(|state| { self::r#trivia(state) })
-                                                                                })
-                                                                                .and_then(|state| { self::r#identifier(state) })
-                                                                        })
-                                                                })
-                                                        })
-                                                })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#name, step_377 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2922,7 +1110,8 @@ impl ::pest::Parser<Rule> for Grammar {
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
                     let state = state.check_stack_limit()?;
-                    self::r#WHITESPACE(state).or_else(|state| { self::r#COMMENT(state) })
+                    self::r#WHITESPACE(state)
+                        .or_else(self::r#COMMENT as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2931,33 +1120,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#reserved,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .sequence(|state| {
-                                                    state
-                                                        .match_string("F")
-                                                        .or_else(|state| { state.match_string("X") })
-                                                        .or_else(|state| { state.match_string("U") })
-                                                        .or_else(|state| { state.match_string("T") })
-                                                        .or_else(|state| { state.match_string("not") })
-                                                        .or_else(|state| { state.match_string("and") })
-                                                        .or_else(|state| { state.match_string("or") })
-                                                        .and_then(|state| {
-                                                            state
-                                                                .lookahead(false, |state| { self::r#XID_CONTINUE(state) })
-                                                        })
-                                                })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#reserved, step_386 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -2966,68 +1129,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#number,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .sequence(|state| {
-                                                    state
-                                                        .sequence(|state| {
-                                                            self::r#digits(state)
-                                                                .and_then(|state| {
-                                                                    state
-                                                                        .optional(|state| {
-                                                                            state
-                                                                                .sequence(|state| {
-                                                                                    state
-                                                                                        .match_string(".")
-                                                                                        .and_then(|state| {
-                                                                                            state
-                                                                                                .lookahead(
-                                                                                                    false,
-                                                                                                    |state| {
-                                                                                                        state
-                                                                                                            .match_string(".")
-                                                                                                            .or_else(|state| { state.match_string("_") })
-                                                                                                            .or_else(|state| { self::r#XID_START(state) })
-                                                                                                    },
-                                                                                                )
-                                                                                        })
-                                                                                })
-                                                                        })
-                                                                })
-                                                                .and_then(|state| {
-                                                                    state.optional(|state| { self::r#fraction(state) })
-                                                                })
-                                                        })
-                                                        .or_else(|state| {
-                                                            state
-                                                                .sequence(|state| {
-                                                                    state
-                                                                        .match_string(".")
-                                                                        .and_then(|state| { self::r#fraction(state) })
-                                                                })
-                                                        })
-                                                        .and_then(|state| {
-                                                            state.optional(|state| { self::r#exponent(state) })
-                                                        })
-                                                        .and_then(|state| {
-                                                            state.optional(|state| { self::r#suffix(state) })
-                                                        })
-                                                        .and_then(|state| {
-                                                            state
-                                                                .lookahead(false, |state| { self::r#XID_CONTINUE(state) })
-                                                        })
-                                                })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#number, step_401 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -3036,17 +1138,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#text,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| { self::r#string(state) },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#text, step_402 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -3055,17 +1147,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#verbatim,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| { self::r#braces(state) },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#verbatim, step_403 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -3074,29 +1156,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#digits,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .sequence(|state| {
-                                                    self::r#ASCII_DIGIT(state)
-                                                        .and_then(|state| {
-                                                            state
-                                                                .repeat(|state| {
-                                                                    self::r#ASCII_DIGIT(state)
-                                                                        .or_else(|state| { state.match_string("_") })
-                                                                })
-                                                        })
-                                                })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#digits, step_408 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -3105,29 +1165,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#fraction,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .sequence(|state| {
-                                                    self::r#ASCII_DIGIT(state)
-                                                        .and_then(|state| {
-                                                            state
-                                                                .repeat(|state| {
-                                                                    self::r#ASCII_DIGIT(state)
-                                                                        .or_else(|state| { state.match_string("_") })
-                                                                })
-                                                        })
-                                                })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#fraction, step_408 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -3136,33 +1174,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#exponent,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .sequence(|state| {
-                                                    state
-                                                        .match_string("e")
-                                                        .or_else(|state| { state.match_string("E") })
-                                                        .and_then(|state| {
-                                                            state
-                                                                .optional(|state| {
-                                                                    state
-                                                                        .match_string("+")
-                                                                        .or_else(|state| { state.match_string("-") })
-                                                                })
-                                                        })
-                                                        .and_then(|state| { self::r#digits(state) })
-                                                })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#exponent, step_415 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -3171,36 +1183,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#suffix,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .match_string("f64")
-                                                .or_else(|state| { state.match_string("f32") })
-                                                .or_else(|state| {
-                                                    state
-                                                        .sequence(|state| {
-                                                            state
-                                                                .match_string("i")
-                                                                .or_else(|state| { state.match_string("u") })
-                                                                .and_then(|state| {
-                                                                    state
-                                                                        .match_string("8")
-                                                                        .or_else(|state| { state.match_string("16") })
-                                                                        .or_else(|state| { state.match_string("32") })
-                                                                        .or_else(|state| { state.match_string("64") })
-                                                                })
-                                                        })
-                                                })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#suffix, step_425 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -3209,30 +1192,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#identifier,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .sequence(|state| {
-                                                    state
-                                                        .optional(|state| { state.match_string("r#") })
-                                                        .and_then(|state| {
-                                                            self::r#XID_START(state)
-                                                                .or_else(|state| { state.match_string("_") })
-                                                        })
-                                                        .and_then(|state| {
-                                                            state.repeat(|state| { self::r#XID_CONTINUE(state) })
-                                                        })
-                                                })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#identifier, step_431 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -3242,8 +1202,7 @@ impl ::pest::Parser<Rule> for Grammar {
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
                     let state = state.check_stack_limit()?;
-                    self::r#XID_CONTINUE(state)
-                        .or_else(|state| { state.match_string("::") })
+                    self::r#XID_CONTINUE(state).or_else(step_164 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -3252,47 +1211,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#braces,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .sequence(|state| {
-                                                    state
-                                                        .match_string("{")
-                                                        .and_then(|state| {
-                                                            state
-                                                                .repeat(|state| {
-                                                                    self::r#braces(state)
-                                                                        .or_else(|state| { self::r#string(state) })
-                                                                        .or_else(|state| { self::r#character(state) })
-                                                                        .or_else(|state| {
-                                                                            state
-                                                                                .sequence(|state| {
-                                                                                    state
-                                                                                        .lookahead(
-                                                                                            false,
-                                                                                            |state| {
-                                                                                                state
-                                                                                                    .match_string("{")
-                                                                                                    .or_else(|state| { state.match_string("}") })
-                                                                                            },
-                                                                                        )
-                                                                                        .and_then(|state| { self::r#ANY(state) })
-                                                                                })
-                                                                        })
-                                                                })
-                                                        })
-                                                        .and_then(|state| { state.match_string("}") })
-                                                })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#braces, step_439 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -3301,43 +1220,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#string,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .sequence(|state| {
-                                                    state
-                                                        .match_string("\"")
-                                                        .and_then(|state| {
-                                                            state
-                                                                .repeat(|state| {
-                                                                    state
-                                                                        .sequence(|state| {
-                                                                            state
-                                                                                .match_string("\\")
-                                                                                .and_then(|state| { self::r#ANY(state) })
-                                                                        })
-                                                                        .or_else(|state| {
-                                                                            state
-                                                                                .sequence(|state| {
-                                                                                    state
-                                                                                        .lookahead(false, |state| { state.match_string("\"") })
-                                                                                        .and_then(|state| { self::r#ANY(state) })
-                                                                                })
-                                                                        })
-                                                                })
-                                                        })
-                                                        .and_then(|state| { state.match_string("\"") })
-                                                })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#string, step_448 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -3346,37 +1229,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state
-                        .rule(
-                            Rule::r#character,
-                            |state| {
-                                state
-                                    .atomic(
-                                        ::pest::Atomicity::Atomic,
-                                        |state| {
-                                            state
-                                                .sequence(|state| {
-                                                    state
-                                                        .match_string("'")
-                                                        .and_then(|state| {
-                                                            state
-                                                                .sequence(|state| {
-                                                                    state
-                                                                        .match_string("\\")
-                                                                        .and_then(|state| { self::r#ANY(state) })
-                                                                        .and_then(|state| {
-                                                                            let strings = ["'"];
-                                                                            state.skip_until(&strings)
-                                                                        })
-                                                                })
-                                                                .or_else(|state| { self::r#ANY(state) })
-                                                        })
-                                                        .and_then(|state| { state.match_string("'") })
-                                                })
-                                        },
-                                    )
-                            },
-                        )
+                    state.rule(Rule::r#character, step_455 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(dead_code, non_snake_case, unused_variables)]
@@ -3394,7 +1247,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::EOI, |state| state.end_of_input())
+                    state.rule(Rule::EOI, step_456 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(dead_code, non_snake_case, unused_variables)]
@@ -3431,6 +1284,2851 @@ impl ::pest::Parser<Rule> for Grammar {
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
                     state.match_char_by(::pest::unicode::XID_START)
+                }
+                fn step_0(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("\t")
+                }
+                fn step_1(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("\r")
+                }
+                fn step_2(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("\n")
+                }
+                fn step_3(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("\u{feff}")
+                }
+                fn step_4(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string(" ")
+                        .or_else(step_0 as crate::grammar::Step)
+                        .or_else(step_1 as crate::grammar::Step)
+                        .or_else(step_2 as crate::grammar::Step)
+                        .or_else(step_3 as crate::grammar::Step)
+                }
+                fn step_5(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("/")
+                }
+                fn step_6(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.lookahead(false, step_5 as crate::grammar::Step)
+                }
+                fn step_7(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("/").and_then(step_6 as crate::grammar::Step)
+                }
+                fn step_8(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_7 as crate::grammar::Step)
+                }
+                fn step_9(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("!").or_else(step_8 as crate::grammar::Step)
+                }
+                fn step_10(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.lookahead(false, step_9 as crate::grammar::Step)
+                }
+                fn step_11(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .lookahead(false, step_2 as crate::grammar::Step)
+                        .and_then(self::r#ANY as crate::grammar::Step)
+                }
+                fn step_12(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_11 as crate::grammar::Step)
+                }
+                fn step_13(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.repeat(step_12 as crate::grammar::Step)
+                }
+                fn step_14(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("//")
+                        .and_then(step_10 as crate::grammar::Step)
+                        .and_then(step_13 as crate::grammar::Step)
+                }
+                fn step_15(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_14 as crate::grammar::Step)
+                }
+                fn step_16(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#block_comment(state).or_else(step_15 as crate::grammar::Step)
+                }
+                fn step_17(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("*/")
+                }
+                fn step_18(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .lookahead(false, step_17 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#ANY as crate::grammar::Step)
+                }
+                fn step_19(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_18 as crate::grammar::Step)
+                }
+                fn step_20(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    super::hidden::skip(state).and_then(step_19 as crate::grammar::Step)
+                }
+                fn step_21(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_20 as crate::grammar::Step)
+                }
+                fn step_22(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.repeat(step_21 as crate::grammar::Step)
+                }
+                fn step_23(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .sequence(step_18 as crate::grammar::Step)
+                        .and_then(step_22 as crate::grammar::Step)
+                }
+                fn step_24(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_23 as crate::grammar::Step)
+                }
+                fn step_25(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_24 as crate::grammar::Step)
+                }
+                fn step_26(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("/*")
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_25 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_17 as crate::grammar::Step)
+                }
+                fn step_27(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#SOI(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#expression as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#EOI as crate::grammar::Step)
+                }
+                fn step_28(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    super::hidden::skip(state)
+                        .and_then(self::r#attribute as crate::grammar::Step)
+                }
+                fn step_29(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_28 as crate::grammar::Step)
+                }
+                fn step_30(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.repeat(step_29 as crate::grammar::Step)
+                }
+                fn step_31(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#attribute(state).and_then(step_30 as crate::grammar::Step)
+                }
+                fn step_32(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_31 as crate::grammar::Step)
+                }
+                fn step_33(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_32 as crate::grammar::Step)
+                }
+                fn step_34(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(self::r#header as crate::grammar::Step)
+                }
+                fn step_35(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#SOI(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_33 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_34 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#expression as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#EOI as crate::grammar::Step)
+                }
+                fn step_36(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    super::hidden::skip(state)
+                        .and_then(self::r#file_doc as crate::grammar::Step)
+                }
+                fn step_37(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_36 as crate::grammar::Step)
+                }
+                fn step_38(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.repeat(step_37 as crate::grammar::Step)
+                }
+                fn step_39(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#file_doc(state).and_then(step_38 as crate::grammar::Step)
+                }
+                fn step_40(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_39 as crate::grammar::Step)
+                }
+                fn step_41(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_40 as crate::grammar::Step)
+                }
+                fn step_42(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#SOI(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_41 as crate::grammar::Step)
+                }
+                fn step_43(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#item(state).or_else(self::r#EOI as crate::grammar::Step)
+                }
+                fn step_44(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#SOI(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_43 as crate::grammar::Step)
+                }
+                fn step_45(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#doc(state).or_else(self::r#attribute as crate::grammar::Step)
+                }
+                fn step_46(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    super::hidden::skip(state).and_then(step_45 as crate::grammar::Step)
+                }
+                fn step_47(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_46 as crate::grammar::Step)
+                }
+                fn step_48(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.repeat(step_47 as crate::grammar::Step)
+                }
+                fn step_49(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#doc(state)
+                        .or_else(self::r#attribute as crate::grammar::Step)
+                        .and_then(step_48 as crate::grammar::Step)
+                }
+                fn step_50(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_49 as crate::grammar::Step)
+                }
+                fn step_51(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_50 as crate::grammar::Step)
+                }
+                fn step_52(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#word_predicate(state)
+                        .or_else(self::r#word_task as crate::grammar::Step)
+                }
+                fn step_53(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#SOI(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_51 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_52 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#identifier as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#parameters as crate::grammar::Step)
+                }
+                fn step_54(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#state(state)
+                        .or_else(self::r#record as crate::grammar::Step)
+                        .or_else(self::r#enumeration as crate::grammar::Step)
+                        .or_else(self::r#constant as crate::grammar::Step)
+                        .or_else(self::r#predicate as crate::grammar::Step)
+                        .or_else(self::r#task as crate::grammar::Step)
+                }
+                fn step_55(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string(";")
+                }
+                fn step_56(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_55 as crate::grammar::Step)
+                }
+                fn step_57(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#boundary(state).or_else(self::r#EOI as crate::grammar::Step)
+                }
+                fn step_58(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.lookahead(true, step_57 as crate::grammar::Step)
+                }
+                fn step_59(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .sequence(step_50 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_54 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_56 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_58 as crate::grammar::Step)
+                }
+                fn step_60(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_59 as crate::grammar::Step)
+                }
+                fn step_61(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#item_word(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#identifier as crate::grammar::Step)
+                }
+                fn step_62(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_61 as crate::grammar::Step)
+                }
+                fn step_63(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("[")
+                }
+                fn step_64(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string(",")
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#setting as crate::grammar::Step)
+                }
+                fn step_65(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_64 as crate::grammar::Step)
+                }
+                fn step_66(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    super::hidden::skip(state).and_then(step_65 as crate::grammar::Step)
+                }
+                fn step_67(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_66 as crate::grammar::Step)
+                }
+                fn step_68(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.repeat(step_67 as crate::grammar::Step)
+                }
+                fn step_69(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .sequence(step_64 as crate::grammar::Step)
+                        .and_then(step_68 as crate::grammar::Step)
+                }
+                fn step_70(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_69 as crate::grammar::Step)
+                }
+                fn step_71(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_70 as crate::grammar::Step)
+                }
+                fn step_72(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string(",")
+                }
+                fn step_73(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_72 as crate::grammar::Step)
+                }
+                fn step_74(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#setting(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_71 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_73 as crate::grammar::Step)
+                }
+                fn step_75(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_74 as crate::grammar::Step)
+                }
+                fn step_76(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_75 as crate::grammar::Step)
+                }
+                fn step_77(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string(")")
+                }
+                fn step_78(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("(")
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_76 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_77 as crate::grammar::Step)
+                }
+                fn step_79(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_78 as crate::grammar::Step)
+                }
+                fn step_80(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_79 as crate::grammar::Step)
+                }
+                fn step_81(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("]")
+                }
+                fn step_82(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("#")
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_63 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#identifier as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_80 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_81 as crate::grammar::Step)
+                }
+                fn step_83(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_82 as crate::grammar::Step)
+                }
+                fn step_84(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("=")
+                }
+                fn step_85(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#identifier(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_84 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#digits as crate::grammar::Step)
+                }
+                fn step_86(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_85 as crate::grammar::Step)
+                }
+                fn step_87(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    {
+                        let strings = ["\n"];
+                        state.skip_until(&strings)
+                    }
+                }
+                fn step_88(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("///")
+                        .and_then(step_6 as crate::grammar::Step)
+                        .and_then(step_87 as crate::grammar::Step)
+                }
+                fn step_89(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_88 as crate::grammar::Step)
+                }
+                fn step_90(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_89 as crate::grammar::Step,
+                        )
+                }
+                fn step_91(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("//!").and_then(step_87 as crate::grammar::Step)
+                }
+                fn step_92(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_91 as crate::grammar::Step)
+                }
+                fn step_93(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_92 as crate::grammar::Step,
+                        )
+                }
+                fn step_94(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.lookahead(true, step_55 as crate::grammar::Step)
+                }
+                fn step_95(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string(":")
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#host_type as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_94 as crate::grammar::Step)
+                }
+                fn step_96(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_95 as crate::grammar::Step)
+                }
+                fn step_97(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#fields(state).or_else(step_96 as crate::grammar::Step)
+                }
+                fn step_98(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#word_state(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#identifier as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_97 as crate::grammar::Step)
+                }
+                fn step_99(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_98 as crate::grammar::Step)
+                }
+                fn step_100(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#word_struct(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#identifier as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#fields as crate::grammar::Step)
+                }
+                fn step_101(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_100 as crate::grammar::Step)
+                }
+                fn step_102(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("{")
+                }
+                fn step_103(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string(",")
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#identifier as crate::grammar::Step)
+                }
+                fn step_104(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_103 as crate::grammar::Step)
+                }
+                fn step_105(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    super::hidden::skip(state).and_then(step_104 as crate::grammar::Step)
+                }
+                fn step_106(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_105 as crate::grammar::Step)
+                }
+                fn step_107(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.repeat(step_106 as crate::grammar::Step)
+                }
+                fn step_108(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .sequence(step_103 as crate::grammar::Step)
+                        .and_then(step_107 as crate::grammar::Step)
+                }
+                fn step_109(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_108 as crate::grammar::Step)
+                }
+                fn step_110(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_109 as crate::grammar::Step)
+                }
+                fn step_111(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#identifier(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_110 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_73 as crate::grammar::Step)
+                }
+                fn step_112(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_111 as crate::grammar::Step)
+                }
+                fn step_113(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_112 as crate::grammar::Step)
+                }
+                fn step_114(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("}")
+                }
+                fn step_115(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#word_enum(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#identifier as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_102 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_113 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_114 as crate::grammar::Step)
+                }
+                fn step_116(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_115 as crate::grammar::Step)
+                }
+                fn step_117(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#word_in(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#unit as crate::grammar::Step)
+                }
+                fn step_118(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_117 as crate::grammar::Step)
+                }
+                fn step_119(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_118 as crate::grammar::Step)
+                }
+                fn step_120(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#word_const(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#identifier as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_119 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_84 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#expression as crate::grammar::Step)
+                }
+                fn step_121(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_120 as crate::grammar::Step)
+                }
+                fn step_122(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(self::r#parameters as crate::grammar::Step)
+                }
+                fn step_123(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#word_predicate(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#identifier as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_122 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_84 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#expression as crate::grammar::Step)
+                }
+                fn step_124(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_123 as crate::grammar::Step)
+                }
+                fn step_125(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#word_task(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#identifier as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_122 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_84 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#expression as crate::grammar::Step)
+                }
+                fn step_126(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_125 as crate::grammar::Step)
+                }
+                fn step_127(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string(",")
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#field_declaration as crate::grammar::Step)
+                }
+                fn step_128(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_127 as crate::grammar::Step)
+                }
+                fn step_129(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    super::hidden::skip(state).and_then(step_128 as crate::grammar::Step)
+                }
+                fn step_130(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_129 as crate::grammar::Step)
+                }
+                fn step_131(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.repeat(step_130 as crate::grammar::Step)
+                }
+                fn step_132(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .sequence(step_127 as crate::grammar::Step)
+                        .and_then(step_131 as crate::grammar::Step)
+                }
+                fn step_133(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_132 as crate::grammar::Step)
+                }
+                fn step_134(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_133 as crate::grammar::Step)
+                }
+                fn step_135(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#field_declaration(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_134 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_73 as crate::grammar::Step)
+                }
+                fn step_136(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_135 as crate::grammar::Step)
+                }
+                fn step_137(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_136 as crate::grammar::Step)
+                }
+                fn step_138(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("{")
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_137 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_114 as crate::grammar::Step)
+                }
+                fn step_139(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_138 as crate::grammar::Step)
+                }
+                fn step_140(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("(")
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_137 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_77 as crate::grammar::Step)
+                }
+                fn step_141(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_140 as crate::grammar::Step)
+                }
+                fn step_142(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    super::hidden::skip(state)
+                        .and_then(self::r#doc as crate::grammar::Step)
+                }
+                fn step_143(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_142 as crate::grammar::Step)
+                }
+                fn step_144(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.repeat(step_143 as crate::grammar::Step)
+                }
+                fn step_145(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#doc(state).and_then(step_144 as crate::grammar::Step)
+                }
+                fn step_146(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_145 as crate::grammar::Step)
+                }
+                fn step_147(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string(":")
+                }
+                fn step_148(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .sequence(step_146 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#identifier as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_147 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#field_type as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_119 as crate::grammar::Step)
+                }
+                fn step_149(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_148 as crate::grammar::Step)
+                }
+                fn step_150(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    super::hidden::skip(state)
+                        .and_then(self::r#array_open as crate::grammar::Step)
+                }
+                fn step_151(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_150 as crate::grammar::Step)
+                }
+                fn step_152(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.repeat(step_151 as crate::grammar::Step)
+                }
+                fn step_153(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#array_open(state).and_then(step_152 as crate::grammar::Step)
+                }
+                fn step_154(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_153 as crate::grammar::Step)
+                }
+                fn step_155(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(self::r#optional as crate::grammar::Step)
+                }
+                fn step_156(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    super::hidden::skip(state)
+                        .and_then(self::r#array_close as crate::grammar::Step)
+                }
+                fn step_157(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_156 as crate::grammar::Step)
+                }
+                fn step_158(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.repeat(step_157 as crate::grammar::Step)
+                }
+                fn step_159(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#array_close(state).and_then(step_158 as crate::grammar::Step)
+                }
+                fn step_160(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_159 as crate::grammar::Step)
+                }
+                fn step_161(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_160 as crate::grammar::Step)
+                }
+                fn step_162(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .sequence(step_154 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#path as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_155 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_161 as crate::grammar::Step)
+                }
+                fn step_163(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_162 as crate::grammar::Step)
+                }
+                fn step_164(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("::")
+                }
+                fn step_165(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.repeat(self::r#trivia as crate::grammar::Step)
+                }
+                fn step_166(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .repeat(self::r#trivia as crate::grammar::Step)
+                        .and_then(step_164 as crate::grammar::Step)
+                        .and_then(step_165 as crate::grammar::Step)
+                        .and_then(self::r#identifier as crate::grammar::Step)
+                }
+                fn step_167(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_166 as crate::grammar::Step)
+                }
+                fn step_168(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.repeat(step_167 as crate::grammar::Step)
+                }
+                fn step_169(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#identifier(state).and_then(step_168 as crate::grammar::Step)
+                }
+                fn step_170(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_169 as crate::grammar::Step)
+                }
+                fn step_171(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_170 as crate::grammar::Step,
+                        )
+                }
+                fn step_172(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("?")
+                }
+                fn step_173(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#digits(state)
+                        .or_else(self::r#identifier as crate::grammar::Step)
+                }
+                fn step_174(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string(";")
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_173 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_81 as crate::grammar::Step)
+                }
+                fn step_175(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_174 as crate::grammar::Step)
+                }
+                fn step_176(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#times(state)
+                        .or_else(self::r#divide as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#unit_power as crate::grammar::Step)
+                }
+                fn step_177(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_176 as crate::grammar::Step)
+                }
+                fn step_178(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    super::hidden::skip(state).and_then(step_177 as crate::grammar::Step)
+                }
+                fn step_179(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_178 as crate::grammar::Step)
+                }
+                fn step_180(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.repeat(step_179 as crate::grammar::Step)
+                }
+                fn step_181(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .sequence(step_176 as crate::grammar::Step)
+                        .and_then(step_180 as crate::grammar::Step)
+                }
+                fn step_182(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_181 as crate::grammar::Step)
+                }
+                fn step_183(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_182 as crate::grammar::Step)
+                }
+                fn step_184(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#unit_one(state)
+                        .or_else(self::r#unit_power as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_183 as crate::grammar::Step)
+                }
+                fn step_185(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_184 as crate::grammar::Step)
+                }
+                fn step_186(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.lookahead(false, self::r#XID_CONTINUE as crate::grammar::Step)
+                }
+                fn step_187(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("1").and_then(step_186 as crate::grammar::Step)
+                }
+                fn step_188(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_187 as crate::grammar::Step)
+                }
+                fn step_189(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_188 as crate::grammar::Step,
+                        )
+                }
+                fn step_190(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(self::r#minus as crate::grammar::Step)
+                }
+                fn step_191(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("^")
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_190 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#digits as crate::grammar::Step)
+                }
+                fn step_192(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_191 as crate::grammar::Step)
+                }
+                fn step_193(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_192 as crate::grammar::Step)
+                }
+                fn step_194(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#identifier(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_193 as crate::grammar::Step)
+                }
+                fn step_195(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_194 as crate::grammar::Step)
+                }
+                fn step_196(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("|")
+                }
+                fn step_197(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("|")
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#identifier as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_147 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#header_type as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_196 as crate::grammar::Step)
+                }
+                fn step_198(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_197 as crate::grammar::Step)
+                }
+                fn step_199(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .lookahead(false, step_196 as crate::grammar::Step)
+                        .and_then(self::r#ANY as crate::grammar::Step)
+                }
+                fn step_200(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_199 as crate::grammar::Step)
+                }
+                fn step_201(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.repeat(step_200 as crate::grammar::Step)
+                }
+                fn step_202(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .sequence(step_199 as crate::grammar::Step)
+                        .and_then(step_201 as crate::grammar::Step)
+                }
+                fn step_203(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_202 as crate::grammar::Step)
+                }
+                fn step_204(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_203 as crate::grammar::Step,
+                        )
+                }
+                fn step_205(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string(";")
+                        .or_else(step_84 as crate::grammar::Step)
+                        .or_else(step_102 as crate::grammar::Step)
+                        .or_else(step_2 as crate::grammar::Step)
+                }
+                fn step_206(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .lookahead(false, step_205 as crate::grammar::Step)
+                        .and_then(self::r#ANY as crate::grammar::Step)
+                }
+                fn step_207(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_206 as crate::grammar::Step)
+                }
+                fn step_208(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.repeat(step_207 as crate::grammar::Step)
+                }
+                fn step_209(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .sequence(step_206 as crate::grammar::Step)
+                        .and_then(step_208 as crate::grammar::Step)
+                }
+                fn step_210(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_209 as crate::grammar::Step)
+                }
+                fn step_211(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_210 as crate::grammar::Step,
+                        )
+                }
+                fn step_212(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("state")
+                        .and_then(step_186 as crate::grammar::Step)
+                }
+                fn step_213(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_212 as crate::grammar::Step)
+                }
+                fn step_214(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_213 as crate::grammar::Step,
+                        )
+                }
+                fn step_215(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("struct")
+                        .and_then(step_186 as crate::grammar::Step)
+                }
+                fn step_216(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_215 as crate::grammar::Step)
+                }
+                fn step_217(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_216 as crate::grammar::Step,
+                        )
+                }
+                fn step_218(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("enum").and_then(step_186 as crate::grammar::Step)
+                }
+                fn step_219(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_218 as crate::grammar::Step)
+                }
+                fn step_220(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_219 as crate::grammar::Step,
+                        )
+                }
+                fn step_221(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("const")
+                        .and_then(step_186 as crate::grammar::Step)
+                }
+                fn step_222(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_221 as crate::grammar::Step)
+                }
+                fn step_223(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_222 as crate::grammar::Step,
+                        )
+                }
+                fn step_224(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("predicate")
+                        .and_then(step_186 as crate::grammar::Step)
+                }
+                fn step_225(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_224 as crate::grammar::Step)
+                }
+                fn step_226(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_225 as crate::grammar::Step,
+                        )
+                }
+                fn step_227(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("task").and_then(step_186 as crate::grammar::Step)
+                }
+                fn step_228(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_227 as crate::grammar::Step)
+                }
+                fn step_229(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_228 as crate::grammar::Step,
+                        )
+                }
+                fn step_230(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#infix(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#operand as crate::grammar::Step)
+                }
+                fn step_231(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_230 as crate::grammar::Step)
+                }
+                fn step_232(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    super::hidden::skip(state).and_then(step_231 as crate::grammar::Step)
+                }
+                fn step_233(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_232 as crate::grammar::Step)
+                }
+                fn step_234(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.repeat(step_233 as crate::grammar::Step)
+                }
+                fn step_235(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .sequence(step_230 as crate::grammar::Step)
+                        .and_then(step_234 as crate::grammar::Step)
+                }
+                fn step_236(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_235 as crate::grammar::Step)
+                }
+                fn step_237(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_236 as crate::grammar::Step)
+                }
+                fn step_238(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#operand(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_237 as crate::grammar::Step)
+                }
+                fn step_239(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_238 as crate::grammar::Step)
+                }
+                fn step_240(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#prefix(state).or_else(self::r#open as crate::grammar::Step)
+                }
+                fn step_241(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    super::hidden::skip(state).and_then(step_240 as crate::grammar::Step)
+                }
+                fn step_242(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_241 as crate::grammar::Step)
+                }
+                fn step_243(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.repeat(step_242 as crate::grammar::Step)
+                }
+                fn step_244(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#prefix(state)
+                        .or_else(self::r#open as crate::grammar::Step)
+                        .and_then(step_243 as crate::grammar::Step)
+                }
+                fn step_245(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_244 as crate::grammar::Step)
+                }
+                fn step_246(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#field(state)
+                        .or_else(self::r#empty_call as crate::grammar::Step)
+                        .or_else(self::r#close as crate::grammar::Step)
+                }
+                fn step_247(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    super::hidden::skip(state).and_then(step_246 as crate::grammar::Step)
+                }
+                fn step_248(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_247 as crate::grammar::Step)
+                }
+                fn step_249(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.repeat(step_248 as crate::grammar::Step)
+                }
+                fn step_250(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#field(state)
+                        .or_else(self::r#empty_call as crate::grammar::Step)
+                        .or_else(self::r#close as crate::grammar::Step)
+                        .and_then(step_249 as crate::grammar::Step)
+                }
+                fn step_251(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_250 as crate::grammar::Step)
+                }
+                fn step_252(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_251 as crate::grammar::Step)
+                }
+                fn step_253(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .sequence(step_245 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#primary as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_252 as crate::grammar::Step)
+                }
+                fn step_254(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.lookahead(false, step_84 as crate::grammar::Step)
+                }
+                fn step_255(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("!").and_then(step_254 as crate::grammar::Step)
+                }
+                fn step_256(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("¬")
+                }
+                fn step_257(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("not").and_then(step_186 as crate::grammar::Step)
+                }
+                fn step_258(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_257 as crate::grammar::Step)
+                }
+                fn step_259(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .sequence(step_255 as crate::grammar::Step)
+                        .or_else(step_256 as crate::grammar::Step)
+                        .or_else(step_258 as crate::grammar::Step)
+                }
+                fn step_260(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_259 as crate::grammar::Step,
+                        )
+                }
+                fn step_261(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.lookahead(false, self::r#word_rest as crate::grammar::Step)
+                }
+                fn step_262(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("F").and_then(step_261 as crate::grammar::Step)
+                }
+                fn step_263(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("◇")
+                }
+                fn step_264(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("<>")
+                }
+                fn step_265(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .sequence(step_262 as crate::grammar::Step)
+                        .or_else(step_263 as crate::grammar::Step)
+                        .or_else(step_264 as crate::grammar::Step)
+                }
+                fn step_266(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_265 as crate::grammar::Step,
+                        )
+                }
+                fn step_267(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("X").and_then(step_261 as crate::grammar::Step)
+                }
+                fn step_268(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("○")
+                }
+                fn step_269(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .sequence(step_267 as crate::grammar::Step)
+                        .or_else(step_268 as crate::grammar::Step)
+                }
+                fn step_270(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_269 as crate::grammar::Step,
+                        )
+                }
+                fn step_271(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string(">")
+                }
+                fn step_272(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.lookahead(false, step_271 as crate::grammar::Step)
+                }
+                fn step_273(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("-").and_then(step_272 as crate::grammar::Step)
+                }
+                fn step_274(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("−")
+                }
+                fn step_275(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .sequence(step_273 as crate::grammar::Step)
+                        .or_else(step_274 as crate::grammar::Step)
+                }
+                fn step_276(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_275 as crate::grammar::Step,
+                        )
+                }
+                fn step_277(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#word_all(state)
+                        .or_else(self::r#word_some as crate::grammar::Step)
+                }
+                fn step_278(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#word_for(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_277 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#identifier as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#word_in as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#set as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_147 as crate::grammar::Step)
+                }
+                fn step_279(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_278 as crate::grammar::Step)
+                }
+                fn step_280(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string(",")
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#element as crate::grammar::Step)
+                }
+                fn step_281(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_280 as crate::grammar::Step)
+                }
+                fn step_282(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    super::hidden::skip(state).and_then(step_281 as crate::grammar::Step)
+                }
+                fn step_283(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_282 as crate::grammar::Step)
+                }
+                fn step_284(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.repeat(step_283 as crate::grammar::Step)
+                }
+                fn step_285(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .sequence(step_280 as crate::grammar::Step)
+                        .and_then(step_284 as crate::grammar::Step)
+                }
+                fn step_286(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_285 as crate::grammar::Step)
+                }
+                fn step_287(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_286 as crate::grammar::Step)
+                }
+                fn step_288(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#element(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_287 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_73 as crate::grammar::Step)
+                }
+                fn step_289(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_288 as crate::grammar::Step)
+                }
+                fn step_290(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_289 as crate::grammar::Step)
+                }
+                fn step_291(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("{")
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_290 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_114 as crate::grammar::Step)
+                }
+                fn step_292(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .sequence(step_291 as crate::grammar::Step)
+                        .or_else(self::r#range as crate::grammar::Step)
+                        .or_else(self::r#identifier as crate::grammar::Step)
+                }
+                fn step_293(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#digits(state).or_else(self::r#path as crate::grammar::Step)
+                }
+                fn step_294(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("..")
+                }
+                fn step_295(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(self::r#inclusive as crate::grammar::Step)
+                }
+                fn step_296(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#end(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_294 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_295 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#end as crate::grammar::Step)
+                }
+                fn step_297(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_296 as crate::grammar::Step)
+                }
+                fn step_298(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("for").and_then(step_186 as crate::grammar::Step)
+                }
+                fn step_299(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_298 as crate::grammar::Step)
+                }
+                fn step_300(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_299 as crate::grammar::Step,
+                        )
+                }
+                fn step_301(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("all").and_then(step_186 as crate::grammar::Step)
+                }
+                fn step_302(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_301 as crate::grammar::Step)
+                }
+                fn step_303(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_302 as crate::grammar::Step,
+                        )
+                }
+                fn step_304(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("some").and_then(step_186 as crate::grammar::Step)
+                }
+                fn step_305(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_304 as crate::grammar::Step)
+                }
+                fn step_306(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_305 as crate::grammar::Step,
+                        )
+                }
+                fn step_307(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("in").and_then(step_186 as crate::grammar::Step)
+                }
+                fn step_308(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_307 as crate::grammar::Step)
+                }
+                fn step_309(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_308 as crate::grammar::Step,
+                        )
+                }
+                fn step_310(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("⇒")
+                }
+                fn step_311(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("->")
+                }
+                fn step_312(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("=>")
+                        .or_else(step_310 as crate::grammar::Step)
+                        .or_else(step_311 as crate::grammar::Step)
+                }
+                fn step_313(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("<->")
+                }
+                fn step_314(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("⇔")
+                }
+                fn step_315(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("<=>")
+                        .or_else(step_313 as crate::grammar::Step)
+                        .or_else(step_314 as crate::grammar::Step)
+                }
+                fn step_316(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("∨")
+                }
+                fn step_317(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("or").and_then(step_186 as crate::grammar::Step)
+                }
+                fn step_318(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_317 as crate::grammar::Step)
+                }
+                fn step_319(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("||")
+                        .or_else(step_316 as crate::grammar::Step)
+                        .or_else(step_196 as crate::grammar::Step)
+                        .or_else(step_318 as crate::grammar::Step)
+                }
+                fn step_320(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_319 as crate::grammar::Step,
+                        )
+                }
+                fn step_321(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("∧")
+                }
+                fn step_322(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("&")
+                }
+                fn step_323(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("and").and_then(step_186 as crate::grammar::Step)
+                }
+                fn step_324(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_323 as crate::grammar::Step)
+                }
+                fn step_325(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("&&")
+                        .or_else(step_321 as crate::grammar::Step)
+                        .or_else(step_322 as crate::grammar::Step)
+                        .or_else(step_324 as crate::grammar::Step)
+                }
+                fn step_326(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_325 as crate::grammar::Step,
+                        )
+                }
+                fn step_327(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("U").and_then(step_186 as crate::grammar::Step)
+                }
+                fn step_328(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_327 as crate::grammar::Step)
+                }
+                fn step_329(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_328 as crate::grammar::Step,
+                        )
+                }
+                fn step_330(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("T").and_then(step_186 as crate::grammar::Step)
+                }
+                fn step_331(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_330 as crate::grammar::Step)
+                }
+                fn step_332(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_331 as crate::grammar::Step,
+                        )
+                }
+                fn step_333(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("==")
+                }
+                fn step_334(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("≠")
+                }
+                fn step_335(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("!=").or_else(step_334 as crate::grammar::Step)
+                }
+                fn step_336(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("≤")
+                }
+                fn step_337(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("<=").or_else(step_336 as crate::grammar::Step)
+                }
+                fn step_338(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("≥")
+                }
+                fn step_339(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string(">=").or_else(step_338 as crate::grammar::Step)
+                }
+                fn step_340(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("<")
+                }
+                fn step_341(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("+")
+                }
+                fn step_342(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("×")
+                }
+                fn step_343(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("*").or_else(step_342 as crate::grammar::Step)
+                }
+                fn step_344(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("÷")
+                }
+                fn step_345(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("/").or_else(step_344 as crate::grammar::Step)
+                }
+                fn step_346(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("(")
+                }
+                fn step_347(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string(")").or_else(step_81 as crate::grammar::Step)
+                }
+                fn step_348(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("(")
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_77 as crate::grammar::Step)
+                }
+                fn step_349(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_348 as crate::grammar::Step)
+                }
+                fn step_350(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#identifier(state)
+                        .or_else(self::r#position as crate::grammar::Step)
+                }
+                fn step_351(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string(".")
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_350 as crate::grammar::Step)
+                }
+                fn step_352(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_351 as crate::grammar::Step)
+                }
+                fn step_353(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string(".")
+                        .and_then(self::r#digits as crate::grammar::Step)
+                }
+                fn step_354(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_353 as crate::grammar::Step)
+                }
+                fn step_355(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_354 as crate::grammar::Step)
+                }
+                fn step_356(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#digits(state)
+                        .and_then(step_355 as crate::grammar::Step)
+                        .and_then(step_186 as crate::grammar::Step)
+                }
+                fn step_357(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_356 as crate::grammar::Step)
+                }
+                fn step_358(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_357 as crate::grammar::Step,
+                        )
+                }
+                fn step_359(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("true").and_then(step_186 as crate::grammar::Step)
+                }
+                fn step_360(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_359 as crate::grammar::Step)
+                }
+                fn step_361(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("⊤").or_else(step_360 as crate::grammar::Step)
+                }
+                fn step_362(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_361 as crate::grammar::Step,
+                        )
+                }
+                fn step_363(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("false")
+                        .and_then(step_186 as crate::grammar::Step)
+                }
+                fn step_364(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_363 as crate::grammar::Step)
+                }
+                fn step_365(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("⊥").or_else(step_364 as crate::grammar::Step)
+                }
+                fn step_366(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_365 as crate::grammar::Step,
+                        )
+                }
+                fn step_367(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#trivia(state).and_then(step_165 as crate::grammar::Step)
+                }
+                fn step_368(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_367 as crate::grammar::Step)
+                }
+                fn step_369(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#item_word(state)
+                        .and_then(step_368 as crate::grammar::Step)
+                        .and_then(self::r#identifier as crate::grammar::Step)
+                }
+                fn step_370(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_369 as crate::grammar::Step)
+                }
+                fn step_371(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#reserved(state).or_else(step_370 as crate::grammar::Step)
+                }
+                fn step_372(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("::").and_then(step_165 as crate::grammar::Step)
+                }
+                fn step_373(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_372 as crate::grammar::Step)
+                }
+                fn step_374(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_373 as crate::grammar::Step)
+                }
+                fn step_375(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .lookahead(false, step_371 as crate::grammar::Step)
+                        .and_then(step_374 as crate::grammar::Step)
+                        .and_then(self::r#identifier as crate::grammar::Step)
+                        .and_then(step_168 as crate::grammar::Step)
+                }
+                fn step_376(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_375 as crate::grammar::Step)
+                }
+                fn step_377(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_376 as crate::grammar::Step,
+                        )
+                }
+                fn step_378(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("X")
+                }
+                fn step_379(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("U")
+                }
+                fn step_380(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("T")
+                }
+                fn step_381(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("not")
+                }
+                fn step_382(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("and")
+                }
+                fn step_383(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("or")
+                }
+                fn step_384(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("F")
+                        .or_else(step_378 as crate::grammar::Step)
+                        .or_else(step_379 as crate::grammar::Step)
+                        .or_else(step_380 as crate::grammar::Step)
+                        .or_else(step_381 as crate::grammar::Step)
+                        .or_else(step_382 as crate::grammar::Step)
+                        .or_else(step_383 as crate::grammar::Step)
+                        .and_then(step_186 as crate::grammar::Step)
+                }
+                fn step_385(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_384 as crate::grammar::Step)
+                }
+                fn step_386(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_385 as crate::grammar::Step,
+                        )
+                }
+                fn step_387(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("_")
+                }
+                fn step_388(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string(".")
+                        .or_else(step_387 as crate::grammar::Step)
+                        .or_else(self::r#XID_START as crate::grammar::Step)
+                }
+                fn step_389(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.lookahead(false, step_388 as crate::grammar::Step)
+                }
+                fn step_390(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string(".").and_then(step_389 as crate::grammar::Step)
+                }
+                fn step_391(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_390 as crate::grammar::Step)
+                }
+                fn step_392(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_391 as crate::grammar::Step)
+                }
+                fn step_393(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(self::r#fraction as crate::grammar::Step)
+                }
+                fn step_394(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#digits(state)
+                        .and_then(step_392 as crate::grammar::Step)
+                        .and_then(step_393 as crate::grammar::Step)
+                }
+                fn step_395(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string(".")
+                        .and_then(self::r#fraction as crate::grammar::Step)
+                }
+                fn step_396(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_395 as crate::grammar::Step)
+                }
+                fn step_397(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(self::r#exponent as crate::grammar::Step)
+                }
+                fn step_398(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(self::r#suffix as crate::grammar::Step)
+                }
+                fn step_399(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .sequence(step_394 as crate::grammar::Step)
+                        .or_else(step_396 as crate::grammar::Step)
+                        .and_then(step_397 as crate::grammar::Step)
+                        .and_then(step_398 as crate::grammar::Step)
+                        .and_then(step_186 as crate::grammar::Step)
+                }
+                fn step_400(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_399 as crate::grammar::Step)
+                }
+                fn step_401(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_400 as crate::grammar::Step,
+                        )
+                }
+                fn step_402(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            self::r#string as crate::grammar::Step,
+                        )
+                }
+                fn step_403(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            self::r#braces as crate::grammar::Step,
+                        )
+                }
+                fn step_404(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#ASCII_DIGIT(state).or_else(step_387 as crate::grammar::Step)
+                }
+                fn step_405(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.repeat(step_404 as crate::grammar::Step)
+                }
+                fn step_406(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#ASCII_DIGIT(state).and_then(step_405 as crate::grammar::Step)
+                }
+                fn step_407(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_406 as crate::grammar::Step)
+                }
+                fn step_408(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_407 as crate::grammar::Step,
+                        )
+                }
+                fn step_409(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("E")
+                }
+                fn step_410(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("-")
+                }
+                fn step_411(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("+").or_else(step_410 as crate::grammar::Step)
+                }
+                fn step_412(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_411 as crate::grammar::Step)
+                }
+                fn step_413(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("e")
+                        .or_else(step_409 as crate::grammar::Step)
+                        .and_then(step_412 as crate::grammar::Step)
+                        .and_then(self::r#digits as crate::grammar::Step)
+                }
+                fn step_414(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_413 as crate::grammar::Step)
+                }
+                fn step_415(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_414 as crate::grammar::Step,
+                        )
+                }
+                fn step_416(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("f32")
+                }
+                fn step_417(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("u")
+                }
+                fn step_418(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("16")
+                }
+                fn step_419(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("32")
+                }
+                fn step_420(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("64")
+                }
+                fn step_421(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("8")
+                        .or_else(step_418 as crate::grammar::Step)
+                        .or_else(step_419 as crate::grammar::Step)
+                        .or_else(step_420 as crate::grammar::Step)
+                }
+                fn step_422(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("i")
+                        .or_else(step_417 as crate::grammar::Step)
+                        .and_then(step_421 as crate::grammar::Step)
+                }
+                fn step_423(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_422 as crate::grammar::Step)
+                }
+                fn step_424(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("f64")
+                        .or_else(step_416 as crate::grammar::Step)
+                        .or_else(step_423 as crate::grammar::Step)
+                }
+                fn step_425(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_424 as crate::grammar::Step,
+                        )
+                }
+                fn step_426(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("r#")
+                }
+                fn step_427(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#XID_START(state).or_else(step_387 as crate::grammar::Step)
+                }
+                fn step_428(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.repeat(self::r#XID_CONTINUE as crate::grammar::Step)
+                }
+                fn step_429(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .optional(step_426 as crate::grammar::Step)
+                        .and_then(step_427 as crate::grammar::Step)
+                        .and_then(step_428 as crate::grammar::Step)
+                }
+                fn step_430(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_429 as crate::grammar::Step)
+                }
+                fn step_431(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_430 as crate::grammar::Step,
+                        )
+                }
+                fn step_432(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("{").or_else(step_114 as crate::grammar::Step)
+                }
+                fn step_433(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .lookahead(false, step_432 as crate::grammar::Step)
+                        .and_then(self::r#ANY as crate::grammar::Step)
+                }
+                fn step_434(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_433 as crate::grammar::Step)
+                }
+                fn step_435(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#braces(state)
+                        .or_else(self::r#string as crate::grammar::Step)
+                        .or_else(self::r#character as crate::grammar::Step)
+                        .or_else(step_434 as crate::grammar::Step)
+                }
+                fn step_436(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.repeat(step_435 as crate::grammar::Step)
+                }
+                fn step_437(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("{")
+                        .and_then(step_436 as crate::grammar::Step)
+                        .and_then(step_114 as crate::grammar::Step)
+                }
+                fn step_438(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_437 as crate::grammar::Step)
+                }
+                fn step_439(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_438 as crate::grammar::Step,
+                        )
+                }
+                fn step_440(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("\\")
+                        .and_then(self::r#ANY as crate::grammar::Step)
+                }
+                fn step_441(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("\"")
+                }
+                fn step_442(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .lookahead(false, step_441 as crate::grammar::Step)
+                        .and_then(self::r#ANY as crate::grammar::Step)
+                }
+                fn step_443(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_442 as crate::grammar::Step)
+                }
+                fn step_444(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .sequence(step_440 as crate::grammar::Step)
+                        .or_else(step_443 as crate::grammar::Step)
+                }
+                fn step_445(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.repeat(step_444 as crate::grammar::Step)
+                }
+                fn step_446(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("\"")
+                        .and_then(step_445 as crate::grammar::Step)
+                        .and_then(step_441 as crate::grammar::Step)
+                }
+                fn step_447(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_446 as crate::grammar::Step)
+                }
+                fn step_448(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_447 as crate::grammar::Step,
+                        )
+                }
+                fn step_449(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    {
+                        let strings = ["'"];
+                        state.skip_until(&strings)
+                    }
+                }
+                fn step_450(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("\\")
+                        .and_then(self::r#ANY as crate::grammar::Step)
+                        .and_then(step_449 as crate::grammar::Step)
+                }
+                fn step_451(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .sequence(step_450 as crate::grammar::Step)
+                        .or_else(self::r#ANY as crate::grammar::Step)
+                }
+                fn step_452(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("'")
+                }
+                fn step_453(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("'")
+                        .and_then(step_451 as crate::grammar::Step)
+                        .and_then(step_452 as crate::grammar::Step)
+                }
+                fn step_454(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_453 as crate::grammar::Step)
+                }
+                fn step_455(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_454 as crate::grammar::Step,
+                        )
+                }
+                fn step_456(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.end_of_input()
                 }
             }
             pub use self::visible::*;
