@@ -20,7 +20,7 @@ mod term;
 mod unit;
 mod value;
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use rustc_hash::FxHashMap;
 
 use crate::ast::{Ast, ItemKind, NodeId};
 use crate::error::{Error, Errors, Kind};
@@ -107,7 +107,7 @@ struct Checker<'a> {
     /// The source without quantifiers.
     ast: &'a Ast,
     /// What the names bound by quantifiers stand for around an expression.
-    bound: &'a HashMap<NodeId, Environment>,
+    bound: &'a FxHashMap<NodeId, Environment>,
     /// The parameters of the item that is being checked.
     parameters: Vec<Parameter>,
     names: Names,
@@ -116,22 +116,26 @@ struct Checker<'a> {
     /// The tasks that are checked, by their place among the tasks of the source.
     tasks: Vec<Option<Task>>,
     mistakes: Vec<Error>,
-    /// The value of each constant, by item.
-    constants: BTreeMap<usize, f64>,
-    /// What each constant is measured in, by item.
-    measures: BTreeMap<usize, Measure>,
-    /// The predicate of each predicate item.
-    declared: BTreeMap<usize, PredicateId>,
+    /// What is known of each item.
+    items: Vec<Checked>,
     /// The predicate that a condition is, and whether it is its negation.
-    known: HashMap<ConditionId, (PredicateId, bool)>,
-    /// Items that something uses.
-    used: HashSet<usize>,
-    /// Where each Rust predicate value stands first.
-    values: HashMap<String, Span>,
-    /// In a bare formula, what each name has been used as first.
-    free: HashMap<String, (bool, Span)>,
-    /// The mistakes in units, by place and message.
-    told: HashSet<(Span, String)>,
+    known: FxHashMap<ConditionId, (PredicateId, bool)>,
+    /// Where each name that is declared outside of the source stands first, and whether as a
+    /// formula there.
+    free: FxHashMap<String, (bool, Span)>,
+}
+
+/// What checking has found out about an item.
+#[derive(Clone, Default)]
+struct Checked {
+    /// Whether something uses it.
+    used: bool,
+    /// The value of a constant.
+    value: Option<f64>,
+    /// What a constant is measured in.
+    measure: Option<Measure>,
+    /// The predicate that it declares.
+    predicate: Option<PredicateId>,
 }
 
 impl<'a> Checker<'a> {
@@ -167,14 +171,9 @@ impl<'a> Checker<'a> {
             module,
             tasks,
             mistakes,
-            constants: BTreeMap::new(),
-            measures: BTreeMap::new(),
-            declared: BTreeMap::new(),
-            known: HashMap::new(),
-            used: HashSet::new(),
-            values: HashMap::new(),
-            free: HashMap::new(),
-            told: HashSet::new(),
+            items: vec![Checked::default(); ast.items().len()],
+            known: FxHashMap::default(),
+            free: FxHashMap::default(),
         }
     }
 
@@ -211,13 +210,13 @@ impl<'a> Checker<'a> {
             let message = "a constant is made of numbers and other constants only";
             return self.mistakes.push(Error::new(Kind::Type, message, self.ast.span(root)));
         };
-        self.constants.insert(item, value);
+        self.items[item].value = Some(value);
         let measure = self.constant_unit(item, root, measure);
         let unit = match &measure {
             Measure::In(unit) => Some(unit.clone()),
             _ => None,
         };
-        self.measures.insert(item, measure);
+        self.items[item].measure = Some(measure);
         let entry = &self.ast.items()[item];
         let name = self.ast.source().slice(entry.name).to_owned();
         self.module.constants.push(Constant { name, docs: entry.docs.clone(), value, unit });
@@ -234,7 +233,7 @@ impl<'a> Checker<'a> {
             span: entry.name,
             condition,
         });
-        self.declared.insert(item, id);
+        self.items[item].predicate = Some(id);
     }
 
     fn add_predicate(&mut self, predicate: Predicate) -> PredicateId {
@@ -268,7 +267,7 @@ impl<'a> Checker<'a> {
             if what == "constant" && (given || self.written.mentions(name)) {
                 continue;
             }
-            if !self.used.contains(&index) && self.scope.item(name) == Some(index) {
+            if !self.items[index].used && self.scope.item(name) == Some(index) {
                 let message = format!("{what} `{name}` is never used");
                 self.mistakes.push(Error::new(Kind::Unused, message, item.name).warning());
             }

@@ -182,7 +182,7 @@ impl Dfa {
         let mut found = Vec::new();
         let mut stack = vec![from];
         while let Some(target) = stack.pop() {
-            if !seen.insert(target) {
+            if !seen.insert(target.0) {
                 continue;
             }
             match target.node().map(|index| self.diagram.nodes[index as usize]) {

@@ -238,16 +238,25 @@ impl Errors {
     /// # Errors
     /// If there is an error among them.
     pub fn split(mut mistakes: Vec<Error>) -> Result<Vec<Error>, Self> {
-        mistakes.sort_by_key(|mistake| mistake.span);
-        mistakes.dedup();
+        // What stands in the body of a quantifier is found more than once.
+        sort(&mut mistakes);
+        let mut distinct: Vec<Error> = Vec::new();
+        for mistake in mistakes {
+            let mut here = distinct.iter().rev().take_while(|known| known.span == mistake.span);
+            if !here.any(|known| *known == mistake) {
+                distinct.push(mistake);
+            }
+        }
+        let mut mistakes = distinct;
         if mistakes.iter().all(Error::is_warning) {
             mistakes.truncate(MOST);
             return Ok(mistakes);
         }
         if mistakes.len() > MOST {
-            mistakes.sort_by_key(Error::is_warning);
-            mistakes.truncate(MOST);
-            mistakes.sort_by_key(|mistake| mistake.span);
+            let (errors, warnings): (Vec<_>, Vec<_>) =
+                mistakes.into_iter().partition(|mistake| !mistake.is_warning());
+            mistakes = errors.into_iter().chain(warnings).take(MOST).collect();
+            sort(&mut mistakes);
         }
         Err(Self(mistakes))
     }
@@ -269,6 +278,11 @@ impl Errors {
         let reports: Vec<_> = self.0.iter().map(|error| error.render(source, style)).collect();
         reports.join("\n")
     }
+}
+
+/// Brings mistakes into the order of the source.
+fn sort(mistakes: &mut [Error]) {
+    mistakes.sort_by_key(|mistake| mistake.span);
 }
 
 impl From<Error> for Errors {

@@ -6,7 +6,6 @@
 //! formulas; a predicate that is Rust code is refused. One pass over the arenas a state, operands
 //! first, without recursion.
 
-use std::collections::BTreeSet;
 use std::fmt;
 
 use crate::ast::Comparison;
@@ -139,41 +138,8 @@ impl<'a> Evaluator<'a> {
     }
 
     fn collect(&mut self) {
-        let arena = &self.module.arena;
-        let mut conditions = BTreeSet::new();
-        let mut open = self.roots.clone();
-        let mut terms = Vec::new();
-        while let Some(id) = open.pop() {
-            if conditions.insert(id) {
-                let (below, read) = self.operands(arena.condition(id));
-                open.extend(below.into_iter().flatten());
-                terms.extend(read.into_iter().flatten());
-            }
-        }
-        let mut needed = BTreeSet::new();
-        while let Some(id) = terms.pop() {
-            if needed.insert(id) {
-                terms.extend(arena.term(id).operands());
-            }
-        }
-        self.conditions = conditions.into_iter().collect();
-        self.terms = needed.into_iter().collect();
-    }
-
-    fn operands(&self, condition: &Condition) -> ([Option<ConditionId>; 2], [Option<TermId>; 2]) {
-        match *condition {
-            Condition::Not(a) => ([Some(a), None], [None; 2]),
-            Condition::And(a, b) | Condition::Or(a, b) => ([Some(a), Some(b)], [None; 2]),
-            Condition::Apply { meaning, .. } => ([Some(meaning), None], [None; 2]),
-            Condition::Is(id) => {
-                ([Some(self.module.predicates[id.0 as usize].condition), None], [None; 2])
-            }
-            Condition::Compare(_, a, b) => ([None; 2], [Some(a), Some(b)]),
-            Condition::Bool(place) => ([None; 2], [Some(place), None]),
-            Condition::Truth(_) | Condition::Value { .. } | Condition::Free(_) => {
-                ([None; 2], [None; 2])
-            }
-        }
+        self.conditions = self.module.conditions_of(self.roots.clone());
+        self.terms = self.module.terms_of(&self.conditions);
     }
 
     fn find_inputs(&mut self) -> Result<(), Unreadable> {

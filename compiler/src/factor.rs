@@ -5,8 +5,7 @@
 //! its trap holds those dead ends. Conjuncts of a group that does not stay within it run
 //! apart, and the task is marked: its joint dead ends were not searched.
 
-use std::collections::BTreeSet;
-
+use crate::arena;
 use crate::spec::{Formula, FormulaId, Spec};
 use crate::translate::{Budget, Exceeded, translate};
 
@@ -52,71 +51,54 @@ pub fn factors(spec: &Spec, budget: Budget) -> Result<Factors, Exceeded> {
 
 /// The conjuncts, those together that share propositions, in source order.
 fn groups(spec: &Spec) -> Vec<Vec<FormulaId>> {
-    let mut groups: Vec<(BTreeSet<u32>, Vec<FormulaId>)> = Vec::new();
-    for conjunct in conjuncts(spec) {
-        let mut merged = (propositions(spec, conjunct), vec![conjunct]);
-        let mut apart = Vec::new();
-        let mut place = groups.len();
-        for (i, (known, conjuncts)) in groups.into_iter().enumerate() {
-            if known.is_disjoint(&merged.0) {
-                apart.push((known, conjuncts));
-            } else {
-                place = place.min(i);
-                merged.0.extend(known);
-                merged.1.splice(0..0, conjuncts);
-            }
-        }
-        merged.1.sort_unstable_by_key(|&id| (spec.span(id), id));
-        apart.insert(place.min(apart.len()), merged);
-        groups = apart;
-    }
-    groups.into_iter().map(|(_, conjuncts)| conjuncts).collect()
+    let conjuncts = conjuncts(spec);
+    let ties: Vec<_> = conjuncts.iter().map(|&conjunct| propositions(spec, &[conjunct])).collect();
+    let groups = arena::groups(&ties).into_iter();
+    groups.map(|group| group.into_iter().map(|place| conjuncts[place]).collect()).collect()
 }
 
 fn conjuncts(spec: &Spec) -> Vec<FormulaId> {
     let mut conjuncts = Vec::new();
-    let mut seen = BTreeSet::new();
-    let mut stack = vec![spec.root()];
-    while let Some(id) = stack.pop() {
-        match spec.formula(id) {
-            _ if !seen.insert(id) => {}
-            Formula::And(a, b) => stack.extend([b, a]),
-            _ => conjuncts.push(id),
-        }
-    }
+    arena::needed(vec![spec.root().0], &mut |id, open| match spec.formula(FormulaId(id)) {
+        Formula::And(a, b) => open.extend([a.0, b.0]),
+        _ => conjuncts.push(FormulaId(id)),
+    });
+    conjuncts.sort_unstable_by_key(|&id| (spec.span(id), id));
     conjuncts
 }
 
 /// Everything that some formulas are made of, operands first.
-fn parts(spec: &Spec, roots: &[FormulaId]) -> BTreeSet<FormulaId> {
-    let mut seen = BTreeSet::new();
-    let mut stack = roots.to_vec();
-    while let Some(id) = stack.pop() {
-        if seen.insert(id) {
-            stack.extend(spec.formula(id).operands());
-        }
-    }
-    seen
+fn parts(spec: &Spec, roots: &[FormulaId]) -> Vec<FormulaId> {
+    let roots = roots.iter().map(|root| root.0).collect();
+    let parts = arena::needed(roots, &mut |id, open| {
+        open.extend(spec.formula(FormulaId(id)).operands().map(|operand| operand.0));
+    });
+    parts.into_iter().map(FormulaId).collect()
 }
 
-fn propositions(spec: &Spec, root: FormulaId) -> BTreeSet<u32> {
+/// The propositions of some formulas, rising.
+fn propositions(spec: &Spec, roots: &[FormulaId]) -> Vec<u32> {
     let literal = |id: FormulaId| match spec.formula(id) {
         Formula::Literal { proposition, .. } => Some(proposition),
         _ => None,
     };
-    parts(spec, &[root]).into_iter().filter_map(literal).collect()
+    let mut found: Vec<u32> = parts(spec, roots).into_iter().filter_map(literal).collect();
+    found.sort_unstable();
+    found.dedup();
+    found
 }
 
 /// The conjunction of some subformulas, over the propositions that they mention.
 fn extract(spec: &Spec, roots: &[FormulaId]) -> Factor {
-    let chosen: BTreeSet<u32> = roots.iter().flat_map(|&root| propositions(spec, root)).collect();
-    let chosen: Vec<u32> = chosen.into_iter().collect();
+    let chosen = propositions(spec, roots);
     let names = chosen.iter().map(|&p| spec.propositions()[p as usize].clone()).collect();
     let mut part = Spec::new(names);
-    let mut copies = std::collections::BTreeMap::new();
-    for id in parts(spec, roots) {
+    let parts = parts(spec, roots);
+    let mut copies = Vec::with_capacity(parts.len());
+    let place = |id: FormulaId| parts.binary_search(&id).expect("operands are parts");
+    for &id in &parts {
         let span = spec.span(id);
-        let of = |operand: FormulaId| copies[&operand];
+        let of = |operand| copies[place(operand)];
         let copy = match spec.formula(id) {
             Formula::True => part.truth(true, span),
             Formula::False => part.truth(false, span),
@@ -131,12 +113,12 @@ fn extract(spec: &Spec, roots: &[FormulaId]) -> Factor {
             Formula::Until(a, b) => part.until(of(a), of(b), span),
             Formula::Then(a, b) => part.then(of(a), of(b), span),
         };
-        copies.insert(id, copy);
+        copies.push(copy);
     }
     let span = roots.first().map_or_else(Default::default, |&root| spec.span(root));
     let mut root = part.truth(true, span);
-    for conjunct in roots {
-        root = part.and(root, copies[conjunct], span);
+    for &conjunct in roots {
+        root = part.and(root, copies[place(conjunct)], span);
     }
     part.set_root(root);
     Factor { spec: part, propositions: chosen }

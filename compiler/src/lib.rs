@@ -34,6 +34,7 @@
 //! # Ok::<(), tltl_compiler::error::Errors>(())
 //! ```
 
+mod arena;
 pub mod arithmetic;
 pub mod ast;
 pub mod check;

@@ -6,7 +6,7 @@
 //! that outgrow [`MOST`] inequalities or 100 bits are given up; the systems that predicates make
 //! have a handful of each.
 
-use std::collections::{BTreeMap, BTreeSet};
+use rustc_hash::FxHashSet;
 
 use crate::predicate::TermId;
 
@@ -15,11 +15,14 @@ pub const MOST: usize = 512;
 /// Coefficients stay below this, so that sums of two products do not overflow.
 const LARGE: i128 = 1 << 62;
 
+/// Variables with their coefficients, by variable; none is 0.
+pub type Form = Vec<(TermId, i128)>;
+
 /// Σ coefficient × variable ≤ bound, or < bound.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Inequality {
-    /// The coefficient of each variable; none is 0.
-    pub coefficients: BTreeMap<TermId, i128>,
+    /// The sum that is bounded.
+    pub form: Form,
     /// The bound.
     pub bound: i128,
     /// Whether the bound itself is excluded.
@@ -29,13 +32,17 @@ pub struct Inequality {
 /// Whether the system has a real solution; `None` if that would be too much work to find out.
 #[must_use]
 pub fn feasible(system: &[Inequality]) -> Option<bool> {
-    let mut system: BTreeSet<Inequality> = system.iter().map(reduced).collect();
+    let mut system: FxHashSet<Inequality> = system.iter().map(reduced).collect();
     while let Some(variable) = cheapest(&system) {
-        let (with, mut rest): (BTreeSet<_>, BTreeSet<_>) =
-            system.into_iter().partition(|row| row.coefficients.contains_key(&variable));
-        let (upper, lower): (Vec<_>, Vec<_>) =
-            with.iter().partition(|row| row.coefficients[&variable] > 0);
-        for a in upper {
+        let (mut upper, mut lower, mut rest) = (Vec::new(), Vec::new(), FxHashSet::default());
+        for row in system {
+            match coefficient(&row.form, variable) {
+                0 => drop(rest.insert(row)),
+                above if above > 0 => upper.push(row),
+                _ => lower.push(row),
+            }
+        }
+        for a in &upper {
             for b in &lower {
                 rest.insert(eliminated(a, b, variable)?);
             }
@@ -48,47 +55,83 @@ pub fn feasible(system: &[Inequality]) -> Option<bool> {
     Some(system.iter().all(|row| row.bound > 0 || row.bound == 0 && !row.strict))
 }
 
-/// The variable whose elimination makes the fewest new rows.
-fn cheapest(system: &BTreeSet<Inequality>) -> Option<TermId> {
-    let mut signs: BTreeMap<TermId, (usize, usize)> = BTreeMap::new();
-    for (&variable, &coefficient) in system.iter().flat_map(|row| &row.coefficients) {
-        let count = signs.entry(variable).or_default();
-        *(if coefficient > 0 { &mut count.0 } else { &mut count.1 }) += 1;
+/// The variable whose elimination makes the fewest new rows, the first of them.
+fn cheapest(system: &FxHashSet<Inequality>) -> Option<TermId> {
+    // How many rows bound each variable from above and from below, by variable.
+    let mut bounds: Vec<(TermId, usize, usize)> = Vec::new();
+    for &(variable, coefficient) in system.iter().flat_map(|row| &row.form) {
+        let place = bounds.binary_search_by_key(&variable, |known| known.0);
+        let place = place.unwrap_or_else(|place| {
+            bounds.insert(place, (variable, 0, 0));
+            place
+        });
+        let (_, above, below) = &mut bounds[place];
+        *(if coefficient > 0 { above } else { below }) += 1;
     }
-    signs.into_iter().min_by_key(|(_, (above, below))| above * below).map(|(variable, _)| variable)
+    bounds.iter().min_by_key(|(_, above, below)| above * below).map(|known| known.0)
+}
+
+/// The coefficient of a variable.
+fn coefficient(form: &Form, variable: TermId) -> i128 {
+    form.binary_search_by_key(&variable, |known| known.0).map_or(0, |place| form[place].1)
 }
 
 /// The sum of an upper and a lower bound on `variable`, without it; `None` on overflow.
 fn eliminated(upper: &Inequality, lower: &Inequality, variable: TermId) -> Option<Inequality> {
-    let (up, down) = (-lower.coefficients[&variable], upper.coefficients[&variable]);
+    let up = -coefficient(&lower.form, variable);
+    let down = coefficient(&upper.form, variable);
     let sum = |a: i128, b: i128| a.checked_mul(up)?.checked_add(b.checked_mul(down)?);
-    let mut coefficients = BTreeMap::new();
-    for &other in upper.coefficients.keys().chain(lower.coefficients.keys()) {
-        let of = |row: &Inequality| row.coefficients.get(&other).copied().unwrap_or(0);
-        let coefficient = sum(of(upper), of(lower))?;
+    let form = combined(&upper.form, &lower.form, &sum)?;
+    let bound = sum(upper.bound, lower.bound)?;
+    let row = reduced(&Inequality { form, bound, strict: upper.strict || lower.strict });
+    let small = |value: i128| value.abs() < LARGE;
+    (row.form.iter().all(|known| small(known.1)) && small(row.bound)).then_some(row)
+}
+
+/// Two sums as one, `sum` giving the coefficients; `None` where it does.
+pub fn combined(
+    left: &Form,
+    right: &Form,
+    sum: &dyn Fn(i128, i128) -> Option<i128>,
+) -> Option<Form> {
+    let (mut i, mut j) = (0, 0);
+    let mut form = Form::new();
+    while let Some(variable) =
+        left.get(i).into_iter().chain(right.get(j)).map(|&(variable, _)| variable).min()
+    {
+        let take = |form: &Form, at: &mut usize| match form.get(*at) {
+            Some(&(known, coefficient)) if known == variable => {
+                *at += 1;
+                coefficient
+            }
+            _ => 0,
+        };
+        let coefficient = sum(take(left, &mut i), take(right, &mut j))?;
         if coefficient != 0 {
-            coefficients.insert(other, coefficient);
+            form.push((variable, coefficient));
         }
     }
-    let bound = sum(upper.bound, lower.bound)?;
-    let row = reduced(&Inequality { coefficients, bound, strict: upper.strict || lower.strict });
-    let small = |value: &i128| value.abs() < LARGE;
-    (row.coefficients.values().all(small) && small(&row.bound)).then_some(row)
+    Some(form)
 }
 
 /// The same inequality without a common divisor.
 fn reduced(row: &Inequality) -> Inequality {
-    let divisor = row.coefficients.values().fold(row.bound.abs(), |a, &b| gcd(a, b.abs())).max(1);
+    let divisor = divisor(&row.form, row.bound.abs()).max(1);
     Inequality {
-        coefficients: row.coefficients.iter().map(|(&term, &c)| (term, c / divisor)).collect(),
+        form: row.form.iter().map(|&(variable, c)| (variable, c / divisor)).collect(),
         bound: row.bound / divisor,
         strict: row.strict,
     }
 }
 
-/// The greatest common divisor of two numbers that are not negative.
+/// The greatest common divisor of all coefficients and of `other`.
 #[must_use]
-pub fn gcd(a: i128, b: i128) -> i128 {
+pub fn divisor(form: &Form, other: i128) -> i128 {
+    form.iter().fold(other, |divisor, (_, coefficient)| gcd(divisor, coefficient.abs()))
+}
+
+/// The greatest common divisor of two numbers that are not negative.
+fn gcd(a: i128, b: i128) -> i128 {
     if b == 0 { a } else { gcd(b, a % b) }
 }
 
@@ -98,7 +141,7 @@ mod tests {
 
     fn row(coefficients: &[i128], bound: i128, strict: bool) -> Inequality {
         let terms = (0..).map(TermId).zip(coefficients.iter().copied());
-        Inequality { coefficients: terms.filter(|(_, c)| *c != 0).collect(), bound, strict }
+        Inequality { form: terms.filter(|(_, c)| *c != 0).collect(), bound, strict }
     }
 
     /// Systems over x, y, z as rows of coefficients, bound and strictness, and the verdict.
@@ -136,8 +179,8 @@ mod tests {
                 (0..5).map(|_| row(&[next(2), next(2), next(2)], next(4), next(1) == 0)).collect();
             let point = |p: [i128; 3]| {
                 system.iter().all(|row| {
-                    let at = |(term, c): (&TermId, &i128)| c * p[term.0 as usize];
-                    let value: i128 = row.coefficients.iter().map(at).sum();
+                    let at = |&(term, c): &(TermId, i128)| c * p[term.0 as usize];
+                    let value: i128 = row.form.iter().map(at).sum();
                     value < 2 * row.bound || value == 2 * row.bound && !row.strict
                 })
             };

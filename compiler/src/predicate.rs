@@ -7,7 +7,7 @@
 mod build;
 mod print;
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 pub use print::Printed;
 
@@ -433,9 +433,9 @@ pub enum Condition {
 pub struct Arena {
     conditions: Vec<Condition>,
     terms: Vec<Term>,
-    known_conditions: HashMap<Condition, ConditionId>,
-    known_terms: HashMap<Term, TermId>,
-    hosts: HashMap<(String, Vec<Binding>, bool), TermId>,
+    known_conditions: FxHashMap<Condition, ConditionId>,
+    known_terms: FxHashMap<Term, TermId>,
+    hosts: FxHashMap<(String, Vec<Binding>, bool), TermId>,
 }
 
 impl Arena {

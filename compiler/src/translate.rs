@@ -174,7 +174,7 @@ impl<'a> Translation<'a> {
         let mut operands = Vec::new();
         let mut stack = vec![root];
         while let Some(id) = stack.pop() {
-            if !seen.insert(id) {
+            if !seen.insert(id.0) {
                 continue;
             }
             let same = if conjunction(root) { conjunction(id) } else { disjunction(id) };

@@ -6,7 +6,7 @@
 //! texts. Both the powers and the count of names are bounded, so a unit is small and every
 //! operation on it takes constant time.
 
-use std::collections::{BTreeMap, HashMap};
+use rustc_hash::FxHashMap;
 
 use crate::ast::quoted;
 
@@ -25,12 +25,14 @@ pub struct Unit(Vec<(u32, i32)>);
 impl Unit {
     /// The product of some powers of names; `None` if that is beyond the bounds.
     pub fn product(powers: impl IntoIterator<Item = (u32, i64)>) -> Option<Self> {
-        let mut sum: BTreeMap<u32, i64> = BTreeMap::new();
+        let mut sum: Vec<(u32, i64)> = Vec::new();
         for (name, power) in powers {
-            let known = sum.entry(name).or_default();
-            *known = known.checked_add(power)?;
+            match sum.binary_search_by_key(&name, |known| known.0) {
+                Ok(place) => sum[place].1 = sum[place].1.checked_add(power)?,
+                Err(place) => sum.insert(place, (name, power)),
+            }
         }
-        sum.retain(|_, power| *power != 0);
+        sum.retain(|(_, power)| *power != 0);
         if sum.len() > MOST_NAMES {
             return None;
         }
@@ -96,7 +98,7 @@ impl Unit {
 #[derive(Clone, Debug, Default)]
 pub struct Units {
     names: Vec<String>,
-    known: HashMap<String, u32>,
+    known: FxHashMap<String, u32>,
 }
 
 impl Units {

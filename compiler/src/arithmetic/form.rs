@@ -1,14 +1,8 @@
 //! Comparisons as cuts of linear forms, in exact rational arithmetic.
 
-use std::collections::BTreeMap;
-
 use crate::ast::{Arithmetic, Comparison};
-use crate::linear::{Inequality, gcd};
+use crate::linear::{Form, Inequality, combined, divisor};
 use crate::predicate::{Module, ParameterType, Scalar, Term, TermId};
-
-/// A linear form: integer coefficients without a common divisor, the first of them positive, of
-/// variables, which are terms that are not linear combinations of others.
-pub(super) type Form = Vec<(TermId, i128)>;
 
 /// A rational number; the denominator is positive.
 #[derive(Clone, Copy, Debug)]
@@ -103,7 +97,7 @@ impl Range {
 /// What a cell says of its form: not below `after`, and below `until`.
 pub(super) fn inequalities(form: &Form, after: Option<Cut>, until: Option<Cut>) -> Vec<Inequality> {
     let row = |(at, inclusive): Cut, sign: i128| Inequality {
-        coefficients: form.iter().map(|&(term, c)| (term, sign * c * at.denominator)).collect(),
+        form: form.iter().map(|&(term, c)| (term, sign * c * at.denominator)).collect(),
         bound: sign * at.numerator,
         // Below `<= c` includes c; not below it excludes c.
         strict: inclusive != (sign > 0),
@@ -116,11 +110,7 @@ pub(super) fn inequalities(form: &Form, after: Option<Cut>, until: Option<Cut>) 
 pub(super) fn bounds(module: &Module, form: &Form) -> Vec<Inequality> {
     let bound = |&(term, _): &(TermId, i128)| {
         integer_range(module, term).map(|(least, greatest)| {
-            let row = |sign, bound| Inequality {
-                coefficients: BTreeMap::from([(term, sign)]),
-                bound,
-                strict: false,
-            };
+            let row = |sign, bound| Inequality { form: vec![(term, sign)], bound, strict: false };
             [row(-1, -least), row(1, greatest)]
         })
     };
@@ -144,10 +134,11 @@ fn integer_range(module: &Module, term: TermId) -> Option<(i128, i128)> {
     }
 }
 
-/// A sum of variables with coefficients, and a constant; all over one denominator.
-#[derive(Clone, Debug, Default)]
+/// A sum of variables, which are terms that are no sums of others, with coefficients, and a constant;
+/// all over one denominator.
+#[derive(Clone, Debug)]
 pub(super) struct Linear {
-    coefficients: BTreeMap<TermId, i128>,
+    form: Form,
     constant: i128,
     /// A power of two.
     denominator: i128,
@@ -169,68 +160,52 @@ impl Linear {
         }
         // 2^62 is exact in both types.
         (scaled.abs() < SMALL as f64).then(|| Self {
-            coefficients: BTreeMap::new(),
+            form: Form::new(),
             constant: scaled as i128,
             denominator,
         })
     }
 
     fn variable(term: TermId) -> Self {
-        Self { coefficients: BTreeMap::from([(term, 1)]), constant: 0, denominator: 1 }
+        Self { form: vec![(term, 1)], constant: 0, denominator: 1 }
     }
 
     /// The sum `self + factor × other`.
     fn plus(&self, factor: i128, other: &Self) -> Option<Self> {
-        let mut sum = Self {
-            denominator: small(self.denominator.checked_mul(other.denominator)?)?,
-            ..Self::default()
-        };
-        let terms = self.coefficients.keys().chain(other.coefficients.keys());
-        let combine = |a: i128, b: i128| -> Option<i128> {
+        let sum = |a: i128, b: i128| -> Option<i128> {
             let a = a.checked_mul(other.denominator)?;
             small(a.checked_add(factor.checked_mul(b)?.checked_mul(self.denominator)?)?)
         };
-        for &term in terms {
-            let of = |linear: &Self| linear.coefficients.get(&term).copied().unwrap_or(0);
-            let coefficient = combine(of(self), of(other))?;
-            if coefficient != 0 {
-                sum.coefficients.insert(term, coefficient);
-            }
-        }
-        sum.constant = combine(self.constant, other.constant)?;
-        Some(sum)
+        Some(Self {
+            form: combined(&self.form, &other.form, &sum)?,
+            constant: sum(self.constant, other.constant)?,
+            denominator: small(self.denominator.checked_mul(other.denominator)?)?,
+        })
     }
 
     /// The product, if one of the two is a number.
     fn times(&self, other: &Self) -> Option<Self> {
-        let (linear, factor) = match (self.coefficients.is_empty(), other.coefficients.is_empty()) {
+        let (linear, factor) = match (self.form.is_empty(), other.form.is_empty()) {
             (_, true) => (self, other),
             (true, _) => (other, self),
             _ => return None,
         };
         let scale = |value: i128| small(value.checked_mul(factor.constant)?);
-        let mut product = Self {
-            coefficients: BTreeMap::new(),
+        Some(Self {
+            form: combined(&linear.form, &Form::new(), &|coefficient, _| scale(coefficient))?,
             constant: scale(linear.constant)?,
             denominator: small(linear.denominator.checked_mul(factor.denominator)?)?,
-        };
-        for (&term, &coefficient) in &linear.coefficients {
-            let coefficient = scale(coefficient)?;
-            if coefficient != 0 {
-                product.coefficients.insert(term, coefficient);
-            }
-        }
-        Some(product)
+        })
     }
 
     /// The quotient by a number.
     fn over(&self, other: &Self) -> Option<Self> {
-        if !other.coefficients.is_empty() || other.constant == 0 {
+        if !other.form.is_empty() || other.constant == 0 {
             return None;
         }
         let sign = other.constant.signum();
         let inverse = Self {
-            coefficients: BTreeMap::new(),
+            form: Form::new(),
             constant: sign * other.denominator,
             denominator: other.constant.abs(),
         };
@@ -271,18 +246,17 @@ pub(super) fn atom(
     b: &Linear,
 ) -> Option<Atom> {
     let difference = a.plus(-1, b)?;
-    if difference.coefficients.is_empty() {
+    if difference.form.is_empty() {
         return Some(Atom::Constant(comparison.holds(difference.constant as f64, 0.0)));
     }
-    if difference.coefficients.keys().any(|term| module.arena.constant(*term).is_some()) {
+    if difference.form.iter().any(|(term, _)| module.arena.constant(*term).is_some()) {
         // A number too large or too fine for exact arithmetic.
         return None;
     }
-    let divisor = difference.coefficients.values().fold(0, |a, &b| gcd(a, b.abs()));
-    let first = *difference.coefficients.values().next()?;
-    let divisor = divisor * first.signum();
-    let form: Form =
-        difference.coefficients.iter().map(|(&term, &c)| (term, c / divisor)).collect();
+    // Comparisons of multiples of one form are cuts of the one whose coefficients have no common
+    // divisor and whose first is positive.
+    let divisor = divisor(&difference.form, 0) * difference.form[0].1.signum();
+    let form: Form = difference.form.iter().map(|&(term, c)| (term, c / divisor)).collect();
     let sign = divisor.signum();
     let at = Rational { numerator: -difference.constant * sign, denominator: divisor.abs() };
     let comparison = if sign < 0 { comparison.mirrored() } else { comparison };

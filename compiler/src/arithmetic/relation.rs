@@ -1,14 +1,13 @@
 //! How the propositions of a task are related by what they compare.
 
-use std::collections::{BTreeMap, BTreeSet};
-
 use rustc_hash::FxHashMap;
 
+use crate::arena;
 use crate::guard::{Guard, Store};
-use crate::linear::{Inequality, feasible};
-use crate::predicate::{Condition, ConditionId, Module, TermId};
+use crate::linear::{Form, Inequality, feasible};
+use crate::predicate::{Condition, ConditionId, Module};
 
-use super::form::{Atom, Cut, Form, Range, Rational, atom, bounds, inequalities, linear_terms};
+use super::form::{Atom, Cut, Range, Rational, atom, bounds, inequalities, linear_terms};
 use super::{CELL_LIMIT, NODE_LIMIT};
 
 /// The comparisons of a module, as cuts.
@@ -16,13 +15,6 @@ pub(super) struct Analysis<'a> {
     module: &'a Module,
     /// What each condition compares, if it does.
     atoms: Vec<Atom>,
-}
-
-/// What ties predicates together: a variable, or a condition of unknown meaning.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Tie {
-    Variable(TermId),
-    Opaque(ConditionId),
 }
 
 impl<'a> Analysis<'a> {
@@ -40,67 +32,29 @@ impl<'a> Analysis<'a> {
 
     /// The propositions that share ties, as sets of places in `roots`.
     pub(super) fn components(&self, roots: &[ConditionId]) -> Vec<Vec<usize>> {
-        let mut components: Vec<(BTreeSet<Tie>, Vec<usize>)> = Vec::new();
-        for (place, &root) in roots.iter().enumerate() {
-            let mut merged = (self.ties(root), vec![place]);
-            let (tied, apart) = components
-                .into_iter()
-                .partition::<Vec<_>, _>(|(ties, _)| !ties.is_disjoint(&merged.0));
-            for (ties, places) in tied {
-                merged.0.extend(ties);
-                merged.1.extend(places);
-            }
-            components = apart;
-            components.push(merged);
-        }
-        components
-            .into_iter()
-            .map(|(_, mut places)| {
-                places.sort_unstable();
-                places
-            })
-            .collect()
+        let ties: Vec<_> = roots.iter().map(|&root| self.ties(root)).collect();
+        arena::groups(&ties)
     }
 
-    fn ties(&self, root: ConditionId) -> BTreeSet<Tie> {
-        let tie = |id: ConditionId| match &self.atoms[id.0 as usize] {
-            Atom::Below(form, _)
-            | Atom::Above(form, _)
-            | Atom::At(form, _)
-            | Atom::Off(form, _) => form.iter().map(|&(term, _)| Tie::Variable(term)).collect(),
-            Atom::Opaque if self.is_opaque(id) => vec![Tie::Opaque(id)],
-            Atom::Constant(_) | Atom::Opaque => Vec::new(),
-        };
-        self.needed(&[root]).into_iter().flat_map(tie).collect()
+    /// What ties a predicate to others: variables, and conditions of unknown meaning.
+    fn ties(&self, root: ConditionId) -> Vec<u32> {
+        let mut ties = Vec::new();
+        for id in self.module.conditions_of(vec![root]) {
+            match &self.atoms[id.0 as usize] {
+                Atom::Below(form, _)
+                | Atom::Above(form, _)
+                | Atom::At(form, _)
+                | Atom::Off(form, _) => ties.extend(form.iter().map(|(term, _)| 2 * term.0)),
+                Atom::Opaque if self.is_opaque(id) => ties.push(2 * id.0 + 1),
+                Atom::Constant(_) | Atom::Opaque => {}
+            }
+        }
+        ties
     }
 
     fn is_opaque(&self, id: ConditionId) -> bool {
         let condition = self.module.arena.condition(id);
-        self.operands(condition).is_empty() && !matches!(condition, Condition::Truth(_))
-    }
-
-    fn operands(&self, condition: &Condition) -> Vec<ConditionId> {
-        match *condition {
-            Condition::Not(a) => vec![a],
-            Condition::And(a, b) | Condition::Or(a, b) => vec![a, b],
-            Condition::Apply { meaning, .. } => vec![meaning],
-            Condition::Is(predicate) => {
-                vec![self.module.predicates[predicate.0 as usize].condition]
-            }
-            _ => Vec::new(),
-        }
-    }
-
-    /// All conditions that `roots` are made of, in the order of the arena.
-    fn needed(&self, roots: &[ConditionId]) -> Vec<ConditionId> {
-        let mut seen = BTreeSet::new();
-        let mut stack = roots.to_vec();
-        while let Some(id) = stack.pop() {
-            if seen.insert(id) {
-                stack.extend(self.operands(self.module.arena.condition(id)));
-            }
-        }
-        seen.into_iter().collect()
+        self.module.operands(condition).is_empty() && !matches!(condition, Condition::Truth(_))
     }
 
     /// The valuations of the propositions at `places` that some state has, over the levels of
@@ -112,7 +66,7 @@ impl<'a> Analysis<'a> {
         result: &mut Store,
     ) -> Option<Guard> {
         let conditions: Vec<ConditionId> = places.iter().map(|&place| roots[place]).collect();
-        let needed = self.needed(&conditions);
+        let needed = self.module.conditions_of(conditions.clone());
         let mut relation = Relation::new(self, places.len() as u32, &needed)?;
         let meaning = relation.meanings(&needed);
         let mut related = relation.cells();
@@ -135,34 +89,42 @@ struct Relation<'a> {
     analysis: &'a Analysis<'a>,
     store: Store,
     propositions: u32,
-    cuts: BTreeMap<Form, BTreeMap<Cut, u32>>,
-    opaque: BTreeMap<ConditionId, u32>,
+    /// The forms that are compared, rising, and what they are compared with.
+    chains: Vec<Chain>,
+    /// The conditions of unknown meaning, rising; their levels follow on those of the cuts.
+    opaque: Vec<ConditionId>,
+    first_opaque: u32,
 }
 
 impl<'a> Relation<'a> {
     fn new(analysis: &'a Analysis<'a>, propositions: u32, needed: &[ConditionId]) -> Option<Self> {
-        let mut cuts: BTreeMap<Form, BTreeMap<Cut, u32>> = BTreeMap::new();
-        let mut opaque = BTreeMap::new();
+        let mut chains: Vec<Chain> = Vec::new();
+        let mut opaque = Vec::new();
         for &id in needed {
             match &analysis.atoms[id.0 as usize] {
-                Atom::Below(form, cut) | Atom::Above(form, cut) => {
-                    cuts.entry(form.clone()).or_default().insert(*cut, 0);
-                }
+                Atom::Below(form, cut) | Atom::Above(form, cut) => add(&mut chains, form, &[*cut]),
                 Atom::At(form, at) | Atom::Off(form, at) => {
-                    let cuts = cuts.entry(form.clone()).or_default();
-                    cuts.insert((*at, false), 0);
-                    cuts.insert((*at, true), 0);
+                    add(&mut chains, form, &[(*at, false), (*at, true)]);
                 }
-                Atom::Opaque if analysis.is_opaque(id) => {
-                    opaque.insert(id, 0);
-                }
+                Atom::Opaque if analysis.is_opaque(id) => opaque.push(id),
                 Atom::Constant(_) | Atom::Opaque => {}
             }
         }
-        let levels = cuts.values_mut().flat_map(BTreeMap::values_mut).chain(opaque.values_mut());
-        let count = levels.zip(propositions..).map(|(level, fresh)| *level = fresh).count();
-        let fits = count + (propositions as usize) < Store::MAX_LEVELS as usize;
-        fits.then(|| Self { analysis, store: Store::default(), propositions, cuts, opaque })
+        let mut level = propositions;
+        for chain in &mut chains {
+            chain.level = level;
+            level += chain.cuts.len() as u32;
+        }
+        let fits = level as usize + opaque.len() < Store::MAX_LEVELS as usize;
+        let first_opaque = level;
+        fits.then(|| Self {
+            analysis,
+            store: Store::default(),
+            propositions,
+            chains,
+            opaque,
+            first_opaque,
+        })
     }
 
     /// What each condition says of the cuts.
@@ -173,7 +135,7 @@ impl<'a> Relation<'a> {
         while !pending.is_empty() {
             pending.retain(|&id| {
                 let condition = self.analysis.module.arena.condition(id);
-                let operands = self.analysis.operands(condition);
+                let operands = self.analysis.module.operands(condition);
                 let known: Option<Vec<_>> =
                     operands.iter().map(|operand| meaning.get(operand).copied()).collect();
                 let Some(operands) = known else { return true };
@@ -211,12 +173,17 @@ impl<'a> Relation<'a> {
                 let at = self.at(form, *at);
                 self.store.not(at)
             }
-            Atom::Opaque => self.store.variable(self.opaque[&id]),
+            Atom::Opaque => {
+                let place = self.opaque.binary_search(&id).expect("an opaque condition");
+                self.store.variable(self.first_opaque + place as u32)
+            }
         }
     }
 
     fn cut(&mut self, form: &Form, cut: Cut) -> Guard {
-        self.store.variable(self.cuts[form][&cut])
+        let chain = &self.chains[find(&self.chains, form).expect("a form that is compared")];
+        let place = chain.cuts.binary_search(&cut).expect("a cut of the form");
+        self.store.variable(chain.level + place as u32)
     }
 
     fn at(&mut self, form: &Form, at: Rational) -> Guard {
@@ -228,11 +195,15 @@ impl<'a> Relation<'a> {
     /// of integers or of a bounded type has no value in some cells, and forms that share variables
     /// exclude each other's.
     fn cells(&mut self) -> Guard {
+        let variables = |chain: &Chain| chain.form.iter().map(|(term, _)| term.0).collect();
+        let ties: Vec<Vec<u32>> = self.chains.iter().map(variables).collect();
+        let chains = std::mem::take(&mut self.chains);
         let mut all = Guard::TRUE;
-        for group in self.groups() {
+        for group in arena::groups(&ties) {
             let module = self.analysis.module;
+            let group: Vec<&Chain> = group.iter().map(|&place| &chains[place]).collect();
             let mut system: Vec<_> =
-                group.iter().flat_map(|(form, _)| bounds(module, form)).collect();
+                group.iter().flat_map(|chain| bounds(module, &chain.form)).collect();
             let mut left = CELL_LIMIT;
             let cells = match self.joint(&group, &mut system, &mut left) {
                 Some(cells) => cells,
@@ -240,53 +211,34 @@ impl<'a> Relation<'a> {
             };
             all = self.store.and(all, cells);
         }
+        self.chains = chains;
         all
-    }
-
-    /// The forms with their cuts and levels, those together that share variables.
-    fn groups(&self) -> Vec<Vec<Chain>> {
-        let mut groups: Vec<(BTreeSet<TermId>, Vec<Chain>)> = Vec::new();
-        for (form, cuts) in &self.cuts {
-            let chain = (form.clone(), cuts.iter().map(|(&cut, &level)| (cut, level)).collect());
-            let mut merged =
-                (form.iter().map(|&(term, _)| term).collect::<BTreeSet<_>>(), vec![chain]);
-            let (tied, apart) = groups
-                .into_iter()
-                .partition::<Vec<_>, _>(|(terms, _)| !terms.is_disjoint(&merged.0));
-            for (terms, chains) in tied {
-                merged.0.extend(terms);
-                merged.1.extend(chains);
-            }
-            groups = apart;
-            groups.push(merged);
-        }
-        groups.into_iter().map(|(_, chains)| chains).collect()
     }
 
     /// The combinations of cells of a group that have a common point, given what `system` says
     /// already; `None` if they are too many.
     fn joint(
         &mut self,
-        group: &[Chain],
+        group: &[&Chain],
         system: &mut Vec<Inequality>,
         left: &mut usize,
     ) -> Option<Guard> {
-        let Some(((form, cuts), others)) = group.split_first() else { return Some(Guard::TRUE) };
-        let range = Range::of(self.analysis.module, form);
+        let Some((chain, others)) = group.split_first() else { return Some(Guard::TRUE) };
+        let range = Range::of(self.analysis.module, &chain.form);
         let mut cells = Guard::FALSE;
-        for k in 0..=cuts.len() {
-            let (after, until) = ends(cuts, k);
+        for k in 0..=chain.cuts.len() {
+            let (after, until) = chain.ends(k);
             if !range.is_inhabited(after, until) {
                 continue;
             }
             let known = system.len();
-            system.extend(inequalities(form, after, until));
+            system.extend(inequalities(&chain.form, after, until));
             *left = left.checked_sub(1)?;
             // A form alone is feasible in every cell that its range inhabits.
             let alone = known == 0 && others.is_empty();
             if alone || feasible(system) != Some(false) {
                 let rest = self.joint(others, system, left)?;
-                let cell = self.cell(cuts, k);
+                let cell = self.cell(chain, k);
                 let cell = self.store.and(cell, rest);
                 cells = self.store.or(cells, cell);
             }
@@ -296,15 +248,15 @@ impl<'a> Relation<'a> {
     }
 
     /// The cells of each form of a group, whatever the others are.
-    fn apart(&mut self, group: &[Chain]) -> Guard {
+    fn apart(&mut self, group: &[&Chain]) -> Guard {
         let mut all = Guard::TRUE;
-        for (form, cuts) in group {
-            let range = Range::of(self.analysis.module, form);
+        for chain in group {
+            let range = Range::of(self.analysis.module, &chain.form);
             let mut cells = Guard::FALSE;
-            for k in 0..=cuts.len() {
-                let (after, until) = ends(cuts, k);
+            for k in 0..=chain.cuts.len() {
+                let (after, until) = chain.ends(k);
                 if range.is_inhabited(after, until) {
-                    let cell = self.cell(cuts, k);
+                    let cell = self.cell(chain, k);
                     cells = self.store.or(cells, cell);
                 }
             }
@@ -313,12 +265,13 @@ impl<'a> Relation<'a> {
         all
     }
 
-    fn cell(&mut self, cuts: &[(Cut, u32)], k: usize) -> Guard {
-        let literals = cuts.iter().enumerate().rev();
-        literals.fold(Guard::TRUE, |rest, (i, &(_, level))| {
-            let (low, high) = if i >= k { (Guard::FALSE, rest) } else { (rest, Guard::FALSE) };
-            self.store.node(level, low, high)
-        })
+    fn cell(&mut self, chain: &Chain, k: usize) -> Guard {
+        let mut all = Guard::TRUE;
+        for i in (0..chain.cuts.len()).rev() {
+            let (low, high) = if i >= k { (Guard::FALSE, all) } else { (all, Guard::FALSE) };
+            all = self.store.node(chain.level + i as u32, low, high);
+        }
+        all
     }
 
     /// The propositional part: true where anything is left below. Levels become those of the
@@ -346,10 +299,37 @@ impl<'a> Relation<'a> {
     }
 }
 
-/// A form with its cuts and their levels, rising.
-type Chain = (Form, Vec<(Cut, u32)>);
+/// A form and its cuts.
+struct Chain {
+    form: Form,
+    /// Rising.
+    cuts: Vec<Cut>,
+    /// The level of the first cut; those of the others follow.
+    level: u32,
+}
 
-/// Cell k of a chain lies between its cuts k-1 and k.
-fn ends(cuts: &[(Cut, u32)], k: usize) -> (Option<Cut>, Option<Cut>) {
-    (k.checked_sub(1).map(|k| cuts[k].0), cuts.get(k).map(|cut| cut.0))
+impl Chain {
+    /// Cell k lies between the cuts k-1 and k.
+    fn ends(&self, k: usize) -> (Option<Cut>, Option<Cut>) {
+        (k.checked_sub(1).map(|k| self.cuts[k]), self.cuts.get(k).copied())
+    }
+}
+
+/// The chain of a form, or where it would be.
+fn find(chains: &[Chain], form: &Form) -> Result<usize, usize> {
+    chains.binary_search_by(|chain| chain.form.cmp(form))
+}
+
+/// Adds cuts of a form.
+fn add(chains: &mut Vec<Chain>, form: &Form, cuts: &[Cut]) {
+    let place = find(chains, form).unwrap_or_else(|place| {
+        chains.insert(place, Chain { form: form.clone(), cuts: Vec::new(), level: 0 });
+        place
+    });
+    let known = &mut chains[place].cuts;
+    for &cut in cuts {
+        if let Err(place) = known.binary_search(&cut) {
+            known.insert(place, cut);
+        }
+    }
 }

@@ -24,7 +24,7 @@ impl Checker<'_> {
         terms: &[Option<TermId>],
     ) -> Option<Atom> {
         let (callee, item) = self.applied(id)?;
-        self.used.insert(item);
+        self.items[item].used = true;
         let broken = matches!(self.ast.items()[item].kind, ItemKind::Broken(_));
         if broken || !self.scope.unclear(item).is_empty() {
             return None;
@@ -122,7 +122,7 @@ impl Checker<'_> {
             return Some(self.module.arena.add_term(term));
         }
         if let Some(item) = self.item(id) {
-            self.used.insert(item);
+            self.items[item].used = true;
         }
         let message = format!("a `bool` is needed here, and `{}` is none", self.ast.quote(id));
         self.mistakes.push(
@@ -145,7 +145,7 @@ impl Checker<'_> {
         let known = self.module.arena.terms().len();
         let atom = match self.ast.items()[item].kind {
             ItemKind::Predicate(..) => {
-                let predicate = *self.declared.get(&item)?;
+                let predicate = self.items[item].predicate?;
                 let condition = self.module.predicates[predicate.0 as usize].condition;
                 let arena = &mut self.module.arena;
                 let meaning = arena.substitute(condition, &bound);

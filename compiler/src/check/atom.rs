@@ -85,8 +85,8 @@ impl Checker<'_> {
                     return Some(Condition::Bool(self.host_term(id, false)));
                 }
                 let bindings = self.bindings(id);
-                let known = self.values.entry(text.clone()).or_insert(span);
-                Some(Condition::Value { text, span: *known, bindings })
+                let (_, span) = *self.free.entry(text.clone()).or_insert((true, span));
+                Some(Condition::Value { text, span, bindings })
             }
             Names::Declared => {
                 let Place { steps, scalar } = self.place(id)?;
@@ -113,7 +113,7 @@ impl Checker<'_> {
     }
 
     fn formula_item(&mut self, id: NodeId, item: usize) -> Option<Atom> {
-        self.used.insert(item);
+        self.items[item].used = true;
         let text = self.ast.text(id);
         if !self.scope.parameters(item).is_empty() {
             let error = self.without_arguments(id, item);
@@ -122,7 +122,7 @@ impl Checker<'_> {
         }
         match self.ast.items()[item].kind {
             ItemKind::Predicate(..) => {
-                let predicate = *self.declared.get(&item)?;
+                let predicate = self.items[item].predicate?;
                 let condition = self.module.arena.add_condition(Condition::Is(predicate));
                 Some(Atom::Conditions(vec![condition]))
             }

@@ -4,7 +4,7 @@
 //! bound name becomes the value or the listed element that it stands for; Rust expressions are
 //! left as they are, with what the names in them stand for beside them.
 
-use std::collections::{BTreeMap, HashMap};
+use rustc_hash::FxHashMap;
 use std::rc::Rc;
 
 use super::scope::Scope;
@@ -37,7 +37,7 @@ pub(super) struct Expanded {
     /// The source; nothing if it had none to begin with.
     pub(super) ast: Option<Ast>,
     /// What is bound around the expressions that stand within a quantifier.
-    pub(super) bound: HashMap<NodeId, Environment>,
+    pub(super) bound: FxHashMap<NodeId, Environment>,
 }
 
 /// Writes all quantifiers out.
@@ -45,12 +45,12 @@ pub(super) fn expand(ast: &Ast, scope: &Scope<'_>, mistakes: &mut Vec<Error>) ->
     let roots = ast.items().iter().filter_map(root);
     let quantified = |root| nodes(ast, root).any(|id| is_quantified(ast, id));
     if !roots.into_iter().any(quantified) {
-        return Expanded { ast: None, bound: HashMap::new() };
+        return Expanded { ast: None, bound: FxHashMap::default() };
     }
     let mut to = Ast::new(ast.source().clone());
     to.set_docs(ast.docs().to_vec());
     let mut expansion =
-        Expansion { from: ast, scope, to, bound: HashMap::new(), mistakes, full: false };
+        Expansion { from: ast, scope, to, bound: FxHashMap::default(), mistakes, full: false };
     for item in ast.items() {
         let kind = match &item.kind {
             ItemKind::Constant(unit, root) => {
@@ -88,7 +88,7 @@ struct Expansion<'a, 'm> {
     from: &'a Ast,
     scope: &'a Scope<'a>,
     to: Ast,
-    bound: HashMap<NodeId, Environment>,
+    bound: FxHashMap<NodeId, Environment>,
     mistakes: &'m mut Vec<Error>,
     /// Whether there is no room for more.
     full: bool,
@@ -102,11 +102,11 @@ impl Expansion<'_, '_> {
     /// Copies the expression `root`, its quantifiers written out.
     fn copy(&mut self, root: NodeId, environment: &Environment) -> NodeId {
         let first = self.from.first(root);
-        let quantifiers = self.outermost(first, root);
+        let mut quantifiers = self.outermost(first, root);
         let mut copies: Vec<NodeId> = Vec::with_capacity((root.0 - first.0 + 1) as usize);
         let mut at = first;
         while at <= root {
-            if let Some(&quantifier) = quantifiers.get(&at) {
+            if let Some((_, quantifier)) = quantifiers.pop_if(|(start, _)| *start == at) {
                 let copy = self.quantifier(quantifier, environment);
                 copies.resize((quantifier.0 - first.0 + 1) as usize, copy);
                 at = NodeId(quantifier.0 + 1);
@@ -120,15 +120,16 @@ impl Expansion<'_, '_> {
         copies[copies.len() - 1]
     }
 
-    /// The quantifiers of an expression that stand within no other, by their first node.
-    fn outermost(&self, first: NodeId, root: NodeId) -> BTreeMap<NodeId, NodeId> {
-        let mut quantifiers = BTreeMap::new();
+    /// The quantifiers of an expression that stand within no other, and the first node of each; the
+    /// last one first.
+    fn outermost(&self, first: NodeId, root: NodeId) -> Vec<(NodeId, NodeId)> {
+        let mut quantifiers = Vec::new();
         let mut next = Some(root.0);
         while let Some(id) = next.filter(|id| *id >= first.0).map(NodeId) {
             let mut start = id;
             if is_quantified(self.from, id) {
                 start = self.from.first(id);
-                quantifiers.insert(start, id);
+                quantifiers.push((start, id));
             }
             next = start.0.checked_sub(1);
         }

@@ -1,6 +1,6 @@
 //! Tasks: an expression as a [`Spec`] in negation normal form.
 
-use std::collections::{HashMap, HashSet};
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::Checker;
 use super::atom::Atom;
@@ -63,9 +63,9 @@ impl Checker<'_> {
     /// The predicates of the task in order of first appearance.
     fn propositions(&mut self, roles: &Roles, atoms: &[Option<Atom>]) -> Vec<PredicateId> {
         let mut predicates = Vec::new();
-        let mut seen = HashSet::new();
+        let mut seen = FxHashSet::default();
         let mut add = |predicate: PredicateId| {
-            if seen.insert(predicate) {
+            if seen.insert(predicate.0) {
                 predicates.push(predicate);
             }
         };
@@ -165,7 +165,7 @@ impl Checker<'_> {
         let name = |id: &PredicateId| self.module.predicates[id.0 as usize].name.clone();
         let mut builder = Builder {
             spec: Spec::new(predicates.iter().map(name).collect()),
-            positions: predicates.iter().copied().zip(0..).collect(),
+            positions: predicates.iter().map(|predicate| predicate.0).zip(0..).collect(),
             built: Vec::new(),
         };
         for ((id, role), atom) in roles.iter().zip(atoms) {
@@ -330,13 +330,14 @@ pub(super) enum Literal {
 /// A spec in the making, with the formula of each node.
 struct Builder {
     spec: Spec,
-    positions: HashMap<PredicateId, u32>,
+    /// The place of each predicate among the propositions.
+    positions: FxHashMap<u32, u32>,
     built: Vec<Option<FormulaId>>,
 }
 
 impl Builder {
     fn literal(&mut self, predicate: PredicateId, negated: bool, span: Span) -> FormulaId {
-        let position = self.positions.get(&predicate).copied().unwrap_or_default();
+        let position = self.positions.get(&predicate.0).copied().unwrap_or_default();
         self.spec.literal(position, negated, span)
     }
 

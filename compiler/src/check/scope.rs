@@ -1,6 +1,6 @@
 //! What the items of a source declare: their names, and the types of the state.
 
-use std::collections::{BTreeMap, HashMap};
+use rustc_hash::FxHashMap;
 
 use super::{Names, name, unit};
 use crate::ast::{Ast, Declaration, FieldType, Item, ItemKind, WrittenUnit, quoted};
@@ -13,41 +13,50 @@ use crate::unit::{Unit, Units};
 
 /// The declared names and types.
 pub(super) struct Scope<'a> {
-    items: BTreeMap<&'a str, usize>,
-    tasks: BTreeMap<usize, TaskId>,
+    items: FxHashMap<&'a str, usize>,
+    /// What each item declares.
+    declared: Vec<Declared>,
+    tasks: u32,
     pub(super) structs: Vec<Struct>,
     pub(super) enums: Vec<Enum>,
     state: Option<Struct>,
     /// Where the fields of the state are declared.
-    fields: BTreeMap<&'a str, Span>,
-    variants: HashMap<&'a str, Vec<(u32, u32)>>,
-    /// What predicates and tasks take, by item.
-    parameters: BTreeMap<usize, Vec<Parameter>>,
-    /// The parameters whose types have mistakes, by item.
-    unclear: BTreeMap<usize, Vec<String>>,
+    fields: FxHashMap<&'a str, Span>,
+    variants: FxHashMap<&'a str, Vec<(u32, u32)>>,
+    /// All names that can stand in a formula, in the order of the source within each kind.
+    names: Vec<&'a str>,
     pub(super) units: Units,
-    /// The declared units of constants, by item, and where they stand.
-    constants: BTreeMap<usize, (Unit, Span)>,
     /// Whether anything has a declared unit.
     measured: bool,
     /// Whether an item of types could not be read.
     incomplete: bool,
 }
 
+/// What one item declares.
+#[derive(Clone, Default)]
+struct Declared {
+    task: Option<TaskId>,
+    /// What a predicate or a task takes.
+    parameters: Vec<Parameter>,
+    /// The parameters whose types have mistakes.
+    unclear: Vec<String>,
+    /// The unit of a constant, and where it stands.
+    unit: Option<(Unit, Span)>,
+}
+
 impl<'a> Scope<'a> {
     pub(super) fn new(ast: &'a Ast, names: Names, mistakes: &mut Vec<Error>) -> Self {
         let mut scope = Self {
-            items: BTreeMap::new(),
-            tasks: BTreeMap::new(),
+            items: FxHashMap::default(),
+            declared: vec![Declared::default(); ast.items().len()],
+            tasks: 0,
             structs: Vec::new(),
             enums: Vec::new(),
             state: None,
-            fields: BTreeMap::new(),
-            variants: HashMap::new(),
-            parameters: BTreeMap::new(),
-            unclear: BTreeMap::new(),
+            fields: FxHashMap::default(),
+            variants: FxHashMap::default(),
+            names: Vec::new(),
             units: Units::default(),
-            constants: BTreeMap::new(),
             measured: false,
             incomplete: false,
         };
@@ -65,11 +74,11 @@ impl<'a> Scope<'a> {
     }
 
     pub(super) fn task_id(&self, item: usize) -> Option<TaskId> {
-        self.tasks.get(&item).copied()
+        self.declared[item].task
     }
 
     pub(super) fn task_count(&self) -> usize {
-        self.tasks.len()
+        self.tasks as usize
     }
 
     /// The values called `name`, or `Enumeration::name`: of which enumerations, and which there.
@@ -88,17 +97,17 @@ impl<'a> Scope<'a> {
 
     /// What the item takes when it is used.
     pub(super) fn parameters(&self, item: usize) -> &[Parameter] {
-        self.parameters.get(&item).map_or(&[], Vec::as_slice)
+        &self.declared[item].parameters
     }
 
     /// The parameters of the item whose types have mistakes: nothing is known of them.
     pub(super) fn unclear(&self, item: usize) -> &[String] {
-        self.unclear.get(&item).map_or(&[], Vec::as_slice)
+        &self.declared[item].unclear
     }
 
     /// The declared unit of the constant `item`, and where it stands.
     pub(super) fn constant_unit(&self, item: usize) -> Option<&(Unit, Span)> {
-        self.constants.get(&item)
+        self.declared[item].unit.as_ref()
     }
 
     /// Whether anything has a declared unit.
@@ -126,7 +135,7 @@ impl<'a> Scope<'a> {
 
     /// All names that can stand in a formula.
     pub(super) fn names(&self) -> impl Iterator<Item = &str> {
-        self.items.keys().chain(self.fields.keys()).chain(self.variants.keys()).copied()
+        self.names.iter().copied()
     }
 
     pub(super) fn state(&self, ast: &Ast, names: Names) -> State {
@@ -145,13 +154,13 @@ impl<'a> Scope<'a> {
     }
 
     fn declare(&mut self, ast: &'a Ast, mistakes: &mut Vec<Error>) {
-        let mut first: BTreeMap<&str, Span> = BTreeMap::new();
+        let mut first: FxHashMap<&str, Span> = FxHashMap::default();
         for (index, item) in ast.items().iter().enumerate() {
             let text = ast.source().slice(item.name);
             self.incomplete |= is_broken_type(ast, item);
             if matches!(item.kind, ItemKind::Task(..)) {
-                let count = u32::try_from(self.tasks.len()).expect("fewer than 2^32 tasks");
-                self.tasks.insert(index, TaskId(count));
+                self.declared[index].task = Some(TaskId(self.tasks));
+                self.tasks += 1;
             }
             if text.is_empty() {
                 continue;
@@ -163,6 +172,7 @@ impl<'a> Scope<'a> {
             first.insert(text, item.name);
             if is_value(&item.kind) {
                 self.items.insert(text, index);
+                self.names.push(text);
             }
         }
     }
@@ -202,13 +212,14 @@ impl<'a> Scope<'a> {
             );
         }
         let of = index(self.enums.len());
-        let mut first: BTreeMap<&str, Span> = BTreeMap::new();
+        let mut first: FxHashMap<&str, Span> = FxHashMap::default();
         for (number, span) in (0..).zip(names) {
             let name = ast.source().slice(*span);
             if let Some(before) = first.insert(name, *span) {
                 mistakes.push(duplicate(name, *span, before));
             }
             self.variants.entry(name).or_default().push((of, number));
+            self.names.push(name);
         }
     }
 
@@ -222,7 +233,7 @@ impl<'a> Scope<'a> {
             };
             let mut parameters: Vec<Parameter> = Vec::new();
             let mut unclear = Vec::new();
-            let mut first: BTreeMap<&str, Span> = BTreeMap::new();
+            let mut first: FxHashMap<&str, Span> = FxHashMap::default();
             for declaration in declared {
                 let text = ast.source().slice(declaration.name);
                 if let Some(before) = first.insert(text, declaration.name) {
@@ -249,10 +260,8 @@ impl<'a> Scope<'a> {
                     }
                 }
             }
-            self.parameters.insert(item, parameters);
-            if !unclear.is_empty() {
-                self.unclear.insert(item, unclear);
-            }
+            self.declared[item].parameters = parameters;
+            self.declared[item].unclear = unclear;
         }
     }
 
@@ -313,6 +322,7 @@ impl<'a> Scope<'a> {
             for field in fields {
                 let name = ast.source().slice(field.name);
                 self.fields.insert(name, field.name);
+                self.names.push(name);
                 if let Some(other) = self.items.get(name) {
                     mistakes.push(duplicate(name, ast.items()[*other].name, field.name));
                 }
@@ -326,9 +336,8 @@ impl<'a> Scope<'a> {
     fn declare_constants(&mut self, ast: &Ast, mistakes: &mut Vec<Error>) {
         for (item, entry) in ast.items().iter().enumerate() {
             let ItemKind::Constant(Some(written), _) = &entry.kind else { continue };
-            if let Some(unit) = self.unit(ast, written, mistakes) {
-                self.constants.insert(item, (unit, written.span));
-            }
+            let unit = self.unit(ast, written, mistakes);
+            self.declared[item].unit = unit.map(|unit| (unit, written.span));
         }
     }
 
@@ -371,7 +380,7 @@ impl<'a> Scope<'a> {
         declarations: &[Declaration],
         mistakes: &mut Vec<Error>,
     ) -> Vec<Field> {
-        let mut first: BTreeMap<&str, Span> = BTreeMap::new();
+        let mut first: FxHashMap<&str, Span> = FxHashMap::default();
         let mut fields = Vec::new();
         for field in declarations {
             let text = ast.source().slice(field.name);

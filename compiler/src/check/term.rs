@@ -211,10 +211,10 @@ impl Checker<'_> {
     }
 
     fn number_item(&mut self, id: NodeId, item: usize) -> Option<TermId> {
-        self.used.insert(item);
+        self.items[item].used = true;
         let what = match self.ast.items()[item].kind {
             ItemKind::Constant(..) => {
-                let value = *self.constants.get(&item)?;
+                let value = self.items[item].value?;
                 return Some(self.number(value));
             }
             ItemKind::Predicate(..) => "predicate",
@@ -476,7 +476,7 @@ impl Checker<'_> {
             Node::Number(value) => Some(*value),
             Node::Name => {
                 let item = self.scope.item(text);
-                item.and_then(|item| self.constants.get(&item)).copied()
+                item.and_then(|item| self.items[item].value)
             }
             _ => None,
         };

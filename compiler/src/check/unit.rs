@@ -119,7 +119,7 @@ impl Checker<'_> {
                 mistakes.push(self.converted(error, argument, found, wanted));
             }
         }
-        mistakes.into_iter().for_each(|error| self.tell_once(error));
+        mistakes.into_iter().for_each(|error| self.mistakes.push(error));
     }
 
     /// What the constant `item` is measured in, whose value is `root`.
@@ -135,7 +135,7 @@ impl Checker<'_> {
             let error = Error::new(Kind::Unit, message, self.ast.entry(root).outer)
                 .related(place, "declared here");
             let error = self.converted(error, root, found, &wanted);
-            self.tell_once(error);
+            self.mistakes.push(error);
         }
         Measure::In(wanted)
     }
@@ -173,7 +173,7 @@ impl Checker<'_> {
         let unit = match (self.parameter(id), self.item(id)) {
             (Some(parameter), _) => parameter.unit.clone(),
             (None, Some(item)) => {
-                return self.measures.get(&item).cloned().unwrap_or(Measure::Free);
+                return self.items[item].measure.clone().unwrap_or(Measure::Free);
             }
             (None, None) => self.place_unit(id),
         };
@@ -221,7 +221,7 @@ impl Checker<'_> {
             }
         }
         broken |= !mistakes.is_empty();
-        mistakes.into_iter().for_each(|error| self.tell_once(error));
+        mistakes.into_iter().for_each(|error| self.mistakes.push(error));
         match known {
             _ if broken => Measure::Broken,
             Some((_, unit)) => Measure::In(unit.clone()),
@@ -260,7 +260,7 @@ impl Checker<'_> {
     fn within_bounds(&mut self, id: NodeId, unit: Option<Unit>) -> Measure {
         if unit.is_none() {
             let message = format!("the unit of `{}` is too large", self.ast.quote(id));
-            self.tell_once(too_large(message, self.ast.entry(id).outer));
+            self.mistakes.push(too_large(message, self.ast.entry(id).outer));
         }
         unit.map_or(Measure::Broken, Measure::In)
     }
@@ -301,9 +301,8 @@ impl Checker<'_> {
             let (text, is) = (self.ast.quote(operand), self.is_in(unit));
             let message = format!("`{}` has no unit, for `{text}` {is}", self.ast.quote(id));
             let error = Error::new(Kind::Unit, message, self.ast.entry(operand).outer);
-            self.tell_once(
-                error.help("a square root halves each power of a unit, so it must be even"),
-            );
+            self.mistakes
+                .push(error.help("a square root halves each power of a unit, so it must be even"));
         }
         root.map_or(Measure::Broken, Measure::In)
     }
@@ -325,7 +324,7 @@ impl Checker<'_> {
         let takes = if turns { "an angle in rad" } else { "a plain number" };
         let message = format!("`{name}` takes {takes}, but `{text}` {is}");
         let error = Error::new(Kind::Unit, message, self.ast.entry(operand).outer);
-        self.tell_once(match degrees {
+        self.mistakes.push(match degrees {
             Some(deg) => error.help(format!(
                 "declare `const rad_per_{deg} in rad/{deg} = 0.017453292519943295` and write `{name}({} * rad_per_{deg})`",
                 self.factor(operand)
@@ -350,7 +349,7 @@ impl Checker<'_> {
                 let (text, is) = (self.ast.quote(exponent), self.is_in(unit));
                 let message = format!("an exponent is a plain number, but `{text}` {is}");
                 let place = self.ast.entry(exponent).outer;
-                self.tell_once(Error::new(Kind::Unit, message, place));
+                self.mistakes.push(Error::new(Kind::Unit, message, place));
                 Measure::Broken
             }
             (Measure::In(unit), _) if !unit.is_plain() => {
@@ -380,7 +379,7 @@ impl Checker<'_> {
         }
         let (text, is) = (self.ast.quote(base), self.is_in(unit));
         let message = format!("the unit of this power is not known, for `{text}` {is}");
-        self.tell_once(
+        self.mistakes.push(
             Error::new(Kind::Unit, message, self.ast.entry(base).outer)
                 .related(self.ast.entry(exponent).outer, "this is not a whole number")
                 .help("what has a unit is raised to a known whole number"),
@@ -426,13 +425,6 @@ impl Checker<'_> {
 
     fn within(&self, unit: &Unit) -> String {
         format!("{}{}", if unit.is_plain() { "as " } else { "" }, self.label(unit))
-    }
-
-    /// Tells a mistake, which may stand in the body of a quantifier, once.
-    fn tell_once(&mut self, error: Error) {
-        if self.told.insert((error.span(), error.message().to_owned())) {
-            self.mistakes.push(error);
-        }
     }
 }
 

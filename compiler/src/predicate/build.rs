@@ -1,12 +1,11 @@
 //! Conditions made of others, with what is constant folded, and arguments in the place of
 //! parameters.
 
-use std::collections::{BTreeSet, HashMap};
-
 use super::{
     Arena, Arguments, Binding, Condition, ConditionId, Number, Scalar, Step, Term, TermId,
 };
 use super::{Module, ParameterType, PredicateId, Task};
+use crate::arena;
 use crate::ast::Comparison;
 
 impl Arena {
@@ -90,43 +89,30 @@ impl Arena {
 
     /// The condition `root` with `arguments` in the place of the parameters of these names.
     pub fn substitute(&mut self, root: ConditionId, arguments: &Arguments) -> ConditionId {
-        let mut conditions: HashMap<ConditionId, ConditionId> = HashMap::new();
-        for id in self.needed(root) {
-            let condition = self.condition(id).clone();
-            let new = self.substituted(id, condition, &conditions, arguments);
-            conditions.insert(id, new);
+        let needed = arena::needed(vec![root.0], &mut |id, open| {
+            open.extend(self.condition(ConditionId(id)).operands().iter().map(|a| a.0));
+        });
+        let mut done: Vec<ConditionId> = Vec::with_capacity(needed.len());
+        for &id in &needed {
+            let condition = self.condition(ConditionId(id)).clone();
+            let of = |a: ConditionId| done[place(&needed, a.0)];
+            done.push(self.substituted(ConditionId(id), condition, of, arguments));
         }
-        conditions[&root]
-    }
-
-    /// The conditions that `root` is made of, operands first.
-    fn needed(&self, root: ConditionId) -> BTreeSet<ConditionId> {
-        let mut needed = BTreeSet::new();
-        let mut open = vec![root];
-        while let Some(id) = open.pop() {
-            if needed.insert(id) {
-                match *self.condition(id) {
-                    Condition::Not(a) | Condition::Apply { meaning: a, .. } => open.push(a),
-                    Condition::And(a, b) | Condition::Or(a, b) => open.extend([a, b]),
-                    _ => {}
-                }
-            }
-        }
-        needed
+        done[place(&needed, root.0)]
     }
 
     fn substituted(
         &mut self,
         id: ConditionId,
         condition: Condition,
-        done: &HashMap<ConditionId, ConditionId>,
+        of: impl Fn(ConditionId) -> ConditionId,
         arguments: &Arguments,
     ) -> ConditionId {
         match condition {
             Condition::Truth(_) | Condition::Is(_) | Condition::Free(_) => id,
-            Condition::Not(a) => self.not(done[&a]),
-            Condition::And(a, b) => self.and(done[&a], done[&b]),
-            Condition::Or(a, b) => self.or(done[&a], done[&b]),
+            Condition::Not(a) => self.not(of(a)),
+            Condition::And(a, b) => self.and(of(a), of(b)),
+            Condition::Or(a, b) => self.or(of(a), of(b)),
             Condition::Compare(op, a, b) => {
                 let (a, b) = (self.replace(a, arguments), self.replace(b, arguments));
                 self.compare(op, a, b)
@@ -146,32 +132,34 @@ impl Arena {
             }
             Condition::Apply { predicate, arguments: old, meaning } => {
                 let new = old.into_iter().map(|term| self.replace(term, arguments)).collect();
-                self.apply(predicate, new, done[&meaning])
+                self.apply(predicate, new, of(meaning))
             }
         }
     }
 
     /// The term `root` with `arguments` in the place of the parameters of these names.
     pub fn replace(&mut self, root: TermId, arguments: &Arguments) -> TermId {
-        let mut needed = BTreeSet::new();
-        let mut open = vec![root];
-        while let Some(id) = open.pop() {
-            if needed.insert(id) {
-                open.extend(self.term(id).operands());
-            }
+        let needed = self.terms_of(vec![root]);
+        let mut done: Vec<TermId> = Vec::with_capacity(needed.len());
+        for &id in &needed {
+            let of = |a: TermId| done[place(&needed, a.0)];
+            done.push(self.replaced(TermId(id), of, arguments));
         }
-        let mut done: HashMap<TermId, TermId> = HashMap::new();
-        for id in needed {
-            let new = self.replaced(id, &done, arguments);
-            done.insert(id, new);
-        }
-        done[&root]
+        done[place(&needed, root.0)]
+    }
+
+    /// The numbers of all terms that `roots` are made of, operands first.
+    fn terms_of(&self, roots: Vec<TermId>) -> Vec<u32> {
+        let roots = roots.into_iter().map(|root| root.0).collect();
+        arena::needed(roots, &mut |id, open| {
+            open.extend(self.term(TermId(id)).operands().iter().map(|a| a.0));
+        })
     }
 
     fn replaced(
         &mut self,
         id: TermId,
-        done: &HashMap<TermId, TermId>,
+        of: impl Fn(TermId) -> TermId,
         arguments: &Arguments,
     ) -> TermId {
         let term = match self.term(id).clone() {
@@ -182,8 +170,8 @@ impl Arena {
             Term::Place { mut steps, scalar } => {
                 for step in &mut steps {
                     match step {
-                        Step::Element(index) => *index = done[index],
-                        Step::At { index, length } => *step = self.at(done[index], *length),
+                        Step::Element(index) => *index = of(*index),
+                        Step::At { index, length } => *step = self.at(of(*index), *length),
                         Step::Field(_) | Step::Index(_) => {}
                     }
                 }
@@ -191,15 +179,15 @@ impl Arena {
             }
             Term::Host { text, span, bindings, value } => {
                 let bindings =
-                    bindings.into_iter().map(|one| Binding { term: done[&one.term], ..one });
+                    bindings.into_iter().map(|one| Binding { term: of(one.term), ..one });
                 Term::Host { text, span, bindings: bindings.collect(), value }
             }
-            Term::Negate(a) => return self.folded(Term::Negate(done[&a])),
+            Term::Negate(a) => return self.folded(Term::Negate(of(a))),
             Term::Calculate(op, a, b) => {
-                return self.folded(Term::Calculate(op, done[&a], done[&b]));
+                return self.folded(Term::Calculate(op, of(a), of(b)));
             }
             Term::Call(function, a, b) => {
-                return self.folded(Term::Call(function, done[&a], b.map(|b| done[&b])));
+                return self.folded(Term::Call(function, of(a), b.map(of)));
             }
             _ => return id,
         };
@@ -271,32 +259,57 @@ impl Module {
     }
 
     /// All terms that the predicates of a task read.
-    fn needed_terms(&self, task: &Task) -> BTreeSet<TermId> {
-        let condition = |id: &PredicateId| self.predicates[id.0 as usize].condition;
-        let mut conditions: Vec<_> = task.predicates.iter().map(condition).collect();
-        let mut terms = Vec::new();
-        let mut seen = BTreeSet::new();
-        while let Some(id) = conditions.pop() {
-            if !seen.insert(id) {
-                continue;
-            }
-            match self.arena.condition(id) {
-                Condition::Not(a) | Condition::Apply { meaning: a, .. } => conditions.push(*a),
-                Condition::And(a, b) | Condition::Or(a, b) => conditions.extend([*a, *b]),
-                Condition::Is(predicate) => conditions.push(condition(predicate)),
-                Condition::Compare(_, a, b) => terms.extend([*a, *b]),
-                Condition::Bool(place) => terms.push(*place),
-                Condition::Truth(_) | Condition::Value { .. } | Condition::Free(_) => {}
-            }
-        }
-        let mut needed = BTreeSet::new();
-        while let Some(id) = terms.pop() {
-            if needed.insert(id) {
-                terms.extend(self.arena.term(id).operands());
-            }
-        }
-        needed
+    fn needed_terms(&self, task: &Task) -> Vec<TermId> {
+        let roots = task.predicates.iter().map(|id| self.predicates[id.0 as usize].condition);
+        self.terms_of(&self.conditions_of(roots.collect()))
     }
+
+    /// All terms that some conditions compare, and what these are made of, operands first.
+    pub(crate) fn terms_of(&self, conditions: &[ConditionId]) -> Vec<TermId> {
+        let mut terms = Vec::new();
+        for &id in conditions {
+            match *self.arena.condition(id) {
+                Condition::Compare(_, a, b) => terms.extend([a, b]),
+                Condition::Bool(place) => terms.push(place),
+                _ => {}
+            }
+        }
+        self.arena.terms_of(terms).into_iter().map(TermId).collect()
+    }
+
+    /// All conditions that `roots` are made of, those of predicates among them.
+    pub(crate) fn conditions_of(&self, roots: Vec<ConditionId>) -> Vec<ConditionId> {
+        let roots = roots.into_iter().map(|root| root.0).collect();
+        let needed = arena::needed(roots, &mut |id, open| {
+            open.extend(self.operands(self.arena.condition(ConditionId(id))).iter().map(|a| a.0));
+        });
+        needed.into_iter().map(ConditionId).collect()
+    }
+
+    /// What a condition is made of; a predicate, of its condition.
+    pub(crate) fn operands(&self, condition: &Condition) -> Vec<ConditionId> {
+        match condition {
+            Condition::Is(predicate) => vec![self.predicates[predicate.0 as usize].condition],
+            _ => condition.operands(),
+        }
+    }
+}
+
+impl Condition {
+    /// The conditions that it is made of.
+    #[must_use]
+    pub fn operands(&self) -> Vec<ConditionId> {
+        match *self {
+            Self::Not(a) | Self::Apply { meaning: a, .. } => vec![a],
+            Self::And(a, b) | Self::Or(a, b) => vec![a, b],
+            _ => Vec::new(),
+        }
+    }
+}
+
+/// Where a part stands among all of them.
+fn place(needed: &[u32], id: u32) -> usize {
+    needed.binary_search(&id).expect("operands are needed")
 }
 
 impl Term {
