@@ -1,27 +1,15 @@
-//! Predicates and tasks that can hardly be meant: never satisfied, always satisfied, or with a part
-//! that does not matter; and why.
+//! Predicates and tasks that can hardly be meant: never satisfied, or always; and why.
 //!
 //! The reasons come from the same arithmetic as the letters that can occur: a set of comparisons is
 //! made smaller until each is needed for the contradiction.
 
-use rustc_hash::FxHashSet;
-
 use crate::arithmetic::{self, Possible};
 use crate::compile::Automata;
-use crate::dfa::{Dfa, Target};
+use crate::dfa::Dfa;
 use crate::emit::edge::edges;
 use crate::error::{Error, Kind};
-use crate::minimize::minimize;
 use crate::predicate::{Condition, ConditionId, Module, Task};
 use crate::source::Span;
-use crate::spec::{Formula, FormulaId, Spec};
-use crate::translate::{Budget, translate};
-
-/// Formulas with more operators and operands are not searched for parts that do not matter.
-const MOST_OPERATORS: usize = 40;
-
-/// Nor are automata with more states.
-const MOST_STATES: usize = 64;
 
 /// What the author of a task should look at. In a bare formula, which may be there to be explored,
 /// all of it is a warning.
@@ -277,116 +265,4 @@ fn obstacle(possible: &mut Possible, dfa: &Dfa) -> Option<Vec<(u32, bool)>> {
 fn name(task: &Task, (proposition, holds): (u32, bool)) -> String {
     let name = &task.spec.propositions()[proposition as usize];
     if holds { format!("`{name}`") } else { format!("`!({name})`") }
-}
-
-/// A warning for each largest part of a task's formula that could as well be left out.
-///
-/// Deterministic, and bounded: large formulas and automata are not searched.
-#[must_use]
-pub fn vacuous(module: &Module, task: &Task, automata: &Automata) -> Vec<Error> {
-    let spec = &task.spec;
-    let reachable = spec.reachable();
-    let count = reachable.iter().filter(|reachable| **reachable).count();
-    let states = automata.propositional.len();
-    let judged = matches!(automata.dfa.accepting, None | Some(0));
-    if count > MOST_OPERATORS || states > MOST_STATES || judged {
-        return Vec::new();
-    }
-    let mut possible = arithmetic::possible(module, task);
-    let mut warnings = Vec::new();
-    let mut within = vec![false; reachable.len()];
-    for (id, formula) in spec.formulas().rev().filter(|(id, _)| reachable[id.0 as usize]) {
-        let constant = match formula {
-            Formula::True | Formula::False => true,
-            Formula::Literal { proposition, .. } => possible.values(proposition) != (true, true),
-            _ => false,
-        };
-        let matters = constant || within[id.0 as usize] || id == spec.root();
-        if !matters && let Some(value) = indifferent(spec, id, &possible, &automata.dfa) {
-            warnings.push(vacuous_part(task, id, value));
-            within[id.0 as usize] = true;
-        }
-        if within[id.0 as usize] {
-            formula.operands().for_each(|operand| within[operand.0 as usize] = true);
-        }
-    }
-    warnings
-}
-
-fn vacuous_part(task: &Task, id: FormulaId, value: bool) -> Error {
-    let text = task.spec.display(id).to_string();
-    let text = crate::ast::quoted(&text);
-    let what = task.name.as_ref().map_or("the formula".to_owned(), |name| format!("task `{name}`"));
-    let message = format!("`{text}` does not matter: {what} means the same without it");
-    let span = task.spec.span(id);
-    let span = if span == Span::default() { task.span } else { span };
-    Error::new(Kind::Vacuous, message, span)
-        .label(format!("with `{value}` here it would mean the same"))
-        .help("leave it out, or look whether the rest says more than it should")
-        .warning()
-}
-
-/// The constant that a part may be replaced by, if the automaton stays the same.
-fn indifferent(spec: &Spec, part: FormulaId, possible: &Possible, dfa: &Dfa) -> Option<bool> {
-    [false, true].into_iter().find(|&value| {
-        let changed = replaced(spec, part, value);
-        translate(&changed, Budget::EMITTED).is_ok_and(|raw| {
-            let minimal = minimize(&raw);
-            let other = match possible.all() {
-                true => minimal,
-                false => minimize(&possible.restrict(&minimal)),
-            };
-            same(dfa, &other)
-        })
-    })
-}
-
-/// The formula with a constant in the place of a part.
-fn replaced(spec: &Spec, part: FormulaId, value: bool) -> Spec {
-    let mut changed = Spec::new(spec.propositions().to_vec());
-    let mut built: Vec<FormulaId> = Vec::new();
-    for (id, formula) in spec.formulas() {
-        let of = |id: FormulaId| built[id.0 as usize];
-        let span = spec.span(id);
-        built.push(match formula {
-            _ if id == part => changed.truth(value, span),
-            Formula::True => changed.truth(true, span),
-            Formula::False => changed.truth(false, span),
-            Formula::Literal { proposition, negated } => {
-                changed.literal(proposition, negated, span)
-            }
-            Formula::And(a, b) => changed.and(of(a), of(b), span),
-            Formula::Or(a, b) => changed.or(of(a), of(b), span),
-            Formula::Next(a) => changed.next(of(a), span),
-            Formula::Eventually(a) => changed.eventually(of(a), span),
-            Formula::Until(a, b) => changed.until(of(a), of(b), span),
-            Formula::Then(a, b) => changed.then(of(a), of(b), span),
-        });
-    }
-    changed.set_root(built[spec.root().0 as usize]);
-    changed
-}
-
-/// Whether two minimal automata over the same propositions, numbered alike, are the same.
-fn same(a: &Dfa, b: &Dfa) -> bool {
-    if (a.accepting, a.trap, a.len()) != (b.accepting, b.trap, b.len()) {
-        return false;
-    }
-    let pairs = a.transitions.iter().copied().zip(b.transitions.iter().copied());
-    let mut open: Vec<(Target, Target)> = pairs.collect();
-    let mut seen = FxHashSet::default();
-    while let Some((x, y)) = open.pop() {
-        if !seen.insert((x, y)) {
-            continue;
-        }
-        let (p, q) = (a.diagram.proposition(x), b.diagram.proposition(y));
-        if p != q || (p.is_none() && x.state() != y.state()) {
-            return false;
-        }
-        if let Some(p) = p {
-            let ((x0, x1), (y0, y1)) = (a.diagram.split(x, p), b.diagram.split(y, p));
-            open.extend([(x0, y0), (x1, y1)]);
-        }
-    }
-    true
 }

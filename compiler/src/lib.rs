@@ -20,7 +20,8 @@
 //!
 //! Beside the pipeline stand [`product`] (automata side by side), [`factor`] (a conjunction taken
 //! apart), [`semantics`] (what a formula means on a trace, the oracle of the tests), [`explain`] and
-//! [`diff`] (what an automaton asks for, and where two differ), and [`hoa`] (automata of other tools).
+//! [`diff`] (what an automaton asks for, and where two differ), [`vacuity`] (what could be left out),
+//! and [`hoa`] (automata of other tools).
 //! The compiler never learns, and does not know the runtime: the Rust that it writes is their only
 //! contract.
 //!
@@ -71,3 +72,5 @@ pub mod spec;
 pub mod trace;
 pub mod translate;
 pub mod unit;
+#[cfg(feature = "cli")]
+pub mod vacuity;

@@ -1,7 +1,6 @@
 //! The edges of an automaton with their guards, as every drawing and table lists them.
 
 use crate::dfa::{Dfa, Guards, State};
-use crate::emit::sum::{Notation, Sum};
 use crate::guard::Cube;
 
 /// All transitions from one state to one state.
@@ -20,12 +19,6 @@ impl Edge {
     #[must_use]
     pub fn is_loop(&self) -> bool {
         self.from == self.to
-    }
-
-    /// Its guard as text.
-    #[must_use]
-    pub fn label(&self, dfa: &Dfa, notation: Notation) -> String {
-        Sum::new(&dfa.propositions, &self.guard).notation(notation).to_string()
     }
 }
 

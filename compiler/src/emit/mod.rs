@@ -21,6 +21,7 @@ pub mod network;
 pub mod policy;
 pub mod predicates;
 pub mod rust;
+#[cfg(feature = "cli")]
 pub mod sum;
 #[cfg(feature = "cli")]
 pub mod svg;

@@ -8,6 +8,8 @@
 use std::borrow::Cow;
 use std::fmt;
 
+use crate::dfa::Dfa;
+use crate::emit::edge::Edge;
 use crate::guard::Cube;
 
 /// The symbols in which a guard is printed.
@@ -116,6 +118,14 @@ impl fmt::Display for Sum<'_> {
         }
         let products: Vec<_> = self.products().collect();
         f.write_str(&products.join(self.notation.or()))
+    }
+}
+
+impl Edge {
+    /// Its guard as text.
+    #[must_use]
+    pub fn label(&self, dfa: &Dfa, notation: Notation) -> String {
+        Sum::new(&dfa.propositions, &self.guard).notation(notation).to_string()
     }
 }
 
