@@ -10,7 +10,7 @@ use tltl_compiler::ast::{Ast, ItemKind};
 use tltl_compiler::check;
 use tltl_compiler::compile::{self, Compiled};
 use tltl_compiler::diff::{Difference, diff};
-use tltl_compiler::error::{Error, Errors, Style};
+use tltl_compiler::error::{Error, Errors, Kind, Style};
 use tltl_compiler::parse;
 use tltl_compiler::predicate::Module;
 use tltl_compiler::source::Source;
@@ -139,6 +139,51 @@ fn deep(n: usize) -> Vec<String> {
         "a".repeat(n),
         "\u{25c7}".repeat(n) + "a",
     ]
+}
+
+/// Chains of `n` definitions, each of which has the one before it in it twice.
+fn doubling(n: usize) -> Vec<String> {
+    let chain = |first: &str, next: &dyn Fn(usize) -> String, last: &str| {
+        let next: String = (1..n).map(|i| next(i) + "\n").collect();
+        format!("state S {{ x: f64 }}\n{first}\n{next}{last} p{}(x)\n", n - 1)
+    };
+    let applied = |how: &'static str| {
+        let next = move |i| {
+            format!("predicate p{i}(v: f64) = {}", how.replace('p', &format!("p{}", i - 1)))
+        };
+        chain("predicate p0(v: f64) = v < 1", &next, "task t = F")
+    };
+    let tasks = |how: &'static str| {
+        let next =
+            move |i| format!("task p{i}(v: f64) = {}", how.replace('p', &format!("p{}", i - 1)));
+        chain("task p0(v: f64) = F (v < 1)", &next, "task t =")
+    };
+    vec![
+        applied("p(v + 1) && p(v + 2)"),
+        applied("p(v + v)"),
+        applied("p(v) || !p(v * v)"),
+        tasks("p(v * v + 1)"),
+        tasks("p(v) && X p(v)"),
+        tasks("p(v) T p(v + v)").replace("task t =", "#[factored]\ntask t = F (x > 3) &&"),
+        tasks("p(v) && X p(v)").replace("task t =", "#[factored]\ntask t = F (x > 3) &&"),
+    ]
+}
+
+/// What stands in many places is shared, or refused before it is written out.
+#[test]
+fn definitions_that_double_get_an_answer() {
+    for text in doubling(40) {
+        let source = Source::new("<doubling>", text);
+        if let Err(errors) = compiled("file", &source) {
+            assert_eq!(
+                errors.first().kind(),
+                Kind::Budget,
+                "{}",
+                errors.render(&source, Style::Plain)
+            );
+            assert!(errors.first().render(&source, Style::Plain).len() < 2_000);
+        }
+    }
 }
 
 #[test]

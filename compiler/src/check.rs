@@ -26,8 +26,8 @@ use crate::ast::{Ast, ItemKind, NodeId};
 use crate::error::{Error, Errors, Kind};
 use crate::parse;
 use crate::predicate::{
-    Arena, ConditionId, Constant, Module, Parameter, ParameterType, Predicate, PredicateId, Scalar,
-    State, Task, TaskId,
+    Arena, Arguments, ConditionId, Constant, Module, Parameter, ParameterType, Predicate,
+    PredicateId, Scalar, State, Task, TaskId,
 };
 use crate::source::{Source, Span};
 use expand::{Environment, Expanded};
@@ -123,6 +123,10 @@ struct Checker<'a> {
     /// Where each name that is declared outside of the source stands first, and whether as a
     /// formula there.
     free: FxHashMap<String, (bool, Span)>,
+    /// What conditions with parameters are with arguments.
+    instances: FxHashMap<(ConditionId, Arguments), ConditionId>,
+    /// How many more operators and operands these may have, written out.
+    room: Option<usize>,
 }
 
 /// What checking has found out about an item.
@@ -174,6 +178,8 @@ impl<'a> Checker<'a> {
             items: vec![Checked::default(); ast.items().len()],
             known: FxHashMap::default(),
             free: FxHashMap::default(),
+            instances: FxHashMap::default(),
+            room: Some(expand::MOST_NODES),
         }
     }
 

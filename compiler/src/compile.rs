@@ -58,6 +58,9 @@ pub struct Part {
     pub propositions: Vec<u32>,
 }
 
+/// The formula of a part is quoted up to this length in bytes.
+const LONGEST: usize = 4096;
+
 /// Compiles a bare formula, whose names are free: one task without a name.
 ///
 /// # Errors
@@ -140,7 +143,7 @@ fn task_parts(
     let mut parts = Vec::new();
     for Factor { spec, propositions } in factors.parts {
         let predicates = propositions.iter().map(|&p| task.predicates[p as usize]).collect();
-        let text = spec.display(spec.root()).to_string();
+        let text = spec.text(spec.root(), LONGEST);
         let part = Task { text, spec, predicates, ..task.clone() };
         let automata = task_automata(module, &part, budget, mistakes)?;
         parts.push(Part { task: part, automata, propositions });

@@ -3,6 +3,7 @@
 use rustc_hash::FxHashSet;
 
 use crate::arithmetic::{self, Possible};
+use crate::ast::quoted;
 use crate::compile::Automata;
 use crate::dfa::{Dfa, Target};
 use crate::error::{Error, Kind};
@@ -53,8 +54,7 @@ pub fn parts(module: &Module, task: &Task, automata: &Automata) -> Vec<Error> {
 }
 
 fn vacuous_part(task: &Task, id: FormulaId, value: bool) -> Error {
-    let text = task.spec.display(id).to_string();
-    let text = crate::ast::quoted(&text);
+    let text = quoted(&task.spec.text(id, 1024));
     let what = task.name.as_ref().map_or("the formula".to_owned(), |name| format!("task `{name}`"));
     let message = format!("`{text}` does not matter: {what} means the same without it");
     let span = task.spec.span(id);

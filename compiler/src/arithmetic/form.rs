@@ -144,6 +144,9 @@ pub(super) struct Linear {
     denominator: i128,
 }
 
+/// A sum of more variables is a variable of its own, so that a long sum takes no quadratic time.
+const MOST_VARIABLES: usize = 64;
+
 /// Coefficients stay below this, so that products of two fit.
 const SMALL: i128 = 1 << 62;
 
@@ -176,8 +179,9 @@ impl Linear {
             let a = a.checked_mul(other.denominator)?;
             small(a.checked_add(factor.checked_mul(b)?.checked_mul(self.denominator)?)?)
         };
+        let form = combined(&self.form, &other.form, &sum)?;
         Some(Self {
-            form: combined(&self.form, &other.form, &sum)?,
+            form: (form.len() <= MOST_VARIABLES).then_some(form)?,
             constant: sum(self.constant, other.constant)?,
             denominator: small(self.denominator.checked_mul(other.denominator)?)?,
         })

@@ -1,12 +1,15 @@
 //! Predicates and tasks with arguments.
 
 use super::atom::Atom;
+use super::expand::MOST_NODES;
 use super::role::Roles;
 use super::term::{Place, a_type, elements};
 use super::{Checker, Names};
 use crate::ast::{Arithmetic, ItemKind, Node, NodeId};
 use crate::error::{Error, Kind};
-use crate::predicate::{Arguments, Number, Parameter, ParameterType, Scalar, Step, Term, TermId};
+use crate::predicate::{
+    Arguments, ConditionId, Number, Parameter, ParameterType, Scalar, Step, Term, TermId,
+};
 
 impl Checker<'_> {
     /// The callee and the item that the call `id` applies: a predicate, a task or a constant.
@@ -147,14 +150,13 @@ impl Checker<'_> {
             ItemKind::Predicate(..) => {
                 let predicate = self.items[item].predicate?;
                 let condition = self.module.predicates[predicate.0 as usize].condition;
-                let arena = &mut self.module.arena;
-                let meaning = arena.substitute(condition, &bound);
-                let applied = arena.apply(predicate, arguments, meaning);
+                let meaning = self.substituted(condition, &bound, id)?;
+                let applied = self.module.arena.apply(predicate, arguments, meaning);
                 Atom::Conditions(vec![self.placed(applied, self.ast.span(id))])
             }
             ItemKind::Task(..) => {
                 let task = self.task_id(item)?;
-                self.literals(task, &bound);
+                self.literals(task, &bound, id);
                 Atom::Task(task, bound)
             }
             _ => return None,
@@ -164,6 +166,36 @@ impl Checker<'_> {
             return None;
         }
         Some(atom)
+    }
+
+    /// A condition with arguments in the place of parameters; `None` where that is too large to be
+    /// written out, which is told once.
+    pub(super) fn substituted(
+        &mut self,
+        condition: ConditionId,
+        arguments: &Arguments,
+        id: NodeId,
+    ) -> Option<ConditionId> {
+        let key = (condition, arguments.clone());
+        if let Some(known) = self.instances.get(&key) {
+            return Some(*known);
+        }
+        let room = self.room?;
+        let condition = self.module.arena.substitute(condition, arguments);
+        self.room = room.checked_sub(self.module.arena.written_size(condition));
+        if self.room.is_none() {
+            let message = format!(
+                "written out, the predicates with arguments have more than {MOST_NODES} operators and operands"
+            );
+            self.mistakes.push(
+                Error::new(Kind::Budget, message, self.ast.span(id))
+                    .label("up to here")
+                    .help("each use of a predicate is written out with its arguments, so a chain of definitions that use one another twice doubles at each step"),
+            );
+            return None;
+        }
+        self.instances.insert(key, condition);
+        Some(condition)
     }
 
     /// The error if one of the terms since `known`, made by putting arguments in the place of

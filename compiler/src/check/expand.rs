@@ -13,7 +13,7 @@ use crate::error::{Error, Kind};
 use crate::source::Span;
 
 /// The most operators and operands that all expansions of a source may have.
-const MOST_NODES: usize = 200_000;
+pub(super) const MOST_NODES: usize = 200_000;
 
 /// The deepest nesting of `for`.
 const DEEPEST: usize = 32;

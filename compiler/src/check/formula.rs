@@ -81,7 +81,7 @@ impl Checker<'_> {
                     }
                 }
                 Some(Atom::Task(task, arguments)) => {
-                    for literal in self.literals(*task, arguments) {
+                    for literal in self.literals(*task, arguments, id) {
                         if let Literal::Proposition(predicate, _) = literal {
                             add(predicate);
                         }
@@ -93,20 +93,27 @@ impl Checker<'_> {
         predicates
     }
 
-    /// What the predicates of a task are with these arguments.
-    pub(super) fn literals(&mut self, task: TaskId, arguments: &Arguments) -> Vec<Literal> {
+    /// What the predicates of a task are with the arguments that `id` gives.
+    pub(super) fn literals(
+        &mut self,
+        task: TaskId,
+        arguments: &Arguments,
+        id: NodeId,
+    ) -> Vec<Literal> {
         let Some(task) = &self.tasks[task.0 as usize] else { return Vec::new() };
         let predicates = task.predicates.clone();
-        predicates.into_iter().map(|predicate| self.literal(predicate, arguments)).collect()
+        predicates.into_iter().map(|predicate| self.literal(predicate, arguments, id)).collect()
     }
 
-    fn literal(&mut self, predicate: PredicateId, arguments: &Arguments) -> Literal {
+    fn literal(&mut self, predicate: PredicateId, arguments: &Arguments, id: NodeId) -> Literal {
         let Predicate { declared, span, condition, .. } =
             self.module.predicates[predicate.0 as usize];
         if declared || arguments.is_empty() {
             return Literal::Proposition(predicate, false);
         }
-        let condition = self.module.arena.substitute(condition, arguments);
+        let Some(condition) = self.substituted(condition, arguments, id) else {
+            return Literal::Truth(false);
+        };
         if let Condition::Truth(value) = *self.module.arena.condition(condition) {
             return Literal::Truth(value);
         }
@@ -263,7 +270,7 @@ impl Checker<'_> {
         (task, arguments): (TaskId, &Arguments),
         negated: Option<NodeId>,
     ) -> Option<FormulaId> {
-        let literals = self.literals(task, arguments);
+        let literals = self.literals(task, arguments, id);
         let task = self.tasks[task.0 as usize].as_ref()?;
         let span = self.ast.span(id);
         if let (Some(by), Some(temporal)) = (negated, temporal(&task.spec)) {

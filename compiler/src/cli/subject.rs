@@ -77,6 +77,15 @@ pub(super) fn choose<'a>(
 
 fn place(compiled: &Compiled, name: Option<&str>) -> Result<usize, String> {
     let tasks = &compiled.module.tasks;
+    let factored = compiled.factored.iter().find(|part| match name {
+        None => tasks.is_empty(),
+        Some(_) => part.task.name.as_deref() == name,
+    });
+    if let Some(Task { name: Some(name), .. }) = factored.map(|part| &part.task) {
+        return Err(format!(
+            "task `{name}` is factored: its parts have automata, and it has none of its own; without `#[factored]` it has one, if that is not too large"
+        ));
+    }
     let names: Vec<&str> = tasks.iter().filter_map(|task| task.name.as_deref()).collect();
     let names = names.join(", ");
     match (name, tasks.len()) {

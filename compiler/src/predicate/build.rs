@@ -89,9 +89,7 @@ impl Arena {
 
     /// The condition `root` with `arguments` in the place of the parameters of these names.
     pub fn substitute(&mut self, root: ConditionId, arguments: &Arguments) -> ConditionId {
-        let needed = arena::needed(vec![root.0], &mut |id, open| {
-            open.extend(self.condition(ConditionId(id)).operands().iter().map(|a| a.0));
-        });
+        let needed = self.conditions_of(root);
         let mut done: Vec<ConditionId> = Vec::with_capacity(needed.len());
         for &id in &needed {
             let condition = self.condition(ConditionId(id)).clone();
@@ -99,6 +97,37 @@ impl Arena {
             done.push(self.substituted(ConditionId(id), condition, of, arguments));
         }
         done[place(&needed, root.0)]
+    }
+
+    /// How many operators and operands a condition has when it is written out, each as often as it
+    /// stands there; predicates without parameters are operands.
+    #[must_use]
+    pub fn written_size(&self, root: ConditionId) -> usize {
+        let conditions = self.conditions_of(root);
+        let read = |id: &u32| self.condition(ConditionId(*id)).terms();
+        let terms = self.terms_of(conditions.iter().flat_map(read).collect());
+        let mut term_sizes: Vec<usize> = Vec::with_capacity(terms.len());
+        for &id in &terms {
+            let of = |a: TermId| term_sizes[place(&terms, a.0)];
+            let operands = self.term(TermId(id)).operands().into_iter();
+            term_sizes.push(operands.map(of).fold(1, usize::saturating_add));
+        }
+        let mut sizes: Vec<usize> = Vec::with_capacity(conditions.len());
+        for &id in &conditions {
+            let condition = self.condition(ConditionId(id));
+            let terms = condition.terms().into_iter().map(|a| term_sizes[place(&terms, a.0)]);
+            let operands = condition.operands().into_iter().map(|a| sizes[place(&conditions, a.0)]);
+            sizes.push(operands.chain(terms).fold(1, usize::saturating_add));
+        }
+        sizes[place(&conditions, root.0)]
+    }
+
+    /// The numbers of all conditions that `root` is made of, operands first; those of predicates
+    /// are not among them.
+    fn conditions_of(&self, root: ConditionId) -> Vec<u32> {
+        arena::needed(vec![root.0], &mut |id, open| {
+            open.extend(self.condition(ConditionId(id)).operands().iter().map(|a| a.0));
+        })
     }
 
     fn substituted(
@@ -302,6 +331,18 @@ impl Condition {
         match *self {
             Self::Not(a) | Self::Apply { meaning: a, .. } => vec![a],
             Self::And(a, b) | Self::Or(a, b) => vec![a, b],
+            _ => Vec::new(),
+        }
+    }
+
+    /// The terms that it names, not those of its operands.
+    #[must_use]
+    pub fn terms(&self) -> Vec<TermId> {
+        match self {
+            Self::Compare(_, a, b) => vec![*a, *b],
+            Self::Bool(a) => vec![*a],
+            Self::Value { bindings, .. } => bindings.iter().map(|one| one.term).collect(),
+            Self::Apply { arguments, .. } => arguments.clone(),
             _ => Vec::new(),
         }
     }

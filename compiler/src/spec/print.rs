@@ -36,6 +36,17 @@ impl Spec {
         Printed { spec: self, root }
     }
 
+    /// The formula `root` as text of about so many bytes at most, then `…`: what stands in several
+    /// places is written out in each, which can be long beyond measure.
+    #[must_use]
+    pub fn text(&self, root: FormulaId, most: usize) -> String {
+        let mut short = Short { text: String::new(), most };
+        if fmt::write(&mut short, format_args!("{}", self.display(root))).is_err() {
+            short.text.push('…');
+        }
+        short.text
+    }
+
     fn level(&self, id: FormulaId) -> Level {
         match self.formula(id) {
             Formula::True | Formula::False => Level::Name,
@@ -64,6 +75,22 @@ impl Spec {
             Formula::Eventually(a) => a,
             _ => id,
         }
+    }
+}
+
+/// A text that takes no more once it is long enough.
+struct Short {
+    text: String,
+    most: usize,
+}
+
+impl fmt::Write for Short {
+    fn write_str(&mut self, piece: &str) -> fmt::Result {
+        if self.text.len() > self.most {
+            return Err(fmt::Error);
+        }
+        self.text.push_str(piece);
+        Ok(())
     }
 }
 
