@@ -4,15 +4,17 @@
 //! bound name becomes the value or the listed element that it stands for; Rust expressions are
 //! left as they are, with what the names in them stand for beside them.
 
-use rustc_hash::FxHashMap;
 use std::rc::Rc;
+
+use rustc_hash::FxHashMap;
 
 use super::scope::Scope;
 use crate::ast::{Ast, Infix, Item, ItemKind, Node, NodeId};
 use crate::error::{Error, Kind};
 use crate::source::Span;
 
-/// The most operators and operands that all expansions of a source may have.
+/// The most operators and operands that all quantifiers of a source may have, written out; and all
+/// conditions with arguments.
 pub(super) const MOST_NODES: usize = 200_000;
 
 /// The deepest nesting of `for`.
