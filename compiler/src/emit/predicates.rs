@@ -9,6 +9,7 @@ use proc_macro2::{Ident, Literal, Span as TokenSpan, TokenStream, TokenTree};
 use quote::{format_ident, quote, quote_spanned};
 use rustc_hash::FxHashMap;
 
+use crate::arena;
 use crate::ast::{Arithmetic, Comparison};
 use crate::predicate::{
     Binding, Condition, ConditionId, Module, Number, ParameterType, PredicateId, Scalar, State,
@@ -56,29 +57,21 @@ impl Scope<'_> {
 
     /// The statements and the expression that are a condition.
     pub fn condition(&self, id: ConditionId, reading: Reading) -> TokenStream {
+        let needed = arena::needed(vec![id.0], &mut |id, open| {
+            let condition = self.module.arena.condition(ConditionId(id));
+            open.extend(operands(condition).map(|operand| operand.0));
+        });
         let mut writer = Writer {
             scope: self,
             reading,
-            uses: self.uses(id),
-            conditions: FxHashMap::default(),
+            needed,
+            conditions: Vec::new(),
             terms: FxHashMap::default(),
             lets: TokenStream::new(),
         };
-        let (result, _) = writer.written(id);
+        let result = writer.written();
         let lets = writer.lets;
         quote! { #lets #result }
-    }
-
-    /// How often each condition that `root` needs is used.
-    fn uses(&self, root: ConditionId) -> Vec<u32> {
-        let mut uses = vec![0; self.module.arena.conditions().len()];
-        uses[root.0 as usize] = 1;
-        for (index, condition) in self.module.arena.conditions().iter().enumerate().rev() {
-            if uses[index] > 0 {
-                operands(condition).for_each(|operand| uses[operand.0 as usize] += 1);
-            }
-        }
-        uses
     }
 }
 
@@ -97,29 +90,45 @@ type Written = (TokenStream, u32);
 struct Writer<'a> {
     scope: &'a Scope<'a>,
     reading: Reading,
-    uses: Vec<u32>,
-    conditions: FxHashMap<ConditionId, Written>,
+    /// The conditions to be written, operands first.
+    needed: Vec<u32>,
+    /// What is written of them already.
+    conditions: Vec<Written>,
     terms: FxHashMap<TermId, Written>,
     lets: TokenStream,
 }
 
 impl Writer<'_> {
-    /// Writes everything that `root` needs, operands first.
-    fn written(&mut self, root: ConditionId) -> Written {
-        for index in (0..=root.0).filter(|&index| self.uses[index as usize] > 0).collect::<Vec<_>>()
-        {
-            let id = ConditionId(index);
-            let (code, depth) = self.one(id);
-            let name = format_ident!("c{index}");
-            let written = if id != root && (self.uses[index as usize] > 1 || depth > DEPTH) {
+    /// Writes everything that is needed, operands first; the last is the whole.
+    fn written(&mut self) -> TokenStream {
+        let mut uses = vec![0_u32; self.needed.len()];
+        for &id in &self.needed {
+            let condition = self.scope.module.arena.condition(ConditionId(id));
+            operands(condition).for_each(|operand| uses[self.place(operand)] += 1);
+        }
+        for (at, uses) in uses.into_iter().enumerate() {
+            let index = self.needed[at];
+            let (code, depth) = self.one(ConditionId(index));
+            let whole = at + 1 == self.needed.len();
+            let written = if !whole && (uses > 1 || depth > DEPTH) {
+                let name = format_ident!("c{index}");
                 self.lets.extend(quote! { let #name = #code; });
                 (quote! { #name }, 0)
             } else {
                 (code, depth)
             };
-            self.conditions.insert(id, written);
+            self.conditions.push(written);
         }
-        self.conditions[&root].clone()
+        self.conditions.pop().map(|(code, _)| code).unwrap_or_default()
+    }
+
+    fn place(&self, id: ConditionId) -> usize {
+        self.needed.binary_search(&id.0).expect("operands are needed")
+    }
+
+    /// What an operand is.
+    fn operand(&self, id: ConditionId) -> Written {
+        self.conditions[self.place(id)].clone()
     }
 
     fn one(&mut self, id: ConditionId) -> Written {
@@ -218,7 +227,7 @@ impl Writer<'_> {
     }
 
     fn unary(&mut self, a: ConditionId) -> Written {
-        let (a, depth) = self.conditions[&a].clone();
+        let (a, depth) = self.operand(a);
         let code = if self.reading == Reading::Robustness {
             quote! { -#a }
         } else {
@@ -235,7 +244,7 @@ impl Writer<'_> {
         operator: &TokenStream,
     ) -> Written {
         let runtime = self.scope.runtime;
-        let ((a, deep_a), (b, deep_b)) = (self.conditions[&a].clone(), self.conditions[&b].clone());
+        let ((a, deep_a), (b, deep_b)) = (self.operand(a), self.operand(b));
         let code = if self.reading == Reading::Robustness {
             quote! { #runtime::private::#function(#a, #b) }
         } else {
@@ -313,18 +322,13 @@ impl Writer<'_> {
 
     /// A term, and first everything that it needs.
     fn term(&mut self, root: TermId) -> Written {
-        let mut needed = vec![root];
-        let mut at = 0;
-        while let Some(&id) = needed.get(at) {
-            let term = self.scope.module.arena.term(id);
+        let needed = arena::needed(vec![root.0], &mut |id, open| {
+            let term = self.scope.module.arena.term(TermId(id));
             if matches!(term, Term::Negate(_) | Term::Calculate(..) | Term::Call(..)) {
-                needed.extend(term.operands());
+                open.extend(term.operands().iter().map(|operand| operand.0));
             }
-            at += 1;
-        }
-        needed.sort_unstable();
-        needed.dedup();
-        for id in needed {
+        });
+        for id in needed.into_iter().map(TermId) {
             if !self.terms.contains_key(&id) {
                 let (code, depth) = self.one_term(id);
                 let name = format_ident!("t{}", id.0);

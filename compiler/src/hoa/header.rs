@@ -1,12 +1,9 @@
 //! The header: what matters of it.
 
-use rustc_hash::FxHashMap;
-
-use super::label::{Labels, label, no_proposition};
+use super::label::{Labels, no_proposition};
 use super::token::{Token, Tokens};
 use super::{MOST_PROPOSITIONS, refused, syntax};
 use crate::error::Error;
-use crate::guard::Guard;
 use crate::source::Span;
 
 /// Which runs accept.
@@ -34,13 +31,12 @@ pub(super) struct Header {
 
 /// The header so far; some parts must come once, and aliases may come before `AP:`.
 #[derive(Default)]
-struct Draft<'a> {
+struct Draft {
     name: Option<String>,
     start: Option<(u32, Span)>,
     propositions: Option<Vec<String>>,
     acceptance: Option<Acceptance>,
     labels: Labels,
-    aliases: FxHashMap<&'a str, Guard>,
 }
 
 pub(super) fn read(tokens: &mut Tokens) -> Result<Header, Error> {
@@ -72,8 +68,13 @@ fn version(tokens: &mut Tokens) -> Result<(), Error> {
     }
 }
 
-impl<'a> Draft<'a> {
-    fn item(&mut self, tokens: &mut Tokens<'a>, name: &'a str, span: Span) -> Result<(), Error> {
+impl Draft {
+    fn item<'a>(
+        &mut self,
+        tokens: &mut Tokens<'a>,
+        name: &'a str,
+        span: Span,
+    ) -> Result<(), Error> {
         match name {
             "Start" => {
                 if self.start.is_some() {
@@ -107,22 +108,21 @@ impl<'a> Draft<'a> {
         }
     }
 
-    fn alias(&mut self, tokens: &mut Tokens<'a>, span: Span) -> Result<(), Error> {
+    fn alias(&mut self, tokens: &mut Tokens, span: Span) -> Result<(), Error> {
         let Token::Alias(name) = *tokens.peek() else {
             return Err(tokens.unexpected("a name that begins with `@`"));
         };
         tokens.next()?;
         let count = self.propositions.as_ref().map_or(MOST_PROPOSITIONS, Vec::len);
-        let guard = label(&mut self.labels, tokens, &self.aliases, count)?;
-        match self.aliases.insert(name, guard) {
-            Some(_) => Err(syntax(format!("the alias `@{name}` is defined twice"), span)),
-            None => Ok(()),
+        let guard = self.labels.expression(tokens, count)?;
+        match self.labels.name(name, guard) {
+            false => Err(syntax(format!("the alias `@{name}` is defined twice"), span)),
+            true => Ok(()),
         }
     }
 
-    fn finish(mut self, body: Span) -> Result<Header, Error> {
+    fn finish(self, body: Span) -> Result<Header, Error> {
         let missing = |name: &str| syntax(format!("the header has no `{name}:`"), body);
-        self.labels.name(self.aliases);
         let propositions = self.propositions.unwrap_or_default();
         match self.labels.highest {
             Some((number, span)) if number as usize >= propositions.len() => {

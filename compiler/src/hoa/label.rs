@@ -17,26 +17,6 @@ pub(super) struct Labels {
     pub(super) highest: Option<(u32, Span)>,
 }
 
-impl Labels {
-    /// Keeps the aliases for the body.
-    pub(super) fn name(&mut self, aliases: FxHashMap<&str, Guard>) {
-        self.aliases = aliases.into_iter().map(|(name, guard)| (name.to_owned(), guard)).collect();
-    }
-
-    /// Reads `[label]`.
-    pub(super) fn bracketed(&mut self, tokens: &mut Tokens, count: usize) -> Result<Guard, Error> {
-        tokens.expect('[')?;
-        let aliases = std::mem::take(&mut self.aliases);
-        let borrowed = aliases.iter().map(|(name, &guard)| (name.as_str(), guard)).collect();
-        let guard = label(self, tokens, &borrowed, count);
-        drop(borrowed);
-        self.aliases = aliases;
-        let guard = guard?;
-        tokens.expect(']')?;
-        Ok(guard)
-    }
-}
-
 /// What waits for an operand.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Pending {
@@ -46,96 +26,101 @@ enum Pending {
     Not,
 }
 
-/// Reads an expression over `count` propositions: `!`, `&`, `|`, brackets, with a stack of its own.
-pub(super) fn label(
-    labels: &mut Labels,
-    tokens: &mut Tokens,
-    aliases: &FxHashMap<&str, Guard>,
-    count: usize,
-) -> Result<Guard, Error> {
-    let mut pending = Vec::new();
-    loop {
-        while matches!(tokens.peek(), Token::Symbol('!' | '(')) {
-            let span = tokens.span();
-            let not = tokens.next()? == Token::Symbol('!');
-            pending.push(if not { Pending::Not } else { Pending::Open(span) });
-        }
-        let mut value = operand(labels, tokens, aliases, count)?;
+impl Labels {
+    /// Gives a function a name; whether it is new.
+    pub(super) fn name(&mut self, name: &str, guard: Guard) -> bool {
+        self.aliases.insert(name.to_owned(), guard).is_none()
+    }
+
+    /// Reads `[label]`.
+    pub(super) fn bracketed(&mut self, tokens: &mut Tokens, count: usize) -> Result<Guard, Error> {
+        tokens.expect('[')?;
+        let guard = self.expression(tokens, count)?;
+        tokens.expect(']')?;
+        Ok(guard)
+    }
+
+    /// Reads an expression over `count` propositions: `!`, `&`, `|`, brackets, with a stack of its own.
+    pub(super) fn expression(&mut self, tokens: &mut Tokens, count: usize) -> Result<Guard, Error> {
+        let mut pending = Vec::new();
         loop {
-            let loosest = *tokens.peek() != Token::Symbol('&');
-            let span = tokens.span();
-            value = reduce(labels, &mut pending, value, loosest, span)?;
-            match (tokens.peek(), pending.last()) {
-                (Token::Symbol(')'), Some(Pending::Open(_))) => {
-                    pending.pop();
-                    tokens.next()?;
+            while matches!(tokens.peek(), Token::Symbol('!' | '(')) {
+                let span = tokens.span();
+                let not = tokens.next()? == Token::Symbol('!');
+                pending.push(if not { Pending::Not } else { Pending::Open(span) });
+            }
+            let mut value = self.operand(tokens, count)?;
+            loop {
+                let loosest = *tokens.peek() != Token::Symbol('&');
+                let span = tokens.span();
+                value = self.reduce(&mut pending, value, loosest, span)?;
+                match (tokens.peek(), pending.last()) {
+                    (Token::Symbol(')'), Some(Pending::Open(_))) => {
+                        pending.pop();
+                        tokens.next()?;
+                    }
+                    (Token::Symbol('&'), _) => {
+                        pending.push(Pending::And(value));
+                        break;
+                    }
+                    (Token::Symbol('|'), _) => {
+                        pending.push(Pending::Or(value));
+                        break;
+                    }
+                    (_, Some(Pending::Open(open))) => {
+                        return Err(syntax("this bracket is not closed", *open));
+                    }
+                    _ => return Ok(value),
                 }
-                (Token::Symbol('&'), _) => {
-                    pending.push(Pending::And(value));
-                    break;
-                }
-                (Token::Symbol('|'), _) => {
-                    pending.push(Pending::Or(value));
-                    break;
-                }
-                (_, Some(Pending::Open(open))) => {
-                    return Err(syntax("this bracket is not closed", *open));
-                }
-                _ => return Ok(value),
+            }
+            tokens.next()?;
+        }
+    }
+
+    /// Applies the operators that bind tighter than what follows.
+    fn reduce(
+        &mut self,
+        pending: &mut Vec<Pending>,
+        mut value: Guard,
+        loosest: bool,
+        span: Span,
+    ) -> Result<Guard, Error> {
+        while let Some(&last) = pending.last() {
+            value = match last {
+                Pending::Not => self.store.not(value),
+                Pending::And(left) => self.store.and(left, value),
+                Pending::Or(left) if loosest => self.store.or(left, value),
+                _ => break,
+            };
+            pending.pop();
+            if self.store.len() > MOST_NODES {
+                return Err(refused("the labels are too complex", span));
             }
         }
-        tokens.next()?;
+        Ok(value)
     }
-}
 
-/// Applies the operators that bind tighter than what follows.
-fn reduce(
-    labels: &mut Labels,
-    pending: &mut Vec<Pending>,
-    mut value: Guard,
-    loosest: bool,
-    span: Span,
-) -> Result<Guard, Error> {
-    while let Some(&last) = pending.last() {
-        value = match last {
-            Pending::Not => labels.store.not(value),
-            Pending::And(left) => labels.store.and(left, value),
-            Pending::Or(left) if loosest => labels.store.or(left, value),
-            _ => break,
+    fn operand(&mut self, tokens: &mut Tokens, count: usize) -> Result<Guard, Error> {
+        let span = tokens.span();
+        let guard = match tokens.peek() {
+            Token::Word("t") => Guard::TRUE,
+            Token::Word("f") => Guard::FALSE,
+            Token::Number(number) if (*number as usize) < count => {
+                self.highest = self.highest.max(Some((*number, span)));
+                self.store.variable(*number)
+            }
+            Token::Number(number) => {
+                return Err(no_proposition(*number, count, span));
+            }
+            Token::Alias(name) => match self.aliases.get(*name) {
+                Some(&guard) => guard,
+                None => return Err(syntax(format!("the alias `@{name}` is not defined"), span)),
+            },
+            _ => return Err(tokens.unexpected("a proposition's number, `t`, `f` or an alias")),
         };
-        pending.pop();
-        if labels.store.len() > MOST_NODES {
-            return Err(refused("the labels are too complex", span));
-        }
+        tokens.next()?;
+        Ok(guard)
     }
-    Ok(value)
-}
-
-fn operand(
-    labels: &mut Labels,
-    tokens: &mut Tokens,
-    aliases: &FxHashMap<&str, Guard>,
-    count: usize,
-) -> Result<Guard, Error> {
-    let span = tokens.span();
-    let guard = match tokens.peek() {
-        Token::Word("t") => Guard::TRUE,
-        Token::Word("f") => Guard::FALSE,
-        Token::Number(number) if (*number as usize) < count => {
-            labels.highest = labels.highest.max(Some((*number, span)));
-            labels.store.variable(*number)
-        }
-        Token::Number(number) => {
-            return Err(no_proposition(*number, count, span));
-        }
-        Token::Alias(name) => match aliases.get(name) {
-            Some(&guard) => guard,
-            None => return Err(syntax(format!("the alias `@{name}` is not defined"), span)),
-        },
-        _ => return Err(tokens.unexpected("a proposition's number, `t`, `f` or an alias")),
-    };
-    tokens.next()?;
-    Ok(guard)
 }
 
 /// The error that a label names a proposition that there is not.
