@@ -19,7 +19,6 @@
 mod joint;
 mod reward;
 
-use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
 use rand::Rng;
@@ -30,6 +29,7 @@ pub(crate) use reward::Moves;
 pub use reward::{End, Reward, Rewards};
 
 use crate::env::{Env, FiniteEnv, Step};
+use crate::interner::Interner;
 use crate::learn::episode::{Move, World};
 use crate::model::FiniteModel;
 use crate::task::{Error, Monitor};
@@ -158,7 +158,7 @@ impl Labelled {
         states: impl IntoIterator<Item = S>,
         monitor: &(impl Monitor<S> + ?Sized),
     ) -> Result<Self, Error> {
-        let mut columns = Columns { class: Vec::new(), seen: BTreeMap::new() };
+        let mut columns = Columns { class: Vec::new(), seen: Interner::new() };
         let mut column = alloc::vec![0; monitor.states() as usize];
         for (i, s) in states.into_iter().enumerate() {
             for (q, to) in column.iter_mut().enumerate() {
@@ -338,25 +338,20 @@ impl Payment {
 /// Columns of the transition table, hash-consed.
 struct Columns {
     class: Vec<u32>,
-    seen: BTreeMap<Vec<u32>, u32>,
+    seen: Interner<u32>,
 }
 
 impl Columns {
     fn push(&mut self, column: &[u32]) {
-        let class = self.seen.get(column).copied().unwrap_or_else(|| {
-            let class = self.seen.len() as u32;
-            self.seen.insert(column.to_vec(), class);
-            class
-        });
-        self.class.push(class);
+        self.class.push(self.seen.number(column));
     }
 
     fn into_labelled(self, ends: Ends) -> Labelled {
-        let classes = self.seen.len();
+        let classes = self.seen.items().len();
         let mut next = alloc::vec![0; ends.of.len() * classes];
-        for (column, class) in self.seen {
-            for (q, to) in column.into_iter().enumerate() {
-                next[q * classes + class as usize] = to;
+        for (class, column) in self.seen.items().iter().enumerate() {
+            for (q, &to) in column.iter().enumerate() {
+                next[q * classes + class] = to;
             }
         }
         Labelled { class: self.class, classes, next, ends, robustness: Vec::new() }

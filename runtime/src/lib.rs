@@ -87,6 +87,8 @@ pub mod env;
 pub mod estimate;
 pub mod factored;
 #[cfg(feature = "alloc")]
+mod interner;
+#[cfg(feature = "alloc")]
 pub mod learn;
 #[cfg(feature = "alloc")]
 pub mod model;

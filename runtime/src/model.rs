@@ -6,10 +6,11 @@
 //! in most worlds few are different (a grid with slip has 9: inside, edges, corners). So a state
 //! costs about 30 bytes, and a backup reads each successor's value once for all actions.
 
-use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::fmt;
+
+use crate::interner::Interner;
 
 /// A finite Markov decision process with known probabilities p(s' | s, a); its rewards come from
 /// the task.
@@ -222,8 +223,10 @@ fn distribution(mut weights: Vec<f64>) -> Result<Vec<f64>, ModelError> {
 /// Collects the tables state by state.
 struct Builder {
     dynamics: Dynamics,
-    /// Where each distinct matrix starts, by its bits.
-    seen: BTreeMap<Vec<u64>, u32>,
+    /// The distinct matrices, as bits.
+    matrices: Interner<u64>,
+    /// Where each of them starts.
+    offsets: Vec<u32>,
     outcomes: Vec<(usize, u32, f64)>,
 }
 
@@ -239,7 +242,7 @@ impl Builder {
             probabilities: Vec::new(),
             starts: Vec::new(),
         };
-        Self { dynamics, seen: BTreeMap::new(), outcomes: Vec::new() }
+        Self { dynamics, matrices: Interner::new(), offsets: Vec::new(), outcomes: Vec::new() }
     }
 
     fn push<M: FiniteModel>(&mut self, model: &M, s: usize) -> Result<(), ModelError> {
@@ -247,14 +250,24 @@ impl Builder {
         for a in 0..self.dynamics.actions {
             self.read(model, s, a)?;
         }
+        self.close();
+        Ok(())
+    }
+
+    /// Adds the state whose outcomes were read.
+    fn close(&mut self) {
         let start = self.dynamics.successors.len();
-        let list: BTreeSet<u32> = self.outcomes.iter().map(|&(_, to, _)| to).collect();
+        let mut list = Vec::new();
+        for &(_, to, _) in &self.outcomes {
+            if let Err(at) = list.binary_search(&to) {
+                list.insert(at, to);
+            }
+        }
         self.dynamics.successors.extend(list);
         let matrix = self.dense(start);
         let offset = self.intern(&matrix);
         self.dynamics.matrix.push(offset);
         self.dynamics.first.push(self.dynamics.successors.len() as u32);
-        Ok(())
     }
 
     fn read<M: FiniteModel>(&mut self, model: &M, s: usize, a: usize) -> Result<(), ModelError> {
@@ -286,11 +299,11 @@ impl Builder {
 
     fn intern(&mut self, matrix: &[f64]) -> u32 {
         let bits: Vec<u64> = matrix.iter().map(|p| p.to_bits()).collect();
-        let next = self.dynamics.probabilities.len() as u32;
-        let offset = *self.seen.entry(bits).or_insert(next);
-        if offset == next {
+        let number = self.matrices.number(&bits) as usize;
+        if number == self.offsets.len() {
+            self.offsets.push(self.dynamics.probabilities.len() as u32);
             self.dynamics.probabilities.extend_from_slice(matrix);
         }
-        offset
+        self.offsets[number]
     }
 }

@@ -1,11 +1,11 @@
 //! Factored tasks as tables, without multiplying out their automata.
 
-use alloc::collections::{BTreeMap, VecDeque};
 use alloc::vec::Vec;
 use core::fmt;
 
 use super::{End, Ends, Labelled};
 use crate::factored::Factored;
+use crate::interner::Interner;
 use crate::robustness::Predicates;
 use crate::task::Error;
 
@@ -57,17 +57,20 @@ impl Labelled {
         let part = |i| Self::new(states.clone(), &task.part(i)).map_err(JointError::NotANumber);
         let parts = (0..task.len()).map(part).collect::<Result<Vec<_>, _>>()?;
         let (class, letters) = letters(&parts);
+        let letters = letters.items();
         let mut joint = Joint::new(&parts);
-        let mut next = Vec::new();
-        while let Some(q) = joint.pending.pop_front() {
-            for letter in &letters {
-                next.push(joint.read(&q, letter));
+        let (mut next, mut q) = (Vec::new(), 0);
+        // Rows are made in the order of the numbers; each may find more.
+        while let Some(&tuple) = joint.found.get(q) {
+            let tuple = joint.tuples.items()[tuple].clone();
+            for letter in letters {
+                next.push(joint.read(&tuple, letter));
                 if joint.numbers.len() > budget {
                     return Err(JointError::TooLarge { parts: task.len(), budget });
                 }
             }
+            q += 1;
         }
-        // Rows were made in the order of the numbers.
         let of = joint.ends;
         let (distance, farthest) = distances(&of, &next, letters.len());
         let ends = Ends { of, distance, farthest };
@@ -76,15 +79,12 @@ impl Labelled {
 }
 
 /// The class of each state of the world, and what each part's class is in it.
-fn letters(parts: &[Labelled]) -> (Vec<u32>, Vec<Vec<u32>>) {
-    let (mut seen, mut letters) = (BTreeMap::new(), Vec::new());
+fn letters(parts: &[Labelled]) -> (Vec<u32>, Interner<u32>) {
+    let mut letters = Interner::new();
     let states = parts.first().map_or(0, Labelled::states);
     let class = (0..states).map(|s| {
         let letter: Vec<u32> = parts.iter().map(|part| part.class[s]).collect();
-        *seen.entry(letter.clone()).or_insert_with(|| {
-            letters.push(letter);
-            letters.len() as u32 - 1
-        })
+        letters.number(&letter)
     });
     (class.collect(), letters)
 }
@@ -92,10 +92,13 @@ fn letters(parts: &[Labelled]) -> (Vec<u32>, Vec<Vec<u32>>) {
 /// The joint states found so far.
 struct Joint<'a> {
     parts: &'a [Labelled],
-    numbers: BTreeMap<Vec<u32>, u32>,
+    /// The parts' states.
+    tuples: Interner<u32>,
+    /// The number of each tuple.
+    numbers: Vec<u32>,
+    /// The tuple by which each number was found.
+    found: Vec<usize>,
     ends: Vec<Option<End>>,
-    /// Those whose moves are not known yet, in the order of their numbers.
-    pending: VecDeque<Vec<u32>>,
     /// The one number of all that accept, of all that are lost.
     accepted: Option<u32>,
     lost: Option<u32>,
@@ -103,10 +106,16 @@ struct Joint<'a> {
 
 impl<'a> Joint<'a> {
     fn new(parts: &'a [Labelled]) -> Self {
-        let (numbers, pending) = (BTreeMap::new(), VecDeque::new());
-        let mut joint =
-            Self { parts, numbers, ends: Vec::new(), pending, accepted: None, lost: None };
-        joint.number(alloc::vec![0; parts.len()]);
+        let mut joint = Self {
+            parts,
+            tuples: Interner::new(),
+            numbers: Vec::new(),
+            found: Vec::new(),
+            ends: Vec::new(),
+            accepted: None,
+            lost: None,
+        };
+        joint.number(&alloc::vec![0; parts.len()]);
         joint
     }
 
@@ -115,15 +124,16 @@ impl<'a> Joint<'a> {
         let next = self.parts.iter().zip(q).zip(letter);
         let next =
             next.map(|((part, &q), &class)| part.next[q as usize * part.classes + class as usize]);
-        self.number(next.collect())
+        self.number(&next.collect::<Vec<u32>>())
     }
 
-    fn number(&mut self, q: Vec<u32>) -> u32 {
-        if let Some(&number) = self.numbers.get(&q) {
+    fn number(&mut self, q: &[u32]) -> u32 {
+        let tuple = self.tuples.number(q) as usize;
+        if let Some(&number) = self.numbers.get(tuple) {
             return number;
         }
         let fresh = self.ends.len() as u32;
-        let end = self.end(&q);
+        let end = self.end(q);
         let number = match end {
             Some(End::Accepted) => *self.accepted.get_or_insert(fresh),
             Some(End::Lost) => *self.lost.get_or_insert(fresh),
@@ -131,9 +141,9 @@ impl<'a> Joint<'a> {
         };
         if number == fresh {
             self.ends.push(end);
-            self.pending.push_back(q.clone());
+            self.found.push(tuple);
         }
-        self.numbers.insert(q, number);
+        self.numbers.push(number);
         number
     }
 
