@@ -296,21 +296,21 @@ impl Labelled {
     pub fn payment(&self, rewards: &Rewards, gamma: f64) -> Payment {
         let pays = |q, to, rho| rewards.pays(&self.ends, q, to, gamma, rho);
         if !rewards.needs_robustness() {
-            return self.payment_by(|q, to| pays(q, to, 0.0));
+            return self.payment_by(&|q, to| pays(q, to, 0.0));
         }
         assert!(!self.robustness.is_empty(), "this reward needs a table `with_robustness`");
-        self.payment_by_state(|q, s| pays(q, self.next(q, s), self.robustness[self.pair(q, s)]))
+        self.payment_by_state(&|q, s| pays(q, self.next(q, s), self.robustness[self.pair(q, s)]))
     }
 
     /// A payment for each move, as `pays(q, q')` says.
-    pub(crate) fn payment_by(&self, mut pays: impl FnMut(u32, u32) -> f64) -> Payment {
+    pub(crate) fn payment_by(&self, pays: &dyn Fn(u32, u32) -> f64) -> Payment {
         let moves = self.next.iter().enumerate();
         let table = moves.map(|(i, &to)| pays((i / self.classes) as u32, to)).collect();
         Payment { table, width: self.classes, by_state: false }
     }
 
     /// A payment for each automaton state and state, as `pays(q, s')` says.
-    pub(crate) fn payment_by_state(&self, mut pays: impl FnMut(u32, usize) -> f64) -> Payment {
+    pub(crate) fn payment_by_state(&self, pays: &dyn Fn(u32, usize) -> f64) -> Payment {
         let width = self.states();
         let pairs = 0..self.pairs();
         let table = pairs.map(|pair| pays((pair / width) as u32, pair % width)).collect();

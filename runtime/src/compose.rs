@@ -184,9 +184,9 @@ impl<'a> Composition<'a> {
         let tops = self.skills.iter().map(|skill| largest(skill.q.values()));
         let scales: Vec<f64> = tops.map(|top| if top > 0.0 { 1.0 / top } else { 1.0 }).collect();
         let mut table = QTable::zeros(self.task, self.skills[0].q.actions());
-        table.update(|q, s, row| {
+        for (q, s, row) in table.rows_mut() {
             if self.task.end(q).is_some() {
-                return;
+                continue;
             }
             for (a, value) in row.iter_mut().enumerate() {
                 let values = self.active(q).map(|(i, at)| {
@@ -198,7 +198,7 @@ impl<'a> Composition<'a> {
                     Combine::Sum | Combine::NormalisedSum => values.sum(),
                 };
             }
-        });
+        }
         table
     }
 
@@ -212,9 +212,9 @@ impl<'a> Composition<'a> {
         let excess = self.excess(rewards, gamma);
         let problem = Problem::new(dynamics, self.task);
         let compensation = problem.policy_q(&excess, gamma, &sum.policy());
-        sum.update(|q, s, row| {
+        for (q, s, row) in sum.rows_mut() {
             row.iter_mut().zip(compensation.row(q, s)).for_each(|(value, c)| *value -= c);
-        });
+        }
         sum
     }
 
@@ -247,7 +247,7 @@ impl<'a> Composition<'a> {
         let pay = |skill: &Skill<'_>| skill.task.payment(rewards, gamma);
         let payments: Vec<Payment> = self.skills.iter().map(pay).collect();
         let whole = self.task.payment(rewards, gamma);
-        self.task.payment_by_state(|q, s| {
+        self.task.payment_by_state(&|q, s| {
             if self.task.end(q).is_some() {
                 return 0.0;
             }

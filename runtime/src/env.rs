@@ -336,9 +336,9 @@ fn columns(dynamics: &Dynamics) -> Vec<Column> {
     for s in 0..dynamics.states() {
         let offset = dynamics.matrix_offset(s);
         if !core::mem::replace(&mut done[offset], true) {
-            let table = dynamics.matrix(s).chunks(dynamics.successors(s).len());
-            let table: Vec<Column> = table.flat_map(alias_table).collect();
-            columns[offset..offset + table.len()].copy_from_slice(&table);
+            let (matrix, width) = (dynamics.matrix(s), dynamics.successors(s).len());
+            let rows = columns[offset..].chunks_mut(width).zip(matrix.chunks(width));
+            rows.for_each(|(row, p)| row.copy_from_slice(&alias_table(p)));
         }
     }
     columns

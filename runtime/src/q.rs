@@ -126,11 +126,10 @@ impl QTable {
         Self { values: self.values.iter().map(|v| v * scale).collect(), ..*self }
     }
 
-    /// Changes every value of the pair (q, s) by `change(a, value)`, for all pairs.
-    pub(crate) fn update(&mut self, mut change: impl FnMut(u32, usize, &mut [f64])) {
-        for (pair, row) in self.values.chunks_mut(self.actions).enumerate() {
-            change((pair / self.states) as u32, pair % self.states, row);
-        }
+    /// All (q, s, Q(s, q, ·)), to change them.
+    pub(crate) fn rows_mut(&mut self) -> impl Iterator<Item = (u32, usize, &mut [f64])> {
+        let (states, rows) = (self.states, self.values.chunks_mut(self.actions).enumerate());
+        rows.map(move |(pair, row)| ((pair / states) as u32, pair % states, row))
     }
 }
 

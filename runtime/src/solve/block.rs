@@ -3,9 +3,10 @@
 use alloc::vec::Vec;
 
 use super::graph::{self, Order};
-use super::settle::{Estimate, Known, settle};
+use super::rule::{Backup, Rule};
+use super::settle::settle;
 use super::{Problem, TOLERANCE};
-use crate::augmented::{End, Payment};
+use crate::augmented::Payment;
 use crate::q::{QTable, largest};
 
 /// Components of at most this many pairs may be solved by elimination.
@@ -30,47 +31,6 @@ const RELAXED: f64 = 1e-13;
 /// The most sweeps; reached only where probabilities of leaving are below about 1e-6.
 const SWEEPS: usize = 1_000_000;
 
-/// Σ p · value\[successor\].
-#[inline]
-pub(super) fn dot(row: &[f64], successors: &[u32], values: &[f64]) -> f64 {
-    row.iter().zip(successors).map(|(p, &to)| p * values[to as usize]).sum()
-}
-
-/// What a backup sees: the probabilities of one state's successors, and what arriving is worth.
-pub(super) struct Backup<'a> {
-    matrix: &'a [f64],
-    arrivals: &'a [f64],
-}
-
-impl Backup<'_> {
-    /// The values of the actions.
-    #[inline]
-    fn values(&self) -> impl Iterator<Item = f64> {
-        let rows = self.matrix.chunks_exact(self.arrivals.len());
-        rows.map(|row| row.iter().zip(self.arrivals).map(|(p, value)| p * value).sum())
-    }
-
-    /// The value of one action.
-    #[inline]
-    pub(super) fn of(&self, action: u32) -> f64 {
-        let row = &self.matrix[action as usize * self.arrivals.len()..][..self.arrivals.len()];
-        row.iter().zip(self.arrivals).map(|(p, value)| p * value).sum()
-    }
-
-    /// The largest value.
-    #[inline]
-    pub(super) fn max(&self) -> f64 {
-        self.values().fold(f64::NEG_INFINITY, |best, value| if value > best { value } else { best })
-    }
-
-    /// The least value of the actions that are `allowed`.
-    #[inline]
-    pub(super) fn min_where(&self, allowed: impl Fn(usize) -> bool) -> f64 {
-        let values = self.values().enumerate().filter(|&(a, _)| allowed(a));
-        values.fold(f64::INFINITY, |best, (_, value)| if value < best { value } else { best })
-    }
-}
-
 /// What over-relaxed sweeps change.
 struct Relaxed<'a> {
     values: &'a mut [f64],
@@ -87,7 +47,7 @@ pub(super) struct Block<'a> {
     pub(super) problem: &'a Problem<'a>,
     pub(super) members: Vec<u32>,
     payment: &'a Payment,
-    discount: f64,
+    pub(super) discount: f64,
     /// The automaton does not move: sub-policy values.
     fixed: bool,
     order: Order,
@@ -103,16 +63,9 @@ impl<'a> Block<'a> {
         payment: &'a Payment,
         discount: f64,
     ) -> Self {
-        let order = Self::order(problem, members, |_, _, _| true);
-        Self {
-            problem,
-            members: members.to_vec(),
-            payment,
-            discount,
-            fixed: false,
-            order,
-            over: Vec::new(),
-        }
+        let order = graph::order(problem, members, None);
+        let members = members.to_vec();
+        Self { problem, members, payment, discount, fixed: false, order, over: Vec::new() }
     }
 
     /// The component of `members` under a policy, undiscounted.
@@ -122,12 +75,7 @@ impl<'a> Block<'a> {
         payment: &'a Payment,
         policy: &[u32],
     ) -> Self {
-        let order = Self::order(problem, members, |k, from, to| {
-            let action = policy[problem.labelled.pair(members[k], from)] as usize;
-            let successors = problem.dynamics.successors(from);
-            let column = successors.partition_point(|&other| (other as usize) < to);
-            problem.dynamics.matrix(from)[action * successors.len() + column] > 0.0
-        });
+        let order = graph::order(problem, members, Some(policy));
         let members = members.to_vec();
         Self { problem, members, payment, discount: 1.0, fixed: false, order, over: Vec::new() }
     }
@@ -140,17 +88,6 @@ impl<'a> Block<'a> {
         discount: f64,
     ) -> Self {
         Self { fixed: true, ..Self::new(problem, &[q], payment, discount) }
-    }
-
-    fn order(
-        problem: &Problem<'_>,
-        members: &[u32],
-        uses: impl Fn(usize, usize, usize) -> bool,
-    ) -> Order {
-        let labelled = problem.labelled;
-        let lost = |q| labelled.end(q) == Some(End::Lost);
-        let next = |q, s| labelled.next(q, s);
-        graph::order(members, labelled.states(), &problem.predecessors, lost, next, uses)
     }
 
     /// The same component under another payment.
@@ -199,13 +136,8 @@ impl<'a> Block<'a> {
 
     /// Gives the pairs that can reach an exit first values, and the order of their sweeps; see
     /// [`settle`].
-    pub(super) fn settled(
-        mut self,
-        values: &mut [f64],
-        key: impl Fn(usize, f64) -> f64,
-        estimate: impl Fn(usize, &Known<'_>) -> Estimate,
-    ) -> Self {
-        let settled = settle(&self, values, key, estimate);
+    pub(super) fn settled(mut self, values: &mut [f64], rule: &Rule<'_>) -> Self {
+        let settled = settle(&self, values, rule);
         self.order.pairs[..settled.pairs.len()].copy_from_slice(&settled.pairs);
         self.over = settled.over;
         self
@@ -255,34 +187,23 @@ impl<'a> Block<'a> {
         arrivals
     }
 
-    /// Sweeps until `values` is the fixed point of `backup`; over all pairs, or only those that can
+    /// Sweeps until `values` is the fixed point of `rule`; over all pairs, or only those that can
     /// reach an exit.
-    pub(super) fn sweep(
-        &self,
-        values: &mut [f64],
-        all: bool,
-        backup: impl Fn(usize, &Backup<'_>) -> f64,
-    ) {
-        self.sweep_at_most(SWEEPS, values, all, backup);
+    pub(super) fn sweep(&self, values: &mut [f64], all: bool, rule: &Rule<'_>) {
+        self.sweep_at_most(SWEEPS, values, all, rule);
     }
 
     /// The same with a limit; whether it got there.
-    fn sweep_at_most(
-        &self,
-        limit: usize,
-        values: &mut [f64],
-        all: bool,
-        backup: impl Fn(usize, &Backup<'_>) -> f64,
-    ) -> bool {
+    fn sweep_at_most(&self, limit: usize, values: &mut [f64], all: bool, rule: &Rule<'_>) -> bool {
         let count = if all { self.order.pairs.len() } else { self.order.reached };
         let pairs = &self.order.pairs[..count];
         let mut arrivals = self.arrivals(values);
         if !self.over.is_empty() {
-            self.relax(pairs, values, &mut arrivals, &backup);
+            self.relax(pairs, values, &mut arrivals, rule);
         }
         let mut before = f64::INFINITY;
         for _ in 0..limit {
-            let (change, top) = self.sweep_once(pairs, values, &mut arrivals, &backup);
+            let (change, top) = self.sweep_once(pairs, values, &mut arrivals, rule);
             if self.is_done(change, before, top) {
                 return true;
             }
@@ -299,18 +220,18 @@ impl<'a> Block<'a> {
         pairs: &[(u32, u32)],
         values: &mut [f64],
         arrivals: &mut [f64],
-        backup: &impl Fn(usize, &Backup<'_>) -> f64,
+        rule: &Rule<'_>,
     ) {
         let stale = alloc::vec![true; self.members.len() * self.states()];
         let mut relaxed = Relaxed { values, arrivals, stale, gathered: Vec::new(), top: 1.0 };
         let step = (ADVANCE * pairs.len().isqrt()).max(1);
         for end in (step..pairs.len()).step_by(step) {
             let start = end.saturating_sub(OVERLAP * step);
-            self.relax_once(pairs, start..end, &mut relaxed, backup);
+            self.relax_once(pairs, start..end, &mut relaxed, rule);
         }
         let (mut least, mut idle) = (f64::INFINITY, 0);
         while idle < PATIENCE_OVER {
-            let change = self.relax_once(pairs, 0..pairs.len(), &mut relaxed, backup);
+            let change = self.relax_once(pairs, 0..pairs.len(), &mut relaxed, rule);
             if change <= RELAXED * relaxed.top {
                 return;
             }
@@ -325,7 +246,7 @@ impl<'a> Block<'a> {
         pairs: &[(u32, u32)],
         range: core::ops::Range<usize>,
         relaxed: &mut Relaxed<'_>,
-        backup: &impl Fn(usize, &Backup<'_>) -> f64,
+        rule: &Rule<'_>,
     ) -> f64 {
         let Relaxed { values, arrivals, stale, gathered, top } = relaxed;
         let (mut change, small): (f64, f64) = (0.0, RELAXED * *top);
@@ -335,7 +256,7 @@ impl<'a> Block<'a> {
                 continue;
             }
             let pair = self.pair(k, s);
-            let difference = self.back_up((k, s), arrivals, gathered, backup) - values[pair];
+            let difference = self.back_up(pair, (k, s), arrivals, gathered, rule) - values[pair];
             let over = self.over.get(i).map_or(1.0, |&over| f64::from(over));
             values[pair] += over * difference;
             change = change.max(difference.abs());
@@ -364,16 +285,18 @@ impl<'a> Block<'a> {
     #[inline]
     fn back_up(
         &self,
+        pair: usize,
         (k, s): (u32, u32),
         arrivals: &[f64],
         gathered: &mut Vec<f64>,
-        backup: &impl Fn(usize, &Backup<'_>) -> f64,
+        rule: &Rule<'_>,
     ) -> f64 {
         let dynamics = self.problem.dynamics;
         let layer = &arrivals[k as usize * self.states()..];
         gathered.clear();
         gathered.extend(dynamics.successors(s as usize).iter().map(|&to| layer[to as usize]));
-        backup(self.pair(k, s), &Backup { matrix: dynamics.matrix(s as usize), arrivals: gathered })
+        let backup = Backup { matrix: dynamics.matrix(s as usize), arrivals: gathered };
+        rule.value(pair, &backup)
     }
 
     /// Whether the error is small enough (absolute for values up to 1, relative above), given the largest change of this sweep and the last.
@@ -391,13 +314,13 @@ impl<'a> Block<'a> {
         pairs: &[(u32, u32)],
         values: &mut [f64],
         arrivals: &mut [f64],
-        backup: &impl Fn(usize, &Backup<'_>) -> f64,
+        rule: &Rule<'_>,
     ) -> (f64, f64) {
         let mut gathered = Vec::new();
         let (mut change, mut top): (f64, f64) = (0.0, 0.0);
         for &(k, s) in pairs {
-            let value = self.back_up((k, s), arrivals, &mut gathered, backup);
             let pair = self.pair(k, s);
+            let value = self.back_up(pair, (k, s), arrivals, &mut gathered, rule);
             change = change.max((value - values[pair]).abs());
             top = top.max(value.abs());
             values[pair] = value;
@@ -419,19 +342,19 @@ impl<'a> Block<'a> {
         }
     }
 
-    /// The values of a policy: value(x) = constant(x) + E\[arrival\], over the pairs that can reach
+    /// The values of a policy: value(x) = cost(x) + E\[arrival\], over the pairs that can reach
     /// an exit under it.
-    pub(super) fn solve(&self, values: &mut [f64], constant: &[f64], policy: &[u32]) {
-        let follow = |pair: usize, row: &Backup<'_>| constant[pair] + row.of(policy[pair]);
+    pub(super) fn solve(&self, values: &mut [f64], costs: &[f64], policy: &[u32]) {
+        let rule = &Rule::Cost { costs, policy };
         let small = self.order.reached <= ELIMINATE;
         let limit = if small { PATIENCE } else { SWEEPS };
-        if !self.sweep_at_most(limit, values, false, follow) && small {
-            self.eliminate(values, constant, policy);
+        if !self.sweep_at_most(limit, values, false, rule) && small {
+            self.eliminate(values, costs, policy);
         }
     }
 
     /// The same by Gaussian elimination with pivoting.
-    fn eliminate(&self, values: &mut [f64], constant: &[f64], policy: &[u32]) {
+    fn eliminate(&self, values: &mut [f64], costs: &[f64], policy: &[u32]) {
         self.pairs().for_each(|pair| values[pair] = 0.0);
         let outside = self.arrivals(values);
         let pairs = &self.order.pairs[..self.order.reached];
@@ -444,7 +367,7 @@ impl<'a> Block<'a> {
             let pair = self.pair(k, s);
             let mut row = self.equation((k, s), policy[pair], &column, &outside, pairs.len());
             row[i] += 1.0;
-            row[pairs.len()] += constant[pair];
+            row[pairs.len()] += costs[pair];
             rows.push(row);
         }
         eliminate(&mut rows);

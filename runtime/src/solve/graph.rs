@@ -1,9 +1,9 @@
 //! The order in which to solve: components of the automaton, and pairs within a component.
 
-use alloc::collections::VecDeque;
 use alloc::vec::Vec;
 
-use crate::augmented::Labelled;
+use super::Problem;
+use crate::augmented::{End, Labelled};
 
 /// The strongly connected components of the live automaton states, those that others lead to
 /// first (Tarjan 1972, without recursion).
@@ -13,27 +13,32 @@ pub(super) fn components(labelled: &Labelled) -> Vec<Vec<u32>> {
         labelled,
         index: alloc::vec![u32::MAX; n],
         low: alloc::vec![0; n],
-        open: alloc::vec![false; n],
+        component: alloc::vec![usize::MAX; n],
         stack: Vec::new(),
-        found: 0,
-        components: Vec::new(),
+        entered: 0,
+        components: 0,
     };
     for q in labelled.live() {
         if search.index[q as usize] == u32::MAX {
             search.visit(q);
         }
     }
-    search.components
+    let mut components = alloc::vec![Vec::new(); search.components];
+    for q in labelled.live() {
+        components[search.component[q as usize]].push(q);
+    }
+    components
 }
 
 struct Search<'a> {
     labelled: &'a Labelled,
     index: Vec<u32>,
     low: Vec<u32>,
-    open: Vec<bool>,
+    /// `usize::MAX`: not known yet.
+    component: Vec<usize>,
     stack: Vec<u32>,
-    found: u32,
-    components: Vec<Vec<u32>>,
+    entered: u32,
+    components: usize,
 }
 
 impl Search<'_> {
@@ -54,18 +59,17 @@ impl Search<'_> {
             if self.index[to as usize] == u32::MAX {
                 self.enter(to);
                 path.push((to, 0));
-            } else if self.open[to as usize] {
+            } else if self.component[to as usize] == usize::MAX {
                 self.low[q as usize] = self.low[q as usize].min(self.index[to as usize]);
             }
         }
     }
 
     fn enter(&mut self, q: u32) {
-        self.index[q as usize] = self.found;
-        self.low[q as usize] = self.found;
-        self.open[q as usize] = true;
+        self.index[q as usize] = self.entered;
+        self.low[q as usize] = self.entered;
         self.stack.push(q);
-        self.found += 1;
+        self.entered += 1;
     }
 
     fn leave(&mut self, q: u32, parent: Option<u32>) {
@@ -74,11 +78,12 @@ impl Search<'_> {
             self.low[parent as usize] = self.low[parent as usize].min(low);
         }
         if self.low[q as usize] == self.index[q as usize] {
-            let start = self.stack.iter().rposition(|&other| other == q).unwrap_or(0);
-            let mut members = self.stack.split_off(start);
-            members.iter().for_each(|&q| self.open[q as usize] = false);
-            members.sort_unstable();
-            self.components.push(members);
+            while self.component[q as usize] == usize::MAX
+                && let Some(member) = self.stack.pop()
+            {
+                self.component[member as usize] = self.components;
+            }
+            self.components += 1;
         }
     }
 }
@@ -94,40 +99,47 @@ pub(super) struct Order {
 }
 
 /// Searches backwards from the exits of `members`: pairs that read a state on which they go to an
-/// automaton state outside, the trap excepted. `next(q, s)` is the automaton, `uses(k, from, to)`
-/// says whether member k goes from state `from` to `to` at all.
-pub(super) fn order(
-    members: &[u32],
-    states: usize,
-    (first, list): &(Vec<u32>, Vec<u32>),
-    is_trap: impl Fn(u32) -> bool,
-    next: impl Fn(u32, usize) -> u32,
-    uses: impl Fn(usize, usize, usize) -> bool,
-) -> Order {
+/// automaton state outside, the trap excepted. Under a policy only its actions count.
+pub(super) fn order(problem: &Problem<'_>, members: &[u32], policy: Option<&[u32]>) -> Order {
+    let Problem { dynamics, labelled, predecessors: (first, list), .. } = problem;
+    let states = labelled.states();
+    let uses = |k: usize, from: usize, to: usize| {
+        policy.is_none_or(|policy| {
+            let action = policy[labelled.pair(members[k], from)] as usize;
+            let successors = dynamics.successors(from);
+            let column = successors.partition_point(|&other| (other as usize) < to);
+            dynamics.matrix(from)[action * successors.len() + column] > 0.0
+        })
+    };
     let mut seen = alloc::vec![false; members.len() * states];
-    let (mut pairs, mut seeds) = (Vec::with_capacity(seen.len()), 0);
-    let mut queue = VecDeque::new();
-    for k in 0..members.len() {
-        for s in 0..states {
-            let to = next(members[k], s);
-            if members.binary_search(&to).is_err() && !is_trap(to) {
-                queue.push_back((k, s, true));
-            }
-        }
-    }
-    while let Some((k, s, exit)) = queue.pop_front() {
+    let mut pairs: Vec<(u32, u32)> = Vec::with_capacity(seen.len());
+    // Finds the pairs that arrive at `s` under member `k`.
+    let mut arrive = |pairs: &mut Vec<(u32, u32)>, k: usize, s: usize| {
         for &from in &list[first[s] as usize..first[s + 1] as usize] {
             let at = k * states + from as usize;
             if !seen[at] && uses(k, from as usize, s) {
                 seen[at] = true;
-                seeds += usize::from(exit);
                 pairs.push((k as u32, from));
-                let enters = |&j: &usize| next(members[j], from as usize) == members[k];
-                (0..members.len()).filter(enters).for_each(|j| {
-                    queue.push_back((j, from as usize, false));
-                });
             }
         }
+    };
+    for (k, &member) in members.iter().enumerate() {
+        for s in 0..states {
+            let to = labelled.next(member, s);
+            if members.binary_search(&to).is_err() && labelled.end(to) != Some(End::Lost) {
+                arrive(&mut pairs, k, s);
+            }
+        }
+    }
+    let seeds = pairs.len();
+    let mut at = 0;
+    while let Some(&(k, s)) = pairs.get(at) {
+        for (j, &member) in members.iter().enumerate() {
+            if labelled.next(member, s as usize) == members[k as usize] {
+                arrive(&mut pairs, j, s as usize);
+            }
+        }
+        at += 1;
     }
     let reached = pairs.len();
     let missing = (0..seen.len()).filter(|&at| !seen[at]);

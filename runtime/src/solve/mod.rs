@@ -19,6 +19,7 @@ mod actions;
 mod block;
 mod certificate;
 mod graph;
+mod rule;
 mod settle;
 
 use alloc::vec::Vec;
@@ -27,9 +28,9 @@ use crate::augmented::{End, Labelled, Payment, Rewards};
 use crate::model::Dynamics;
 use crate::q::QTable;
 pub use actions::Actions;
-use block::{Backup, Block, dot};
+use block::Block;
 pub use certificate::{Certificate, Kind, Mistake, Start};
-use settle::{Estimate, Known};
+use rule::Rule;
 
 /// The largest error of values, relative to them where they exceed 1.
 const TOLERANCE: f64 = 1e-11;
@@ -95,10 +96,8 @@ impl<'a> Problem<'a> {
     /// As [`Self::optimal_q`].
     #[must_use]
     pub fn optimal_q_of(&self, payment: &Payment, gamma: f64, start: Option<&QTable>) -> QTable {
-        let best = |_: usize, row: &Backup<'_>| row.max();
-        let estimate = |_: usize, known: &Known<'_>| known.best(gamma);
-        let values = self.discounted(payment, gamma, start, estimate, best);
-        self.action_values(payment, gamma, &values)
+        let values = self.discounted(payment, gamma, start, &Rule::Largest);
+        self.action_values(&self.arrivals(payment, gamma, &values))
     }
 
     /// The flat action values Q^π of a policy, indexed `q * states + s`, for any payment.
@@ -108,10 +107,8 @@ impl<'a> Problem<'a> {
     #[must_use]
     pub fn policy_q(&self, payment: &Payment, gamma: f64, policy: &[u32]) -> QTable {
         assert_eq!(policy.len(), self.labelled.pairs(), "a policy has an action for each (q, s)");
-        let follow = |pair: usize, row: &Backup<'_>| row.of(policy[pair]);
-        let known = |pair: usize, known: &Known<'_>| known.discounted(policy[pair] as usize, gamma);
-        let values = self.discounted(payment, gamma, None, known, follow);
-        self.action_values(payment, gamma, &values)
+        let values = self.discounted(payment, gamma, None, &Rule::Follow(policy));
+        self.action_values(&self.arrivals(payment, gamma, &values))
     }
 
     /// The optimal sub-policy values of the paper's Eq. 3A6: progress is paid, but q stays as it
@@ -123,12 +120,10 @@ impl<'a> Problem<'a> {
     pub fn sub_policy_q(&self, rewards: &Rewards, gamma: f64) -> QTable {
         let payment = self.labelled.payment(rewards, gamma);
         let mut values = alloc::vec![0.0; self.labelled.pairs()];
-        let best = |_: usize, row: &Backup<'_>| row.max();
         for q in self.labelled.live() {
-            let block = Block::fixed(self, q, &payment, gamma);
-            block.sweep(&mut values, true, best);
+            Block::fixed(self, q, &payment, gamma).sweep(&mut values, true, &Rule::Largest);
         }
-        self.action_values_by(|q, s| {
+        self.action_values(&|q, s| {
             self.paid(&payment, q, s) + gamma * values[self.labelled.pair(q, s)]
         })
     }
@@ -186,7 +181,7 @@ impl<'a> Problem<'a> {
     #[must_use]
     pub fn lost(&self, policy: &[u32]) -> Vec<f64> {
         let trapped = self.entering(End::Lost);
-        let mut lost = self.lost_by(&trapped, |pair, row| row.of(policy[pair]));
+        let mut lost = self.lost_by(&trapped, &Rule::Follow(policy));
         self.set_end(End::Lost, &mut lost, 1.0);
         lost
     }
@@ -194,7 +189,7 @@ impl<'a> Problem<'a> {
     /// The smallest possible P(the trap is ever entered), for each pair; 1 at the trap.
     #[must_use]
     pub fn smallest_lost(&self) -> Vec<f64> {
-        let mut lost = self.lost_by(&self.entering(End::Lost), |_, row| row.min_where(|_| true));
+        let mut lost = self.lost_by(&self.entering(End::Lost), &Rule::Least);
         self.set_end(End::Lost, &mut lost, 1.0);
         lost
     }
@@ -202,7 +197,8 @@ impl<'a> Problem<'a> {
     /// The actions with which P(the trap is ever entered) can stay `lost`, within 1e-9.
     pub(crate) fn avoiding(&self, lost: &[f64]) -> Actions {
         let mut avoiding = Actions::none(self.labelled.pairs(), self.dynamics.actions());
-        self.backups(lost, |pair, actions| {
+        self.backups(&self.arrivals(&self.nothing(), 1.0, lost), &mut |q, s, actions| {
+            let pair = self.labelled.pair(q, s);
             for (a, &p) in actions.iter().enumerate() {
                 if p <= lost[pair] + 1e-9 {
                     avoiding.insert(pair, a);
@@ -213,10 +209,10 @@ impl<'a> Problem<'a> {
     }
 
     /// Sweeps from 0, which is below: the least fixed point.
-    fn lost_by(&self, trapped: &Payment, backup: impl Fn(usize, &Backup<'_>) -> f64) -> Vec<f64> {
+    fn lost_by(&self, trapped: &Payment, rule: &Rule<'_>) -> Vec<f64> {
         let mut values = self.zeros();
         for members in &self.components {
-            Block::new(self, members, trapped, 1.0).sweep(&mut values, true, &backup);
+            Block::new(self, members, trapped, 1.0).sweep(&mut values, true, rule);
         }
         values
     }
@@ -233,12 +229,12 @@ impl<'a> Problem<'a> {
     /// Pays 1 for entering an end.
     fn entering(&self, end: End) -> Payment {
         let of = |q| self.labelled.end(q);
-        self.labelled
-            .payment_by(|q, to| f64::from(u8::from(of(q).is_none() && of(to) == Some(end))))
+        let pays = |q, to| f64::from(u8::from(of(q).is_none() && of(to) == Some(end)));
+        self.labelled.payment_by(&pays)
     }
 
     fn nothing(&self) -> Payment {
-        self.labelled.payment_by(|_, _| 0.0)
+        self.labelled.payment_by(&|_, _| 0.0)
     }
 
     /// 0 at every pair: at terminal ones, that is their value.
@@ -252,18 +248,16 @@ impl<'a> Problem<'a> {
         payment: &Payment,
         gamma: f64,
         start: Option<&QTable>,
-        estimate: impl Fn(usize, &Known<'_>) -> Estimate,
-        backup: impl Fn(usize, &Backup<'_>) -> f64,
+        rule: &Rule<'_>,
     ) -> Vec<f64> {
         assert!((0.0..1.0).contains(&gamma), "a discount factor is at least 0 and less than 1");
         let mut values = self.zeros();
         for members in &self.components {
-            let block = Block::new(self, members, payment, gamma);
-            let block = block.settled(&mut values, |_, value| -value, &estimate);
+            let block = Block::new(self, members, payment, gamma).settled(&mut values, rule);
             if let Some(table) = start {
                 block.start(&mut values, table);
             }
-            block.sweep(&mut values, true, &backup);
+            block.sweep(&mut values, true, rule);
         }
         values
     }
@@ -274,7 +268,7 @@ impl<'a> Problem<'a> {
         for members in &self.components {
             let block = Block::new(self, members, accept, 1.0);
             if !block.succeeds(&mut values) {
-                block.sweep(&mut values, false, |_, row| row.max());
+                block.sweep(&mut values, false, &Rule::Largest);
             }
         }
         values
@@ -283,16 +277,11 @@ impl<'a> Problem<'a> {
     /// Least Σ steps · 1(success) with the actions that are `safe`.
     fn fewest_steps(&self, satisfied: &[f64], safe: &Actions) -> Vec<f64> {
         let (mut values, nothing) = (self.zeros(), self.nothing());
+        let rule = &Rule::LeastCost { costs: satisfied, safe };
         for members in &self.components {
             let block = Block::new(self, members, &nothing, 1.0);
-            let block = block.only(|pair| satisfied[pair] > 0.0).settled(
-                &mut values,
-                |pair, value| value / satisfied[pair],
-                |pair, known| known.least(satisfied[pair], |a| safe.contains(pair, a)),
-            );
-            block.sweep(&mut values, false, |pair, row| {
-                satisfied[pair] + row.min_where(|a| safe.contains(pair, a))
-            });
+            let block = block.only(|pair| satisfied[pair] > 0.0).settled(&mut values, rule);
+            block.sweep(&mut values, false, rule);
         }
         values
     }
@@ -300,7 +289,8 @@ impl<'a> Problem<'a> {
     /// For each pair the safe action of the least cost.
     fn fewest(&self, cost: &[f64], safe: &Actions) -> Vec<u32> {
         let mut policy = alloc::vec![0; self.labelled.pairs()];
-        self.backups(cost, |pair, actions| {
+        self.backups(&self.arrivals(&self.nothing(), 1.0, cost), &mut |q, s, actions| {
+            let pair = self.labelled.pair(q, s);
             let allowed = (0..actions.len()).filter(|&a| safe.contains(pair, a));
             let best = allowed.reduce(|best, a| if actions[a] < actions[best] { a } else { best });
             policy[pair] = best.unwrap_or(0) as u32;
@@ -311,7 +301,8 @@ impl<'a> Problem<'a> {
     /// The actions within 1e-9 of the largest P.
     fn safe(&self, accept: &Payment, satisfied: &[f64]) -> Actions {
         let mut safe = Actions::none(self.labelled.pairs(), self.dynamics.actions());
-        self.backups_of(accept, 1.0, satisfied, |pair, actions| {
+        self.backups(&self.arrivals(accept, 1.0, satisfied), &mut |q, s, actions| {
+            let pair = self.labelled.pair(q, s);
             for (a, &p) in actions.iter().enumerate() {
                 if p >= satisfied[pair] - 1e-9 {
                     safe.insert(pair, a);
@@ -321,59 +312,44 @@ impl<'a> Problem<'a> {
         safe
     }
 
-    /// Undiscounted backups of every action at every live pair, nothing paid.
-    fn backups(&self, values: &[f64], visit: impl FnMut(usize, &[f64])) {
-        self.backups_of(&self.nothing(), 1.0, values, visit);
-    }
-
-    /// Backups of every action at every live pair, one automaton state at a time.
-    fn backups_of(
+    /// What reading `s` at `q` is worth: payment plus discounted value.
+    fn arrivals(
         &self,
         payment: &Payment,
         discount: f64,
         values: &[f64],
-        mut visit: impl FnMut(usize, &[f64]),
+    ) -> impl Fn(u32, usize) -> f64 {
+        move |q, s| {
+            let to = self.labelled.pair(self.labelled.next(q, s), s);
+            self.paid(payment, q, s) + discount * values[to]
+        }
+    }
+
+    /// One backup of every action at every live pair: `visit(q, s, values)`.
+    fn backups(
+        &self,
+        arrival: &dyn Fn(u32, usize) -> f64,
+        visit: &mut dyn FnMut(u32, usize, &[f64]),
     ) {
-        let mut arrivals = alloc::vec![0.0; self.dynamics.states()];
         let mut actions = alloc::vec![0.0; self.dynamics.actions()];
         for q in self.labelled.live() {
-            for (s, arrival) in arrivals.iter_mut().enumerate() {
-                let to = self.labelled.pair(self.labelled.next(q, s), s);
-                *arrival = self.paid(payment, q, s) + discount * values[to];
-            }
+            let arrivals: Vec<f64> = (0..self.dynamics.states()).map(|s| arrival(q, s)).collect();
             for s in 0..self.dynamics.states() {
                 let successors = self.dynamics.successors(s);
                 let rows = self.dynamics.matrix(s).chunks(successors.len());
-                actions.iter_mut().zip(rows).for_each(|(v, p)| *v = dot(p, successors, &arrivals));
-                visit(self.labelled.pair(q, s), &actions);
+                for (value, row) in actions.iter_mut().zip(rows) {
+                    *value =
+                        row.iter().zip(successors).map(|(p, &to)| p * arrivals[to as usize]).sum();
+                }
+                visit(q, s, &actions);
             }
         }
     }
 
-    /// One backup of every action.
-    fn action_values(&self, payment: &Payment, discount: f64, values: &[f64]) -> QTable {
-        self.action_values_by(|q, s| {
-            let to = self.labelled.next(q, s);
-            self.paid(payment, q, s) + discount * values[self.labelled.pair(to, s)]
-        })
-    }
-
     /// Q(s, q, a) = E\[arrival(q, s')\].
-    fn action_values_by(&self, arrival: impl Fn(u32, usize) -> f64) -> QTable {
+    fn action_values(&self, arrival: &dyn Fn(u32, usize) -> f64) -> QTable {
         let mut table = QTable::zeros(self.labelled, self.dynamics.actions());
-        let mut arrivals = alloc::vec![0.0; self.dynamics.states()];
-        let mut current = u32::MAX;
-        table.update(|q, s, row| {
-            if self.labelled.end(q).is_some() {
-                return;
-            }
-            if core::mem::replace(&mut current, q) != q {
-                (0..).zip(&mut arrivals).for_each(|(to, value)| *value = arrival(q, to));
-            }
-            let successors = self.dynamics.successors(s);
-            let rows = self.dynamics.matrix(s).chunks(successors.len());
-            row.iter_mut().zip(rows).for_each(|(value, p)| *value = dot(p, successors, &arrivals));
-        });
+        self.backups(arrival, &mut |q, s, row| table.row_mut(q, s).copy_from_slice(row));
         table
     }
 

@@ -16,6 +16,7 @@ use alloc::vec::Vec;
 use core::cmp::Ordering;
 
 use super::block::Block;
+use super::rule::Rule;
 
 /// What is known about the successors of a state while pairs are settled.
 pub(super) struct Known<'a> {
@@ -166,18 +167,16 @@ enum Stage {
 }
 
 /// The search.
-struct Front<'b, 'a, K, E> {
-    block: &'b Block<'a>,
-    /// What is least comes first: a function of the pair and its value.
-    key: K,
-    estimate: E,
+struct Front<'a> {
+    block: &'a Block<'a>,
+    rule: &'a Rule<'a>,
     stage: Vec<Stage>,
     arrivals: Vec<f64>,
     waiting: BinaryHeap<Waiting>,
     gathered: Vec<f64>,
 }
 
-impl<K: Fn(usize, f64) -> f64, E: Fn(usize, &Known<'_>) -> Estimate> Front<'_, '_, K, E> {
+impl Front<'_> {
     /// Renews the estimate of an open pair.
     fn relax(&mut self, (k, s): (u32, u32), values: &mut [f64]) {
         let block = self.block;
@@ -189,9 +188,9 @@ impl<K: Fn(usize, f64) -> f64, E: Fn(usize, &Known<'_>) -> Estimate> Front<'_, '
         let own = successors.binary_search(&s).unwrap_or(usize::MAX);
         let known = Known { matrix: dynamics.matrix(s as usize), arrivals: &self.gathered, own };
         let pair = block.pair(k, s);
-        let Estimate { value, over } = (self.estimate)(pair, &known);
-        let key = (self.key)(pair, value);
-        let better = values[pair].is_nan() || key < (self.key)(pair, values[pair]);
+        let Estimate { value, over } = self.rule.estimate(pair, &known, block.discount);
+        let key = self.rule.key(pair, value);
+        let better = values[pair].is_nan() || key < self.rule.key(pair, values[pair]);
         if !value.is_nan() && better {
             values[pair] = value;
             let over = over.min(MOST) as f32;
@@ -226,12 +225,7 @@ impl<K: Fn(usize, f64) -> f64, E: Fn(usize, &Known<'_>) -> Estimate> Front<'_, '
 
 /// Settles the pairs of `block` that can reach an exit: sets their values, and returns them in the
 /// order in which they were settled.
-pub(super) fn settle(
-    block: &Block<'_>,
-    values: &mut [f64],
-    key: impl Fn(usize, f64) -> f64,
-    estimate: impl Fn(usize, &Known<'_>) -> Estimate,
-) -> Settled {
+pub(super) fn settle(block: &Block<'_>, values: &mut [f64], rule: &Rule<'_>) -> Settled {
     let pairs = block.reached_pairs();
     let mut stage = alloc::vec![Stage::Outside; block.members.len() * block.states()];
     for &(k, s) in pairs {
@@ -240,7 +234,7 @@ pub(super) fn settle(
     }
     let (arrivals, waiting) = (block.arrivals(values), BinaryHeap::new());
     let gathered = Vec::new();
-    let mut front = Front { block, key, estimate, stage, arrivals, waiting, gathered };
+    let mut front = Front { block, rule, stage, arrivals, waiting, gathered };
     block.seeds().iter().for_each(|&pair| front.relax(pair, values));
     let (n, over) = (pairs.len(), Vec::with_capacity(pairs.len()));
     let mut settled = Settled { pairs: Vec::with_capacity(n), over };

@@ -1,0 +1,96 @@
+//! What a pair is worth, given what arriving at its successors is worth.
+
+use super::Actions;
+use super::settle::{Estimate, Known};
+
+/// How the value of a pair follows from those of its actions.
+pub(super) enum Rule<'a> {
+    /// The largest.
+    Largest,
+    /// The least.
+    Least,
+    /// That of a policy's action.
+    Follow(&'a [u32]),
+    /// The pair's cost, and what the action of a policy costs from there on.
+    Cost { costs: &'a [f64], policy: &'a [u32] },
+    /// The pair's cost, and the least that a safe action costs from there on.
+    LeastCost { costs: &'a [f64], safe: &'a Actions },
+}
+
+impl Rule<'_> {
+    /// The value of `pair`.
+    #[inline]
+    pub(super) fn value(&self, pair: usize, backup: &Backup<'_>) -> f64 {
+        match *self {
+            Self::Largest => backup.max(),
+            Self::Least => backup.min_where(|_| true),
+            Self::Follow(policy) => backup.of(policy[pair]),
+            Self::Cost { costs, policy } => costs[pair] + backup.of(policy[pair]),
+            Self::LeastCost { costs, safe } => {
+                costs[pair] + backup.min_where(|a| safe.contains(pair, a))
+            }
+        }
+    }
+
+    /// A first value of `pair`. Costs are not discounted.
+    #[inline]
+    pub(super) fn estimate(&self, pair: usize, known: &Known<'_>, discount: f64) -> Estimate {
+        match *self {
+            Self::Largest => known.best(discount),
+            Self::Least => known.least(0.0, |_| true),
+            Self::Follow(policy) => known.discounted(policy[pair] as usize, discount),
+            Self::Cost { costs, policy } => known.cost(policy[pair] as usize, costs[pair]),
+            Self::LeastCost { costs, safe } => known.least(costs[pair], |a| safe.contains(pair, a)),
+        }
+    }
+
+    /// How late a pair of this value is settled.
+    #[inline]
+    pub(super) fn key(&self, pair: usize, value: f64) -> f64 {
+        match *self {
+            Self::Largest | Self::Follow(_) => -value,
+            Self::Least => value,
+            Self::Cost { costs, .. } | Self::LeastCost { costs, .. } => value / costs[pair],
+        }
+    }
+}
+
+/// What a backup sees: the probabilities of one state's successors, and what arriving is worth.
+pub(super) struct Backup<'a> {
+    pub(super) matrix: &'a [f64],
+    pub(super) arrivals: &'a [f64],
+}
+
+impl Backup<'_> {
+    /// The values of the actions.
+    #[inline]
+    fn values(&self) -> impl Iterator<Item = f64> {
+        self.matrix.chunks_exact(self.arrivals.len()).map(|row| mean(row, self.arrivals))
+    }
+
+    /// The value of one action.
+    #[inline]
+    fn of(&self, action: u32) -> f64 {
+        let n = self.arrivals.len();
+        mean(&self.matrix[action as usize * n..][..n], self.arrivals)
+    }
+
+    /// The largest value.
+    #[inline]
+    fn max(&self) -> f64 {
+        self.values().fold(f64::NEG_INFINITY, |best, value| if value > best { value } else { best })
+    }
+
+    /// The least value of the actions that are `allowed`.
+    #[inline]
+    fn min_where(&self, allowed: impl Fn(usize) -> bool) -> f64 {
+        let values = self.values().enumerate().filter(|&(a, _)| allowed(a));
+        values.fold(f64::INFINITY, |best, (_, value)| if value < best { value } else { best })
+    }
+}
+
+/// Σ p · arrival.
+#[inline]
+fn mean(row: &[f64], arrivals: &[f64]) -> f64 {
+    row.iter().zip(arrivals).map(|(p, value)| p * value).sum()
+}
