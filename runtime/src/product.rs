@@ -325,8 +325,15 @@ impl<'a, S: ?Sized> Product<'a, S> {
 
 /// Every tuple of `tuples` continued by every one of `edges`.
 fn combinations(tuples: &[Vec<u32>], edges: &[u32]) -> Vec<Vec<u32>> {
-    let extend = |tuple: &Vec<u32>, &to: &u32| [tuple.as_slice(), &[to]].concat();
-    tuples.iter().flat_map(|tuple| edges.iter().map(move |to| extend(tuple, to))).collect()
+    let mut longer = Vec::with_capacity(tuples.len() * edges.len());
+    for tuple in tuples {
+        for &to in edges {
+            let mut tuple = tuple.clone();
+            tuple.push(to);
+            longer.push(tuple);
+        }
+    }
+    longer
 }
 
 fn strides<S: ?Sized>(operands: &[Operand<'_, S>]) -> Vec<u128> {

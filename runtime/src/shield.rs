@@ -127,12 +127,11 @@ impl Problem<'_> {
         let (before, after) = (table.policy(), shield.policy(table));
         let labelled = self.labelled();
         let live: Vec<u32> = labelled.live().collect();
-        let overrules = |&q: &u32| {
-            (0..labelled.states())
-                .filter(|&s| before[labelled.pair(q, s)] != after[labelled.pair(q, s)])
-                .count()
-        };
-        let overruled: usize = live.iter().map(overrules).sum();
+        let mut overruled = 0;
+        for &q in &live {
+            let layer = labelled.pair(q, 0)..labelled.pair(q + 1, 0);
+            overruled += layer.filter(|&pair| before[pair] != after[pair]).count();
+        }
         Shielded {
             lost_before: self.mean_of(&self.lost(&before)),
             lost_after: self.mean_of(&self.lost(&after)),

@@ -148,11 +148,14 @@ impl<'a> Joint<'a> {
     }
 
     fn end(&self, q: &[u32]) -> Option<End> {
-        let ends = || self.parts.iter().zip(q).map(|(part, &q)| part.end(q));
-        if ends().any(|end| end == Some(End::Lost)) {
-            return Some(End::Lost);
+        let mut accepted = true;
+        for (part, &q) in self.parts.iter().zip(q) {
+            match part.end(q) {
+                Some(End::Lost) => return Some(End::Lost),
+                end => accepted &= end == Some(End::Accepted),
+            }
         }
-        ends().all(|end| end == Some(End::Accepted)).then_some(End::Accepted)
+        accepted.then_some(End::Accepted)
     }
 }
 

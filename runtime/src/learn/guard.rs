@@ -46,17 +46,17 @@ impl Guard<'_> {
         allowed: &mut Vec<usize>,
     ) {
         allowed.clear();
-        allowed.extend(0..seen.actions());
+        let all = 0..seen.actions();
         match self {
-            Self::Shield(shield) => allowed.retain(|&a| shield.allows(q, s, a)),
+            Self::Shield(shield) => allowed.extend(all.filter(|&a| shield.allows(q, s, a))),
             Self::OneStep => {
-                let risks = allowed.iter().map(|&a| risk((q, s, a), task, seen));
+                let risks = all.clone().map(|a| risk((q, s, a), task, seen));
                 let least = risks.fold(f64::INFINITY, |least, (risk, _)| least.min(risk));
-                allowed.retain(|&a| {
+                allowed.extend(all.filter(|&a| {
                     let (risk, variance) = risk((q, s, a), task, seen);
                     let more = risk - least;
                     more * more <= 4.0 * variance
-                });
+                }));
             }
         }
         if allowed.is_empty() {

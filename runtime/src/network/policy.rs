@@ -252,33 +252,25 @@ impl Document {
             [interval.low, interval.mean, interval.high].iter().all(|p| (0.0..=1.0).contains(p))
         };
         let steps = estimate.steps.is_none_or(|steps| steps.mean >= 0.0);
-        let known = [
-            ("estimate.satisfied", probability(&estimate.satisfied)),
-            ("estimate.lost", probability(&estimate.lost)),
-            ("estimate.steps", steps),
-        ];
-        let fault = known.iter().find(|(_, sound)| !sound);
-        fault.map_or(Ok(()), |&(field, _)| Err(Invalid::Worth { field }))
+        let sound = |field, sound| if sound { Ok(()) } else { Err(Invalid::Worth { field }) };
+        sound("estimate.satisfied", probability(&estimate.satisfied))?;
+        sound("estimate.lost", probability(&estimate.lost))?;
+        sound("estimate.steps", steps)
     }
 
     fn check_automaton(&self) -> Result<(), Invalid> {
         let States { states, initial, accepting, trap } = self.automaton;
-        for (field, state) in [
-            ("automaton.initial", Some(initial)),
-            ("automaton.accepting", accepting),
-            ("automaton.trap", trap),
-        ] {
-            match state {
-                Some(found) if found >= states => {
-                    return Err(Invalid::Range { field, found, states });
-                }
-                _ => {}
-            }
-        }
+        let below = |field, state| match state {
+            Some(found) if found >= states => Err(Invalid::Range { field, found, states }),
+            _ => Ok(()),
+        };
+        below("automaton.initial", Some(initial))?;
+        below("automaton.accepting", accepting)?;
+        below("automaton.trap", trap)?;
         if let (Some(q), true) = (accepting, accepting == trap) {
             return Err(Invalid::Terminal(q));
         }
-        let decided = accepting.into_iter().chain(trap).count();
+        let decided = usize::from(accepting.is_some()) + usize::from(trap.is_some());
         match (self.network.shape().heads, states as usize - decided) {
             (found, expected) if found != expected => Err(Invalid::Heads { found, expected }),
             _ => Ok(()),
@@ -379,10 +371,9 @@ impl NetworkPolicy {
     /// If `q` is not a state of the automaton.
     #[must_use]
     pub fn head(&self, q: u32) -> Option<usize> {
-        let States { states, accepting, trap, .. } = self.0.automaton;
-        assert!(q < states, "a state of the automaton");
-        let before = accepting.into_iter().chain(trap).filter(|&end| end < q).count();
-        if self.end(q).is_none() { Some(q as usize - before) } else { None }
+        assert!(q < self.0.automaton.states, "a state of the automaton");
+        let live = |&q: &u32| self.end(q).is_none();
+        live(&q).then(|| (0..q).filter(live).count())
     }
 
     /// Q(s, q, ·), from the features of s as [`Network::values`] takes them. Where the task is decided

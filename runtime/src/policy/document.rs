@@ -83,11 +83,13 @@ impl Starts {
     /// The columns of what [`Problem::starts`](crate::solve::Problem::starts) gives.
     #[must_use]
     pub fn new(starts: &[Start]) -> Self {
-        Self {
-            state: starts.iter().map(|start| start.state as u32).collect(),
-            satisfied: starts.iter().map(|start| start.satisfied).collect(),
-            steps: starts.iter().map(|start| start.steps).collect(),
+        let mut columns = Self { state: Vec::new(), satisfied: Vec::new(), steps: Vec::new() };
+        for start in starts {
+            columns.state.push(start.state as u32);
+            columns.satisfied.push(start.satisfied);
+            columns.steps.push(start.steps);
         }
+        columns
     }
 }
 
@@ -223,16 +225,18 @@ impl Document {
         below("automaton.initial", &[initial], n)?;
         below("automaton.accepting", accepting.as_slice(), n)?;
         below("automaton.trap", trap.as_slice(), n)?;
-        accepting.into_iter().chain(trap).try_for_each(|q| self.check_terminal(q))?;
+        self.check_terminal(accepting)?;
+        self.check_terminal(trap)?;
         self.check_worth()
     }
 
     fn check_worth(&self) -> Result<(), Invalid> {
-        let shield = self.shield.iter().flat_map(|shield| [&shield.before, &shield.after]);
-        for certificate in self.certificate.iter().chain(shield) {
-            let Certificate { satisfied, optimal_satisfied, steps, .. } = certificate;
-            probabilities("certificate.satisfied", &[*satisfied, *optimal_satisfied])?;
-            durations("certificate.steps", &[*steps])?;
+        if let Some(certificate) = &self.certificate {
+            check_certificate(certificate)?;
+        }
+        if let Some(Shielded { before, after, .. }) = &self.shield {
+            check_certificate(before)?;
+            check_certificate(after)?;
         }
         let Some(Starts { state, satisfied, steps }) = &self.starts else { return Ok(()) };
         below("starts.state", state, self.states)?;
@@ -257,11 +261,18 @@ impl Document {
         size("components", components, Some(if components == 0 { 0 } else { n }))
     }
 
-    fn check_terminal(&self, q: u32) -> Result<(), Invalid> {
+    fn check_terminal(&self, end: Option<u32>) -> Result<(), Invalid> {
+        let Some(q) = end else { return Ok(()) };
         let row = &self.next[q as usize * self.classes..][..self.classes];
         let both = self.automaton.accepting == self.automaton.trap;
         if both || row.iter().any(|&to| to != q) { Err(Invalid::Terminal(q)) } else { Ok(()) }
     }
+}
+
+fn check_certificate(certificate: &Certificate) -> Result<(), Invalid> {
+    let Certificate { satisfied, optimal_satisfied, steps, .. } = certificate;
+    probabilities("certificate.satisfied", &[*satisfied, *optimal_satisfied])?;
+    durations("certificate.steps", &[*steps])
 }
 
 fn nonempty(field: &'static str, found: usize) -> Result<(), Invalid> {

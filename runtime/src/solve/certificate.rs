@@ -119,14 +119,17 @@ impl Problem<'_> {
     #[must_use]
     pub fn starts(&self, policy: &[u32], best: &Outcome) -> Vec<Start> {
         let own = self.evaluate(policy);
-        let of = |(state, pair): (usize, usize)| Start {
-            state,
-            satisfied: own.satisfied[pair],
-            steps: finite(own.steps[pair]),
-            optimal_satisfied: best.satisfied[pair],
-            optimal_steps: finite(best.steps[pair]),
-        };
-        self.start_pairs().map(of).collect()
+        let mut starts = Vec::new();
+        for (state, pair) in self.start_pairs() {
+            starts.push(Start {
+                state,
+                satisfied: own.satisfied[pair],
+                steps: finite(own.steps[pair]),
+                optimal_satisfied: best.satisfied[pair],
+                optimal_steps: finite(best.steps[pair]),
+            });
+        }
+        starts
     }
 
     /// The pairs of a live q and a state in which the action of `policy` is worse than the best by
@@ -204,8 +207,11 @@ impl Problem<'_> {
     }
 
     fn worst_regret(&self, own: &Outcome, best: &Outcome) -> f64 {
-        let regrets = self.start_pairs().map(|(_, at)| best.satisfied[at] - own.satisfied[at]);
-        regrets.fold(0.0, f64::max)
+        let mut worst: f64 = 0.0;
+        for (_, pair) in self.start_pairs() {
+            worst = worst.max(best.satisfied[pair] - own.satisfied[pair]);
+        }
+        worst
     }
 
     /// The states in which an episode can start, with their pairs once they are read.

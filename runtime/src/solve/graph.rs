@@ -106,9 +106,9 @@ pub(super) fn order(problem: &Problem<'_>, members: &[u32], policy: Option<&[u32
     let uses = |k: usize, from: usize, to: usize| {
         policy.is_none_or(|policy| {
             let action = policy[labelled.pair(members[k], from)] as usize;
-            let successors = dynamics.successors(from);
-            let column = successors.partition_point(|&other| (other as usize) < to);
-            dynamics.matrix(from)[action * successors.len() + column] > 0.0
+            let (successors, matrix) = (dynamics.successors(from), dynamics.matrix(from));
+            let column = successors.binary_search(&(to as u32));
+            column.is_ok_and(|column| matrix[action * successors.len() + column] > 0.0)
         })
     };
     let mut seen = alloc::vec![false; members.len() * states];
