@@ -304,17 +304,22 @@ impl Labelled {
 
     /// A payment for each move, as `pays(q, q')` says.
     pub(crate) fn payment_by(&self, pays: &dyn Fn(u32, u32) -> f64) -> Payment {
-        let moves = self.next.iter().enumerate();
-        let table = moves.map(|(i, &to)| pays((i / self.classes) as u32, to)).collect();
+        let mut table = Vec::with_capacity(self.next.len());
+        for (i, &to) in self.next.iter().enumerate() {
+            table.push(pays((i / self.classes) as u32, to));
+        }
         Payment { table, width: self.classes, by_state: false }
     }
 
     /// A payment for each automaton state and state, as `pays(q, s')` says.
     pub(crate) fn payment_by_state(&self, pays: &dyn Fn(u32, usize) -> f64) -> Payment {
-        let width = self.states();
-        let pairs = 0..self.pairs();
-        let table = pairs.map(|pair| pays((pair / width) as u32, pair % width)).collect();
-        Payment { table, width, by_state: true }
+        let mut table = Vec::with_capacity(self.pairs());
+        for q in 0..self.automaton_states() {
+            for s in 0..self.states() {
+                table.push(pays(q, s));
+            }
+        }
+        Payment { table, width: self.states(), by_state: true }
     }
 }
 

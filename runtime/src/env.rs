@@ -172,15 +172,19 @@ fn sample(columns: &[Column], word: u64) -> usize {
 /// The alias table of a distribution; probabilities are kept to 2^-32.
 fn alias_table(probabilities: &[f64]) -> Vec<Column> {
     let n = probabilities.len();
-    let mut mass: Vec<f64> = probabilities.iter().map(|p| p * n as f64).collect();
-    let mut columns: Vec<Column> =
-        (0..n).map(|i| Column { threshold: u32::MAX, alias: i as u32 }).collect();
-    let (mut small, mut large): (Vec<usize>, Vec<usize>) = (0..n).partition(|&i| mass[i] < 1.0);
+    let (mut mass, mut columns) = (Vec::with_capacity(n), Vec::with_capacity(n));
+    let (mut small, mut large) = (Vec::new(), Vec::new());
+    for (i, p) in probabilities.iter().enumerate() {
+        mass.push(p * n as f64);
+        columns.push(Column { threshold: u32::MAX, alias: i as u32 });
+        if mass[i] < 1.0 { small.push(i) } else { large.push(i) }
+    }
     while let (Some(i), Some(&j)) = (small.pop(), large.last()) {
         columns[i] = Column { threshold: (mass[i] * 4_294_967_296.0) as u32, alias: j as u32 };
         mass[j] -= 1.0 - mass[i];
         if mass[j] < 1.0 {
-            small.extend(large.pop());
+            large.pop();
+            small.push(j);
         }
     }
     columns
@@ -220,17 +224,17 @@ impl Outcomes {
             let offset = dynamics.matrix_offset(s);
             let all = &compact[offset..offset + actions * successors.len()];
             let uniform = successors.len() == width;
+            let state = |i: usize| successors.get(i).copied().unwrap_or(successors[0]);
             for (row, p) in
                 all.chunks(successors.len()).zip(dynamics.matrix(s).chunks(successors.len()))
             {
                 let mut padded = p.to_vec();
                 padded.resize(width, 0.0);
                 let table = if uniform { row.to_vec() } else { alias_table(&padded) };
-                columns.extend(table.iter().enumerate().map(|(i, column)| Outcome {
-                    threshold: column.threshold,
-                    state: successors.get(i).copied().unwrap_or(successors[0]),
-                    alias: successors.get(column.alias as usize).copied().unwrap_or(successors[0]),
-                }));
+                for (i, Column { threshold, alias }) in table.into_iter().enumerate() {
+                    let (state, alias) = (state(i), state(alias as usize));
+                    columns.push(Outcome { threshold, state, alias });
+                }
             }
         }
         Self { columns, width }

@@ -79,8 +79,11 @@ impl Shield {
                 };
                 let risks: Vec<f64> = (0..experience.actions()).map(risk).collect();
                 let least = risks.iter().copied().fold(f64::INFINITY, f64::min);
-                let allowed = (0..risks.len()).filter(|&a| risks[a] <= least);
-                allowed.for_each(|a| actions.insert(task.pair(q, s), a));
+                for (a, &risk) in risks.iter().enumerate() {
+                    if risk <= least {
+                        actions.insert(task.pair(q, s), a);
+                    }
+                }
             }
         }
         Self { actions, states: task.states() }

@@ -71,9 +71,8 @@ impl Labelled {
             }
             q += 1;
         }
-        let of = joint.ends;
-        let (distance, farthest) = distances(&of, &next, letters.len());
-        let ends = Ends { of, distance, farthest };
+        let distance = distances(joint.ends.len(), joint.accepted, &next, letters.len());
+        let ends = Ends::at(joint.ends, distance);
         Ok(Self { class, classes: letters.len(), next, ends, robustness: Vec::new() })
     }
 }
@@ -82,11 +81,12 @@ impl Labelled {
 fn letters(parts: &[Labelled]) -> (Vec<u32>, Interner<u32>) {
     let mut letters = Interner::new();
     let states = parts.first().map_or(0, Labelled::states);
-    let class = (0..states).map(|s| {
+    let mut class = Vec::with_capacity(states);
+    for s in 0..states {
         let letter: Vec<u32> = parts.iter().map(|part| part.class[s]).collect();
-        letters.number(&letter)
-    });
-    (class.collect(), letters)
+        class.push(letters.number(&letter));
+    }
+    (class, letters)
 }
 
 /// The joint states found so far.
@@ -121,10 +121,11 @@ impl<'a> Joint<'a> {
 
     /// The number of the state that follows `q` on a letter.
     fn read(&mut self, q: &[u32], letter: &[u32]) -> u32 {
-        let next = self.parts.iter().zip(q).zip(letter);
-        let next =
-            next.map(|((part, &q), &class)| part.next[q as usize * part.classes + class as usize]);
-        self.number(&next.collect::<Vec<u32>>())
+        let mut next = Vec::with_capacity(q.len());
+        for ((part, &q), &class) in self.parts.iter().zip(q).zip(letter) {
+            next.push(part.next[q as usize * part.classes + class as usize]);
+        }
+        self.number(&next)
     }
 
     fn number(&mut self, q: &[u32]) -> u32 {
@@ -159,21 +160,21 @@ impl<'a> Joint<'a> {
     }
 }
 
-/// The least number of moves from each state to acceptance, and the largest of those numbers.
-fn distances(ends: &[Option<End>], next: &[u32], classes: usize) -> (Vec<u32>, u32) {
-    let mut distance: Vec<u32> =
-        ends.iter().map(|&end| if end == Some(End::Accepted) { 0 } else { u32::MAX }).collect();
-    let (mut changed, mut farthest) = (true, 0);
+/// The least number of moves from each state to acceptance.
+fn distances(states: usize, accepted: Option<u32>, next: &[u32], classes: usize) -> Vec<u32> {
+    let mut distance = alloc::vec![u32::MAX; states];
+    let Some(accepted) = accepted else { return distance };
+    distance[accepted as usize] = 0;
+    let mut changed = true;
     while core::mem::take(&mut changed) {
         for (q, row) in next.chunks(classes).enumerate() {
-            let least = row.iter().map(|&to| distance[to as usize]).min().unwrap_or(u32::MAX);
-            if least < u32::MAX && least + 1 < distance[q] {
-                (distance[q], changed) = (least + 1, true);
+            for &to in row {
+                let through = distance[to as usize].saturating_add(1);
+                if through < distance[q] {
+                    (distance[q], changed) = (through, true);
+                }
             }
         }
     }
-    for &distance in distance.iter().filter(|&&distance| distance < u32::MAX) {
-        farthest = farthest.max(distance);
-    }
-    (distance, farthest)
+    distance
 }

@@ -105,9 +105,15 @@ impl Ends {
             (_, true) => Some(End::Lost),
             _ => None,
         };
-        let distance: Vec<u32> = (0..monitor.states()).map(|q| monitor.distance(q)).collect();
+        let states = 0..monitor.states();
+        let distance = states.clone().map(|q| monitor.distance(q)).collect();
+        Self::at(states.map(end).collect(), distance)
+    }
+
+    /// These ends, at these distances from acceptance.
+    pub(super) fn at(of: Vec<Option<End>>, distance: Vec<u32>) -> Self {
         let farthest = distance.iter().copied().filter(|&d| d < u32::MAX).max().unwrap_or(0);
-        Self { of: (0..monitor.states()).map(end).collect(), distance, farthest }
+        Self { of, distance, farthest }
     }
 
     #[inline]

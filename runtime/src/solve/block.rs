@@ -7,7 +7,7 @@ use super::rule::{Backup, Rule};
 use super::settle::settle;
 use super::{Problem, TOLERANCE};
 use crate::augmented::Payment;
-use crate::q::{QTable, largest};
+use crate::q::QTable;
 
 /// Components of at most this many pairs may be solved by elimination.
 const ELIMINATE: usize = 1024;
@@ -406,10 +406,13 @@ impl<'a> Block<'a> {
 fn eliminate(rows: &mut [Vec<f64>]) {
     let n = rows.len();
     for i in 0..n {
-        let sizes: Vec<f64> = rows[i..].iter().map(|row| row[i].abs()).collect();
-        let top = largest(&sizes);
-        let pivot = sizes.iter().position(|&size| size == top).unwrap_or(0);
-        rows.swap(i, i + pivot);
+        let mut pivot = i;
+        for j in i + 1..n {
+            if rows[j][i].abs() > rows[pivot][i].abs() {
+                pivot = j;
+            }
+        }
+        rows.swap(i, pivot);
         let (above, below) = rows.split_at_mut(i + 1);
         let pivot = &above[i];
         for row in below.iter_mut().filter(|row| row[i] != 0.0) {
