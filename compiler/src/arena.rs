@@ -1,6 +1,93 @@
-//! Walks over arenas of ids.
+//! Walks over arenas of ids, and maps from ids to ids.
+
+use std::marker::PhantomData;
 
 use rustc_hash::{FxHashMap, FxHashSet};
+
+use crate::dfa::Target;
+use crate::guard::Guard;
+use crate::predicate::{ConditionId, PredicateId};
+
+/// The number of a thing.
+pub(crate) trait Id: Copy {
+    fn new(number: u32) -> Self;
+    fn number(self) -> u32;
+}
+
+impl Id for u32 {
+    fn new(number: u32) -> Self {
+        number
+    }
+
+    fn number(self) -> u32 {
+        self
+    }
+}
+
+macro_rules! ids {
+    ($($id:ident)*) => {
+        $(impl Id for $id {
+            fn new(number: u32) -> Self {
+                Self(number)
+            }
+
+            fn number(self) -> u32 {
+                self.0
+            }
+        })*
+    };
+}
+
+ids! { ConditionId Guard PredicateId Target }
+
+/// One id, or two.
+pub(crate) trait Key {
+    fn key(self) -> u64;
+}
+
+impl<A: Id> Key for A {
+    fn key(self) -> u64 {
+        self.number().into()
+    }
+}
+
+impl<A: Id, B: Id> Key for (A, B) {
+    fn key(self) -> u64 {
+        u64::from(self.0.number()) << 32 | u64::from(self.1.number())
+    }
+}
+
+/// A map from ids, or pairs of them, to ids. Of whatever kinds these are, one type of table is
+/// behind it, for each more would be built into every crate that uses the macros.
+pub(crate) struct Memo<K, V> {
+    known: FxHashMap<u64, u32>,
+    kinds: PhantomData<fn(K) -> V>,
+}
+
+impl<K, V> Default for Memo<K, V> {
+    fn default() -> Self {
+        Self { known: FxHashMap::default(), kinds: PhantomData }
+    }
+}
+
+impl<K: Key, V: Id> Memo<K, V> {
+    pub(crate) fn get(&self, key: K) -> Option<V> {
+        self.known.get(&key.key()).map(|&number| V::new(number))
+    }
+
+    pub(crate) fn insert(&mut self, key: K, value: V) {
+        self.known.insert(key.key(), value.number());
+    }
+
+    /// The value of `key`, which becomes `fresh` if there is none.
+    pub(crate) fn get_or_insert(&mut self, key: K, fresh: V) -> V {
+        V::new(*self.known.entry(key.key()).or_insert(fresh.number()))
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.known.len()
+    }
+}
 
 /// All ids that `roots` are made of, these among them, rising; `operands` adds those of one id.
 pub(crate) fn needed(roots: Vec<u32>, operands: &mut dyn FnMut(u32, &mut Vec<u32>)) -> Vec<u32> {
@@ -21,10 +108,10 @@ pub(crate) fn needed(roots: Vec<u32>, operands: &mut dyn FnMut(u32, &mut Vec<u32
 pub(crate) fn groups(ties: &[Vec<u32>]) -> Vec<Vec<usize>> {
     // Each place points to an earlier one of its group; the first, to itself.
     let mut earlier: Vec<usize> = (0..ties.len()).collect();
-    let mut holders = FxHashMap::default();
+    let mut holders: Memo<u32, u32> = Memo::default();
     for (place, ties) in ties.iter().enumerate() {
         for &tie in ties {
-            let holder = *holders.entry(tie).or_insert(place as u32) as usize;
+            let holder = holders.get_or_insert(tie, place as u32) as usize;
             let (a, b) = (first(&mut earlier, holder), first(&mut earlier, place));
             earlier[a.max(b)] = a.min(b);
         }

@@ -18,8 +18,7 @@
 mod form;
 mod relation;
 
-use rustc_hash::FxHashMap;
-
+use crate::arena::Memo;
 use crate::dfa::{Dfa, Diagram, Target};
 use crate::guard::{Guard, Store};
 use crate::predicate::{ConditionId, Module, PredicateId, Task};
@@ -98,7 +97,7 @@ impl Possible {
             possible: self,
             dfa,
             diagram: Diagram::default(),
-            known: FxHashMap::default(),
+            known: Memo::default(),
         };
         let restricted: Vec<_> = dfa
             .transitions
@@ -130,21 +129,16 @@ impl Possible {
     /// Writes the possible letters into an automaton, for its guards.
     pub fn attach(&self, dfa: &mut Dfa) {
         if !self.all() {
-            let mut known = FxHashMap::default();
+            let mut known = Memo::default();
             dfa.possible = Some(self.copy(self.letters, &mut dfa.diagram, &mut known));
         }
     }
 
-    fn copy(
-        &self,
-        f: Guard,
-        diagram: &mut Diagram,
-        known: &mut FxHashMap<Guard, Target>,
-    ) -> Target {
+    fn copy(&self, f: Guard, diagram: &mut Diagram, known: &mut Memo<Guard, Target>) -> Target {
         if f == Guard::TRUE || f == Guard::FALSE {
             return Target::to_state(u32::from(f == Guard::TRUE));
         }
-        if let Some(&target) = known.get(&f) {
+        if let Some(target) = known.get(f) {
             return target;
         }
         let (low, high) = self.store.branches(f);
@@ -159,7 +153,7 @@ struct Restriction<'a> {
     possible: &'a Possible,
     dfa: &'a Dfa,
     diagram: Diagram,
-    known: FxHashMap<(Target, Guard), Option<Target>>,
+    known: Memo<(Target, Guard), Target>,
 }
 
 impl Restriction<'_> {
@@ -171,8 +165,8 @@ impl Restriction<'_> {
         if target.state().is_some() {
             return Some(target);
         }
-        if let Some(&known) = self.known.get(&(target, on)) {
-            return known;
+        if let Some(known) = self.known.get((target, on)) {
+            return Some(known);
         }
         let store = &self.possible.store;
         let asked = self.dfa.diagram.proposition(target).unwrap_or(u32::MAX);
@@ -182,10 +176,10 @@ impl Restriction<'_> {
             if store.level(on) == proposition { store.branches(on) } else { (on, on) };
         let (low, high) = (self.target(low, on_low), self.target(high, on_high));
         let restricted = match (low, high) {
-            (Some(low), Some(high)) => Some(self.diagram.node(proposition, low, high)),
-            (one, other) => one.or(other),
+            (Some(low), Some(high)) => self.diagram.node(proposition, low, high),
+            (one, other) => one.or(other)?,
         };
         self.known.insert((target, on), restricted);
-        restricted
+        Some(restricted)
     }
 }

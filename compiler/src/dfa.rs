@@ -7,6 +7,7 @@
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
+use crate::arena::Memo;
 use crate::guard::{Cube, Guard, Store};
 
 /// A state of an automaton; the initial one is 0.
@@ -14,7 +15,7 @@ pub type State = u32;
 
 /// Where a transition goes: to a state, or first to a node that asks one more proposition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Target(u32);
+pub struct Target(pub(crate) u32);
 
 impl Target {
     const LEAF: u32 = 1 << 31;
@@ -296,7 +297,7 @@ impl<'a> Guards<'a> {
 
     /// The letters under which a target leads to a selected state; levels are propositions.
     fn when(&mut self, target: Target, select: &dyn Fn(State) -> bool) -> Guard {
-        let mut memo = FxHashMap::default();
+        let mut memo = Memo::default();
         self.build(target, select, &mut memo)
     }
 
@@ -304,12 +305,12 @@ impl<'a> Guards<'a> {
         &mut self,
         target: Target,
         select: &dyn Fn(State) -> bool,
-        memo: &mut FxHashMap<Target, Guard>,
+        memo: &mut Memo<Target, Guard>,
     ) -> Guard {
         if let Some(state) = target.state() {
             return if select(state) { Guard::TRUE } else { Guard::FALSE };
         }
-        if let Some(&known) = memo.get(&target) {
+        if let Some(known) = memo.get(target) {
             return known;
         }
         let proposition = self.dfa.diagram.proposition(target).expect("a node asks");

@@ -10,7 +10,7 @@ use rustc_hash::FxHashMap;
 
 /// A Boolean function in a [`Store`]. Equal functions of one store are equal values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Guard(u32);
+pub struct Guard(pub(crate) u32);
 
 impl Guard {
     /// The function that is always false.

@@ -7,8 +7,7 @@
 //! breadth-first, letters in lexicographic order, and the diagram is laid out anew in that order: equal
 //! languages over equal propositions give equal automata, byte for byte.
 
-use rustc_hash::FxHashMap;
-
+use crate::arena::Memo;
 use crate::dfa::{Dfa, Diagram, State, Target};
 
 /// The minimal complete automaton with the same language, in canonical numbering.
@@ -128,14 +127,14 @@ fn above(dfa: &Dfa) -> Above {
 
 fn refine(dfa: &Dfa, classes: &[State]) -> (Vec<State>, usize) {
     let rewritten = rewrite(&dfa.diagram, |state| classes[state as usize]).1;
-    let mut known = FxHashMap::default();
+    let mut known: Memo<(State, Target), State> = Memo::default();
     let refined = dfa
         .states()
         .map(|q| {
             let target =
                 relocate(dfa.transitions[q as usize], &rewritten, |state| classes[state as usize]);
             let fresh = known.len() as State;
-            *known.entry((classes[q as usize], target)).or_insert(fresh)
+            known.get_or_insert((classes[q as usize], target), fresh)
         })
         .collect();
     (refined, known.len())
@@ -219,7 +218,7 @@ fn lay_out(
     rename: impl Fn(State) -> State + Copy,
 ) -> (Diagram, Vec<Target>) {
     let mut fresh = Diagram::default();
-    let mut moved = FxHashMap::default();
+    let mut moved = Memo::default();
     let roots = roots.map(|root| copy(diagram, root, &mut fresh, &mut moved, rename)).collect();
     (fresh, roots)
 }
@@ -228,13 +227,13 @@ fn copy(
     diagram: &Diagram,
     target: Target,
     fresh: &mut Diagram,
-    moved: &mut FxHashMap<Target, Target>,
+    moved: &mut Memo<Target, Target>,
     rename: impl Fn(State) -> State + Copy,
 ) -> Target {
     if let Some(state) = target.state() {
         return Target::to_state(rename(state));
     }
-    if let Some(&known) = moved.get(&target) {
+    if let Some(known) = moved.get(target) {
         return known;
     }
     let proposition = diagram.proposition(target).expect("a node asks");

@@ -14,8 +14,9 @@
 //! is the number of states times the size of their diagrams; a [`Budget`] bounds it. The known
 //! weakness is the order of the levels, which is that of first appearance and never searched for.
 
-use rustc_hash::{FxHashMap, FxHashSet};
+use rustc_hash::FxHashSet;
 
+use crate::arena::Memo;
 use crate::dfa::{Dfa, Diagram, State, Target};
 use crate::guard::{Guard, Store};
 use crate::spec::{Formula, FormulaId, Spec};
@@ -86,14 +87,14 @@ struct Translation<'a> {
     /// What each formula asks of this state and of the rest.
     expansion: Vec<Guard>,
     /// The expansion of each function of obligations met so far.
-    expanded: FxHashMap<Guard, Guard>,
+    expanded: Memo<Guard, Guard>,
     /// The state that an expansion is.
-    states: FxHashMap<Guard, State>,
+    states: Memo<Guard, State>,
     /// The expansion of each state, in order of discovery.
     roots: Vec<Guard>,
     accepting: Option<State>,
     diagram: Diagram,
-    targets: FxHashMap<Guard, Target>,
+    targets: Memo<Guard, Target>,
 }
 
 impl<'a> Translation<'a> {
@@ -106,12 +107,12 @@ impl<'a> Translation<'a> {
             level: vec![u32::MAX; spec.formulas().len()],
             obligations: Vec::new(),
             expansion: vec![Guard::FALSE; spec.formulas().len()],
-            expanded: FxHashMap::default(),
-            states: FxHashMap::default(),
+            expanded: Memo::default(),
+            states: Memo::default(),
             roots: Vec::new(),
             accepting: None,
             diagram: Diagram::default(),
-            targets: FxHashMap::default(),
+            targets: Memo::default(),
         };
         translation.number_obligations()?;
         Ok(translation)
@@ -231,7 +232,7 @@ impl<'a> Translation<'a> {
         if f == Guard::TRUE || f == Guard::FALSE {
             return f;
         }
-        if let Some(&known) = self.expanded.get(&f) {
+        if let Some(known) = self.expanded.get(f) {
             return known;
         }
         let (low, high) = self.store.branches(f);
@@ -263,14 +264,14 @@ impl<'a> Translation<'a> {
             diagram: self.diagram,
             transitions,
             accepting: self.accepting,
-            trap: self.states.get(&Guard::FALSE).copied(),
+            trap: self.states.get(Guard::FALSE),
             possible: None,
         })
     }
 
     /// The transitions of an expansion: its part above the obligations.
     fn target(&mut self, f: Guard) -> Target {
-        if let Some(&known) = self.targets.get(&f) {
+        if let Some(known) = self.targets.get(f) {
             return known;
         }
         let level = self.store.level(f);
@@ -299,7 +300,7 @@ impl<'a> Translation<'a> {
 
     fn state(&mut self, expansion: Guard) -> State {
         let fresh = self.roots.len() as State;
-        let state = *self.states.entry(expansion).or_insert(fresh);
+        let state = self.states.get_or_insert(expansion, fresh);
         if state == fresh {
             self.roots.push(expansion);
         }

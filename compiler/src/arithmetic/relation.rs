@@ -1,8 +1,6 @@
 //! How the propositions of a task are related by what they compare.
 
-use rustc_hash::FxHashMap;
-
-use crate::arena;
+use crate::arena::{self, Memo};
 use crate::guard::{Guard, Store};
 use crate::linear::{Form, Inequality, feasible};
 use crate::predicate::{Condition, ConditionId, Module};
@@ -71,7 +69,7 @@ impl<'a> Analysis<'a> {
         let meaning = relation.meanings(&needed);
         let mut related = relation.cells();
         for (level, condition) in (0..places.len() as u32).zip(&conditions).rev() {
-            let holds = meaning[condition];
+            let holds = meaning.get(*condition).expect("all that is needed has a meaning");
             let low = relation.store.minus(related, holds);
             let high = relation.store.and(related, holds);
             related = relation.store.node(level, low, high);
@@ -79,7 +77,7 @@ impl<'a> Analysis<'a> {
                 return None;
             }
         }
-        let mut known = FxHashMap::default();
+        let mut known = Memo::default();
         Some(relation.project(related, places, result, &mut known))
     }
 }
@@ -128,8 +126,8 @@ impl<'a> Relation<'a> {
     }
 
     /// What each condition says of the cuts.
-    fn meanings(&mut self, needed: &[ConditionId]) -> FxHashMap<ConditionId, Guard> {
-        let mut meaning: FxHashMap<ConditionId, Guard> = FxHashMap::default();
+    fn meanings(&mut self, needed: &[ConditionId]) -> Memo<ConditionId, Guard> {
+        let mut meaning: Memo<ConditionId, Guard> = Memo::default();
         let mut pending = needed.to_vec();
         // A predicate may refer to a condition that stands later in the arena.
         while !pending.is_empty() {
@@ -137,7 +135,7 @@ impl<'a> Relation<'a> {
                 let condition = self.analysis.module.arena.condition(id);
                 let operands = self.analysis.module.operands(condition);
                 let known: Option<Vec<_>> =
-                    operands.iter().map(|operand| meaning.get(operand).copied()).collect();
+                    operands.iter().map(|operand| meaning.get(*operand)).collect();
                 let Some(operands) = known else { return true };
                 let guard = self.meaning(id, condition, &operands);
                 meaning.insert(id, guard);
@@ -281,13 +279,13 @@ impl<'a> Relation<'a> {
         f: Guard,
         places: &[usize],
         result: &mut Store,
-        known: &mut FxHashMap<Guard, Guard>,
+        known: &mut Memo<Guard, Guard>,
     ) -> Guard {
         let level = self.store.level(f);
         if level >= self.propositions {
             return if f == Guard::FALSE { f } else { Guard::TRUE };
         }
-        if let Some(&guard) = known.get(&f) {
+        if let Some(guard) = known.get(f) {
             return guard;
         }
         let (low, high) = self.store.branches(f);

@@ -334,7 +334,7 @@ impl Expansion<'_, '_> {
         if self.scope.is_broken(text) {
             return None;
         }
-        Some(match super::name::nearest(text, names()) {
+        Some(match super::name::nearest(text, &mut names()) {
             Some(near) => error.help(format!("did you mean `{near}`?")),
             None => error.help(format!(
                 "declare it, `enum {text} {{ … }}`, or list the elements: `for all x in {{a, b}}: …`"

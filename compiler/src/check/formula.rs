@@ -1,10 +1,11 @@
 //! Tasks: an expression as a [`Spec`] in negation normal form.
 
-use rustc_hash::{FxHashMap, FxHashSet};
+use rustc_hash::FxHashSet;
 
 use super::Checker;
 use super::atom::Atom;
 use super::role::{Role, Roles};
+use crate::arena::Memo;
 use crate::ast::{Infix, ItemKind, Node, NodeId, Prefix};
 use crate::error::{Error, Kind};
 use crate::predicate::{
@@ -170,9 +171,11 @@ impl Checker<'_> {
         predicates: &[PredicateId],
     ) -> Option<Spec> {
         let name = |id: &PredicateId| self.module.predicates[id.0 as usize].name.clone();
+        let mut positions = Memo::default();
+        (0..).zip(predicates).for_each(|(place, &id)| positions.insert(id, place));
         let mut builder = Builder {
             spec: Spec::new(predicates.iter().map(name).collect()),
-            positions: predicates.iter().map(|predicate| predicate.0).zip(0..).collect(),
+            positions,
             built: Vec::new(),
         };
         for ((id, role), atom) in roles.iter().zip(atoms) {
@@ -338,13 +341,13 @@ pub(super) enum Literal {
 struct Builder {
     spec: Spec,
     /// The place of each predicate among the propositions.
-    positions: FxHashMap<u32, u32>,
+    positions: Memo<PredicateId, u32>,
     built: Vec<Option<FormulaId>>,
 }
 
 impl Builder {
     fn literal(&mut self, predicate: PredicateId, negated: bool, span: Span) -> FormulaId {
-        let position = self.positions.get(&predicate.0).copied().unwrap_or_default();
+        let position = self.positions.get(predicate).unwrap_or_default();
         self.spec.literal(position, negated, span)
     }
 

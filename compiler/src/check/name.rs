@@ -3,15 +3,17 @@
 /// The candidate that differs least from `name`, if it is near enough to be meant.
 pub(super) fn nearest<'a>(
     name: &str,
-    candidates: impl IntoIterator<Item = &'a str>,
+    candidates: &mut dyn Iterator<Item = &'a str>,
 ) -> Option<&'a str> {
     let limit = (name.chars().count() / 3).max(1);
-    candidates
-        .into_iter()
-        .map(|candidate| (distance(name, candidate), candidate))
-        .filter(|(distance, _)| *distance <= limit)
-        .min_by_key(|(distance, _)| *distance)
-        .map(|(_, candidate)| candidate)
+    let mut nearest = None;
+    for candidate in candidates {
+        let distance = distance(name, candidate);
+        if distance <= limit && nearest.is_none_or(|(known, _)| distance < known) {
+            nearest = Some((distance, candidate));
+        }
+    }
+    nearest.map(|(_, candidate)| candidate)
 }
 
 /// The number of letters to add, drop, change or swap with their neighbour (optimal string

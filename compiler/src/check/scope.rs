@@ -443,7 +443,7 @@ impl<'a> Scope<'a> {
         let structs = self.structs.iter().map(|known| known.name.as_str());
         let enums = self.enums.iter().map(|known| known.name.as_str());
         let error = Error::new(Kind::UnknownName, format!("there is no type `{text}`"), span);
-        match name::nearest(text, scalars.into_iter().chain(structs).chain(enums)) {
+        match name::nearest(text, &mut scalars.into_iter().chain(structs).chain(enums)) {
             Some(near) => error.help(format!("did you mean `{near}`?")),
             None => error.help(
                 "the types are f64, f32, i8 to i64, u8 to u64, bool, arrays such as `[f64; 6]`, \

@@ -289,7 +289,7 @@ impl Checker<'_> {
         let message = format!("there is no function `{text}`");
         let error = Error::new(Kind::UnknownName, message, self.ast.span(callee));
         let names = Function::ALL.map(|(name, ..)| name);
-        match name::nearest(&text, names) {
+        match name::nearest(&text, &mut names.into_iter()) {
             Some(near) => error.help(format!("did you mean `{near}`?")),
             None => error.help(format!("the functions are {}", names.join(", "))),
         }
@@ -359,7 +359,7 @@ impl Checker<'_> {
                 let error =
                     Error::new(Kind::UnknownName, format!("there is no field `{name}`"), span);
                 let names = || fields.iter().map(|field| field.name.as_str());
-                Err(match name::nearest(name, names()) {
+                Err(match name::nearest(name, &mut names()) {
                     Some(near) => error.help(format!("did you mean `{near}`?")),
                     None if fields.is_empty() => error.help("this is not a struct"),
                     None => error
@@ -405,7 +405,7 @@ impl Checker<'_> {
         let variants = &self.scope.enums[of as usize].variants;
         let message = format!("`{text}` is not a value of `{name}`, which indexes this array");
         let error = Error::new(Kind::Type, message, self.ast.span(index));
-        Err(match name::nearest(&text, variants.iter().map(String::as_str)) {
+        Err(match name::nearest(&text, &mut variants.iter().map(String::as_str)) {
             Some(near) => error.help(format!("did you mean `{near}`?")),
             None => error.help("an index is a value of the enumeration, a parameter or a field"),
         })
@@ -521,7 +521,7 @@ impl Checker<'_> {
             span,
         );
         let parameters = self.parameters.iter().map(|known| known.name.as_str());
-        if let Some(near) = name::nearest(name, self.scope.names().chain(parameters)) {
+        if let Some(near) = name::nearest(name, &mut self.scope.names().chain(parameters)) {
             return error.help(format!("did you mean `{near}`?"));
         }
         if self.scope.has_state() {

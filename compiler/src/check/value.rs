@@ -143,7 +143,7 @@ impl Checker<'_> {
         let known = &self.scope.enums[of as usize];
         let message = format!("`{text}` is not a value of `{}`", known.name);
         let error = Error::new(Kind::UnknownName, message, span);
-        match name::nearest(text, known.variants.iter().map(String::as_str)) {
+        match name::nearest(text, &mut known.variants.iter().map(String::as_str)) {
             Some(near) => error.help(format!("did you mean `{near}`?")),
             None => error.help(format!("its values are {}", listed(&known.variants))),
         }

@@ -1,10 +1,9 @@
 //! The body: states and their transitions, laid over each other as decision diagrams.
 
-use rustc_hash::FxHashMap;
-
 use super::header::Header;
 use super::token::{Token, Tokens};
 use super::{MOST_NODES, refused, syntax};
+use crate::arena::Memo;
 use crate::dfa::{Diagram, State, Target};
 use crate::error::Error;
 use crate::guard::{Guard, Store};
@@ -36,7 +35,7 @@ pub(super) struct Described {
 pub(super) struct Body {
     pub(super) diagram: Diagram,
     pub(super) states: Vec<Option<Described>>,
-    numbers: FxHashMap<u32, State>,
+    numbers: Memo<u32, State>,
     /// For each state its number in the text and where it is named first.
     named: Vec<(u32, Span)>,
 }
@@ -48,7 +47,7 @@ impl Body {
     /// The state that the text numbers so.
     fn state(&mut self, number: u32, span: Span) -> State {
         let fresh = self.named.len() as State;
-        let state = *self.numbers.entry(number).or_insert(fresh);
+        let state = self.numbers.get_or_insert(number, fresh);
         if state == fresh {
             self.named.push((number, span));
             self.states.push(None);
@@ -208,12 +207,12 @@ struct Overlay<'a> {
     store: &'a Store,
     diagram: &'a mut Diagram,
     to: State,
-    known: FxHashMap<(Target, Guard), Target>,
+    known: Memo<(Target, Guard), Target>,
 }
 
 impl<'a> Overlay<'a> {
     fn new(store: &'a Store, diagram: &'a mut Diagram, to: State) -> Self {
-        Self { store, diagram, to, known: FxHashMap::default() }
+        Self { store, diagram, to, known: Memo::default() }
     }
 
     /// The transitions with the edge where `guard` holds; none if another edge is in its way.
@@ -225,7 +224,7 @@ impl<'a> Overlay<'a> {
         if guard == Guard::TRUE && asked.is_none() {
             return (below.state() == Some(Body::NOWHERE)).then(|| Target::to_state(self.to));
         }
-        if let Some(&known) = self.known.get(&(below, guard)) {
+        if let Some(known) = self.known.get((below, guard)) {
             return Some(known);
         }
         let proposition = asked.unwrap_or(u32::MAX).min(self.store.level(guard));
