@@ -1,5 +1,7 @@
 //! What the agent has observed: the state that predicates and learners read.
 
+use serde::{Deserialize, Serialize};
+
 use crate::action::Action;
 use crate::layout::{Goal, HORIZONS, Layout, MAX_IDS, NONE, ids_below, members};
 use crate::truth::Truth;
@@ -9,7 +11,7 @@ use crate::truth::Truth;
 ///
 /// Nothing moves unless the agent moves it, so what was seen is still so. What was never in view
 /// is not in here, in no form.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Known {
     /// The object or receptacle that is focused; [`NONE`] at the start.
     pub focus: u8,
@@ -18,14 +20,19 @@ pub struct Known {
     /// The object in hand, or [`NONE`].
     pub hand: u8,
     /// Whether each receptacle is open; one without a door always is.
+    #[serde(with = "by_id")]
     pub is_open: [bool; MAX_IDS],
     /// Whether each object and receptacle is in view. What is in hand is not.
+    #[serde(with = "by_id")]
     pub in_view: [bool; MAX_IDS],
     /// Where each object was last seen; [`NONE`]: never. Unchanged while it is in hand.
+    #[serde(with = "by_id")]
     pub seen_in: [u8; MAX_IDS],
     /// Whether the contents of each receptacle have been in view.
+    #[serde(with = "by_id")]
     pub inspected: [bool; MAX_IDS],
     /// How many objects each receptacle held when it was last inspected.
+    #[serde(with = "by_id")]
     pub fullness: [u8; MAX_IDS],
     /// The object that is wanted, of the episode's [goal](Self::goal).
     pub wanted: u8,
@@ -166,5 +173,28 @@ impl Known {
                     || place != NONE && self.hand != id && self.is_open[place as usize]
             }
         }
+    }
+}
+
+/// Arrays by id as sequences.
+mod by_id {
+    use serde::de::Error as _;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    use crate::layout::MAX_IDS;
+
+    pub(super) fn serialize<T: Serialize, S: Serializer>(
+        array: &[T; MAX_IDS],
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        array.as_slice().serialize(serializer)
+    }
+
+    pub(super) fn deserialize<'de, T: Deserialize<'de>, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<[T; MAX_IDS], D::Error> {
+        let items = Vec::deserialize(deserializer)?;
+        let wrong = |items: Vec<T>| D::Error::custom(format!("{} ids, not {MAX_IDS}", items.len()));
+        items.try_into().map_err(wrong)
     }
 }

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use tltl::Monitor;
+use tltl::checkpoint;
 use tltl::compose::{Combine, Compose};
 use tltl::deep::{Composition, Device, Goals as _, Learned, Learner, Settings, Skill};
 use tltl::env::Env;
@@ -107,6 +108,35 @@ fn networks_learn_and_are_composed() {
     // Algorithm 2 does what the skills can.
     let all = [sum, compensated, refined];
     assert!(compensated.0 > sum.0 && refined.0 > sum.0 + 10 && refined.1 < sum.1, "{all:?}");
+}
+
+/// Killed and taken up again from its file, a learner has the numbers of one that was not.
+#[test]
+fn a_learner_goes_on_from_its_file() {
+    let layout = Arc::new(Layout::small());
+    let task = told::phi_3();
+    let kitchen = || Kitchen::new(layout.clone(), Goals::Random { except: None }, 100).unwrap();
+    let skill = || {
+        let goals = FeasibleGoals::new(&layout, None);
+        Skill::with_goals(&task, View::new(layout.clone()), goals)
+    };
+    let device = Device::flex();
+    let small = Settings { hidden: vec![16], warmup: 200, ..settings(500) };
+    let mut through =
+        Learner::new(skill(), layout.actions(), small, &device, 5).exploring(exploration(&layout));
+    through.train(&mut kitchen(), 600).unwrap();
+
+    let path = std::env::temp_dir().join(format!("kitchen-{}.checkpoint", std::process::id()));
+    let content = serde_json::to_vec(&through.checkpoint()).unwrap();
+    checkpoint::write(&path, "kitchen", &content).unwrap();
+    let read = checkpoint::read(&path, "kitchen").unwrap().unwrap();
+    std::fs::remove_file(&path).unwrap();
+    let saved = serde_json::from_slice(&read).unwrap();
+    let mut resumed = Learner::resume(skill(), saved, &device).unwrap();
+
+    through.train(&mut kitchen(), 900).unwrap();
+    resumed.train(&mut kitchen(), 900).unwrap();
+    assert!(through.updates() > 0 && resumed.checkpoint() == through.checkpoint());
 }
 
 #[test]
