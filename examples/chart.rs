@@ -2,10 +2,10 @@
 
 use std::fmt::Write as _;
 
+use crate::svg::{FONT, INK, text};
+
 const COLOURS: [&str; 6] = ["#1f6fb4", "#d9622b", "#2e8b57", "#8457a8", "#8c6d31", "#444b54"];
-const INK: &str = "#1d2733";
 const GRID: &str = "#e3e7ec";
-const FONT: &str = "font-family=\"Helvetica, Arial, sans-serif\"";
 const LEFT: f64 = 64.0;
 const TOP: f64 = 42.0;
 const WIDTH: f64 = 460.0;
@@ -104,7 +104,7 @@ impl Chart {
              viewBox=\"0 0 {width} {height}\" {FONT}>\n\
              <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n"
         );
-        text(&mut svg, (LEFT, 24.0), 15, "start", &self.title);
+        text(&mut svg, (LEFT, 24.0), 15, "start", INK, &self.title);
         self.axes(&mut svg, &scale);
         if let Some((y, name)) = &self.line {
             let at = scale.y(*y);
@@ -112,7 +112,7 @@ impl Chart {
                 svg,
                 "<path d=\"M{LEFT} {at:.1}h{WIDTH}\" stroke=\"{INK}\" stroke-dasharray=\"5 4\"/>"
             );
-            text(&mut svg, (LEFT + WIDTH + 12.0, at + 4.0), 12, "start", name);
+            text(&mut svg, (LEFT + WIDTH + 12.0, at + 4.0), 12, "start", INK, name);
         }
         for (i, curve) in self.curves.iter().enumerate() {
             let dash = ["", "6 5"][usize::from(i >= 4)];
@@ -125,7 +125,7 @@ impl Chart {
                 y - 6.0,
                 COLOURS[i % COLOURS.len()]
             );
-            text(&mut svg, (LEFT + WIDTH + 36.0, y), 12, "start", &curve.name);
+            text(&mut svg, (LEFT + WIDTH + 36.0, y), 12, "start", INK, &curve.name);
         }
         svg.push_str("</svg>\n");
         svg
@@ -135,12 +135,12 @@ impl Chart {
         for tick in ticks(scale.x) {
             let x = scale.x(tick);
             let _ = writeln!(svg, "<path d=\"M{x:.1} {TOP}v{HEIGHT}\" stroke=\"{GRID}\"/>");
-            text(svg, (x, TOP + HEIGHT + 18.0), 12, "middle", &number(tick));
+            text(svg, (x, TOP + HEIGHT + 18.0), 12, "middle", INK, &number(tick));
         }
         for tick in ticks(scale.y) {
             let y = scale.y(tick);
             let _ = writeln!(svg, "<path d=\"M{LEFT} {y:.1}h{WIDTH}\" stroke=\"{GRID}\"/>");
-            text(svg, (LEFT - 8.0, y + 4.0), 12, "end", &number(tick));
+            text(svg, (LEFT - 8.0, y + 4.0), 12, "end", INK, &number(tick));
         }
         let _ = writeln!(
             svg,
@@ -148,10 +148,10 @@ impl Chart {
              stroke=\"{INK}\"/>"
         );
         let (x, y) = (LEFT + WIDTH / 2.0, TOP + HEIGHT + 40.0);
-        text(svg, (x, y), 13, "middle", &self.x);
+        text(svg, (x, y), 13, "middle", INK, &self.x);
         let middle = TOP + HEIGHT / 2.0;
         let _ = writeln!(svg, "<g transform=\"translate(18 {middle}) rotate(-90)\">");
-        text(svg, (0.0, 0.0), 13, "middle", &self.y);
+        text(svg, (0.0, 0.0), 13, "middle", INK, &self.y);
         svg.push_str("</g>\n");
     }
 }
@@ -175,13 +175,4 @@ impl Curve {
              stroke-dasharray=\"{dash}\"/>"
         );
     }
-}
-
-fn text(svg: &mut String, (x, y): (f64, f64), size: u32, anchor: &str, content: &str) {
-    let content = content.replace('&', "&amp;").replace('<', "&lt;");
-    let _ = writeln!(
-        svg,
-        "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"{size}\" text-anchor=\"{anchor}\" \
-         fill=\"{INK}\">{content}</text>"
-    );
 }

@@ -6,12 +6,11 @@ use tltl_compiler::dfa::Dfa;
 use tltl_compiler::emit::svg::{self, Drawing, Options};
 
 use crate::grid::Grid;
+use crate::svg::{FONT, INK, escaped};
 
-const INK: &str = "#1d2733";
 const LINE: &str = "#d5dae1";
 const WRONG: &str = "#f7d4cf";
 const REGIONS: [&str; 6] = ["#f2b134", "#57a773", "#4c9be8", "#b07cc6", "#e07a5f", "#8d99ae"];
-const FONT: &str = "font-family=\"Helvetica, Arial, sans-serif\"";
 
 /// A region of the grid: its name and its cells.
 #[derive(Clone, Debug)]
@@ -160,7 +159,7 @@ fn legend(body: &mut String, x: f64, y: f64) {
 }
 
 fn text(body: &mut String, x: f64, y: f64, size: f64, anchor: &str, weight: &str, content: &str) {
-    let content = content.replace('&', "&amp;").replace('<', "&lt;");
+    let content = escaped(content);
     let _ = writeln!(
         body,
         "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"{size}\" text-anchor=\"{anchor}\" \

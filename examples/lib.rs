@@ -5,3 +5,4 @@ pub mod figure;
 pub mod grid;
 pub mod spread;
 pub mod study;
+pub mod svg;

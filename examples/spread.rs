@@ -6,8 +6,8 @@
 use std::fmt::Write as _;
 
 use crate::study::quantile;
+use crate::svg::{FONT, INK, text};
 
-const INK: &str = "#1d2733";
 const GRID: &str = "#e3e7ec";
 const BAR: &str = "#9cc3e6";
 const GOOD: &str = "#2e8b57";
@@ -51,7 +51,7 @@ impl Spread {
         let (bottom, height) = (self.bottom(), self.bottom() + 74.0);
         let mut svg = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-             viewBox=\"0 0 {width} {height}\" font-family=\"Helvetica, Arial, sans-serif\">\n\
+             viewBox=\"0 0 {width} {height}\" {FONT}>\n\
              <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n"
         );
         for (i, name) in self.names.iter().enumerate() {
@@ -162,13 +162,4 @@ fn legend(svg: &mut String, y: f64) {
     text(svg, (LEFT + 33.0, y), 12, "start", INK, "5th to 95th percentile");
     text(svg, (LEFT + 201.0, y), 12, "start", INK, "median");
     text(svg, (LEFT + 282.0, y), 12, "start", INK, "worst (number at the right)");
-}
-
-fn text(svg: &mut String, (x, y): (f64, f64), size: u32, anchor: &str, fill: &str, content: &str) {
-    let content = content.replace('&', "&amp;").replace('<', "&lt;");
-    let _ = writeln!(
-        svg,
-        "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"{size}\" text-anchor=\"{anchor}\" \
-         fill=\"{fill}\">{content}</text>"
-    );
 }

@@ -16,6 +16,7 @@ use tltl::q::QTable;
 use tltl::solve::Problem;
 use tltl::{Monitor, tltl};
 use tltl_examples::study::Study;
+use tltl_examples::svg::{FONT, INK};
 
 const GAMMA: f64 = 0.95;
 const ACTIONS: [&str; 3] = ["←", "●", "→"];
@@ -167,7 +168,7 @@ fn picture(rows: &[Composed]) -> String {
     }
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"620\" height=\"{y}\" viewBox=\"0 0 620 {y}\" \
-         font-family=\"Helvetica, Arial, sans-serif\" fill=\"#1d2733\">\n<rect width=\"620\" \
+         {FONT} fill=\"{INK}\">\n<rect width=\"620\" \
          height=\"{y}\" fill=\"#ffffff\"/>\n{body}</svg>\n"
     )
 }

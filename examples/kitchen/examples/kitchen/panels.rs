@@ -2,8 +2,9 @@
 
 use std::fmt::Write as _;
 
+use tltl_examples::svg::{FONT, INK, text};
+
 const COLOURS: [&str; 6] = ["#1f6fb4", "#d9622b", "#2e8b57", "#8457a8", "#8c6d31", "#c23b60"];
-const INK: &str = "#1d2733";
 const PALE: &str = "#6b7684";
 const GRID: &str = "#e3e7ec";
 const WIDTH: f64 = 232.0;
@@ -56,7 +57,7 @@ pub(crate) fn svg(rows: &[Row]) -> String {
     let height = rows.len() as f64 * (TOP + HEIGHT + DOWN - 20.0);
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 \
-         {width} {height}\" font-family=\"Helvetica, Arial, sans-serif\">\n<rect width=\"{width}\" \
+         {width} {height}\" {FONT}>\n<rect width=\"{width}\" \
          height=\"{height}\" fill=\"#ffffff\"/>\n"
     );
     for (i, row) in rows.iter().enumerate() {
@@ -165,13 +166,4 @@ impl Curve {
 
 fn thousands(value: f64) -> String {
     if value >= 1000.0 { format!("{:.0} k", value / 1000.0) } else { format!("{value}") }
-}
-
-fn text(svg: &mut String, (x, y): (f64, f64), size: u32, anchor: &str, ink: &str, content: &str) {
-    let content = content.replace('&', "&amp;").replace('<', "&lt;");
-    let _ = writeln!(
-        svg,
-        "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"{size}\" text-anchor=\"{anchor}\" \
-         fill=\"{ink}\">{content}</text>"
-    );
 }
