@@ -186,6 +186,18 @@ fn definitions_that_double_get_an_answer() {
     }
 }
 
+/// Of 300 goals, the ones that are too many together; not one try for each.
+#[test]
+fn what_grows_is_found_by_halving() {
+    let text = "state S { x: [f64; 300] }\n\
+                task t = F (x[0] > 1) && (X F (x[1] > 1) || for all i in 0..300: F (x[i] > 0))\n";
+    let source = Source::new("<growing>", text);
+    let errors = compiled("file", &source).unwrap_err();
+    assert_eq!(errors.first().kind(), Kind::Budget);
+    let span = errors.first().span();
+    assert_eq!(source.slice(span), "for all i in 0..300: F (x[i] > 0)");
+}
+
 #[test]
 fn deep_inputs_get_an_answer() {
     let check_all = || {

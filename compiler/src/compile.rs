@@ -9,7 +9,7 @@ use crate::judge;
 use crate::minimize::minimize;
 use crate::predicate::{Module, Task};
 use crate::source::{Source, Span};
-use crate::spec::Spec;
+use crate::spec::{FormulaId, Spec};
 use crate::translate::{Budget, Exceeded, translate};
 #[cfg(feature = "cli")]
 use crate::vacuity;
@@ -223,18 +223,37 @@ fn exceeds(task: &Task, budget: Budget, exceeded: Exceeded) -> Error {
     error.help(format!("or allow more: write `#[budget({setting} = …)]` before the task"))
 }
 
-/// Where the smallest subformula stands whose own automaton is too large.
+/// Where a subformula stands whose own automaton is too large, but that of none of its parts.
+///
+/// Each try can cost the whole budget. So the parts are not tried one by one: on the way down, into
+/// the larger operand each time, the last one that is too large is found by halving, and then the
+/// smaller operand beside the way is tried. For n operators that makes O(log² n) tries.
 fn culprit(spec: &Spec, budget: Budget) -> Span {
-    let mut spec = spec.clone();
+    let mut sizes: Vec<usize> = Vec::new();
+    for (_, formula) in spec.formulas() {
+        let parts = formula.operands().map(|part| sizes[part.0 as usize]);
+        sizes.push(parts.fold(1, usize::saturating_add));
+    }
+    let larger =
+        |id: FormulaId| spec.formula(id).operands().max_by_key(|part| sizes[part.0 as usize]);
+    let mut part = spec.clone();
+    let mut is_guilty = |id: FormulaId| {
+        part.set_root(id);
+        translate(&part, budget).is_err()
+    };
+    let mut guilty = spec.root();
     loop {
-        let whole = spec.root();
-        let guilty = spec.formula(whole).operands().find(|&part| {
-            spec.set_root(part);
-            translate(&spec, budget).is_err()
-        });
-        match guilty {
-            Some(part) => spec.set_root(part),
-            None => return spec.span(whole),
+        let way: Vec<_> = std::iter::successors(Some(guilty), |&id| larger(id)).collect();
+        let (mut last, mut innocent) = (0, way.len());
+        while last + 1 < innocent {
+            let middle = usize::midpoint(last, innocent);
+            *(if is_guilty(way[middle]) { &mut last } else { &mut innocent }) = middle;
+        }
+        guilty = way[last];
+        let beside = way.get(last + 1);
+        match spec.formula(guilty).operands().find(|id| Some(id) != beside) {
+            Some(other) if is_guilty(other) => guilty = other,
+            _ => return spec.span(guilty),
         }
     }
 }
