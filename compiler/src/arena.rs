@@ -4,10 +4,6 @@ use std::marker::PhantomData;
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use crate::dfa::Target;
-use crate::guard::Guard;
-use crate::predicate::{ConditionId, PredicateId};
-
 /// The number of a thing.
 pub(crate) trait Id: Copy {
     fn new(number: u32) -> Self;
@@ -24,9 +20,10 @@ impl Id for u32 {
     }
 }
 
-macro_rules! ids {
-    ($($id:ident)*) => {
-        $(impl Id for $id {
+/// Makes an id of a type that is a number.
+macro_rules! id {
+    ($id:ident) => {
+        impl crate::arena::Id for $id {
             fn new(number: u32) -> Self {
                 Self(number)
             }
@@ -34,11 +31,10 @@ macro_rules! ids {
             fn number(self) -> u32 {
                 self.0
             }
-        })*
+        }
     };
 }
-
-ids! { ConditionId Guard PredicateId Target }
+pub(crate) use id;
 
 /// One id, or two.
 pub(crate) trait Key {

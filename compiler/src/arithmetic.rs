@@ -10,10 +10,10 @@
 //! Forms that share variables (`x < 1`, `y < 1`, `x + y > 2`) are related by deciding which
 //! combinations of their cells have a real point, see [`linear`](crate::linear).
 //!
-//! Everything is exact rational arithmetic on what the source says. Non-linear terms count as
-//! variables of their own, and what is too entangled to relate within [`NODE_LIMIT`] nodes or
-//! [`CELL_LIMIT`] combinations counts as independent: sound, for it only leaves letters possible
-//! that are not.
+//! Everything is exact rational arithmetic on what the source says. Non-linear terms, and sums of
+//! very many, count as variables of their own, and what is too entangled to relate within
+//! [`NODE_LIMIT`] nodes or [`CELL_LIMIT`] combinations counts as independent: sound, for it only
+//! leaves letters possible that are not.
 
 mod form;
 mod relation;

@@ -7,7 +7,7 @@
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use crate::arena::Memo;
+use crate::arena::{self, Memo};
 use crate::guard::{Cube, Guard, Store};
 
 /// A state of an automaton; the initial one is 0.
@@ -15,7 +15,9 @@ pub type State = u32;
 
 /// Where a transition goes: to a state, or first to a node that asks one more proposition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Target(pub(crate) u32);
+pub struct Target(u32);
+
+arena::id! { Target }
 
 impl Target {
     const LEAF: u32 = 1 << 31;

@@ -8,9 +8,13 @@
 
 use rustc_hash::FxHashMap;
 
+use crate::arena;
+
 /// A Boolean function in a [`Store`]. Equal functions of one store are equal values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Guard(pub(crate) u32);
+pub struct Guard(u32);
+
+arena::id! { Guard }
 
 impl Guard {
     /// The function that is always false.

@@ -11,6 +11,7 @@ use rustc_hash::FxHashMap;
 
 pub use print::Printed;
 
+use crate::arena;
 use crate::ast::{Arithmetic, Comparison};
 use crate::error::Error;
 use crate::source::Span;
@@ -21,9 +22,13 @@ use crate::unit::{Unit, Units};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct PredicateId(pub u32);
 
+arena::id! { PredicateId }
+
 /// A condition of a [`Module`]: an index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct ConditionId(pub u32);
+
+arena::id! { ConditionId }
 
 /// A term of a [`Module`]: an index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
