@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use tltl_compiler::dfa::Dfa;
-use tltl_compiler::emit::svg::{self, Drawing, Options};
+use tltlc::emit::svg::{self, Drawing, Options};
 
 use crate::grid::Grid;
 use crate::svg::{FONT, INK, escaped};

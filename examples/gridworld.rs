@@ -85,7 +85,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let policy = policy.from_starts(&problem.starts(&refined.policy(), &problem.best()));
     let json = serde_json::to_string_pretty(&policy)?;
     write(&folder, "visit_all.json", &json)?;
-    write(&folder, "visit_all.rs", &tltl_compiler::emit::policy::rust(&json)?)
+    write(&folder, "visit_all.rs", &tltlc::emit::policy::rust(&json)?)
 }
 
 /// The grid, ready to be learned and solved.

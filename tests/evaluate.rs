@@ -5,10 +5,10 @@ use tltl::Task;
 use tltl::robustness::Predicates;
 use tltl::tltl;
 use tltl_compiler::compile::{self, Compiled};
-use tltl_compiler::evaluate::{Evaluator, Reading, run};
-use tltl_compiler::semantics;
 use tltl_compiler::source::Source;
 use tltl_compiler::translate::Budget;
+use tltlc::evaluate::{Evaluator, Reading, run};
+use tltlc::semantics;
 
 /// The same file as the macro has it.
 mod arm {

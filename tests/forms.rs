@@ -2,11 +2,13 @@
 
 use tltl_compiler::compile;
 use tltl_compiler::dfa::Dfa;
-use tltl_compiler::emit::{dot, edge, hoa, json, mermaid, sum, svg, text};
-use tltl_compiler::explain::explain;
+use tltl_compiler::emit::edge;
+use tltl_compiler::minimize;
 use tltl_compiler::source::Source;
 use tltl_compiler::translate::Budget;
-use tltl_compiler::{diff, minimize};
+use tltlc::diff;
+use tltlc::emit::{dot, hoa, json, mermaid, sum, svg, text};
+use tltlc::explain::explain;
 
 const FORMULAS: [(&str, &str); 4] =
     [("eventually", "F a"), ("both", "F a && F b"), ("avoid", "!c U a"), ("back", "F(a && X X b)")];
@@ -83,7 +85,7 @@ fn a_trace_of_a_difference_is_judged_as_told() {
     }
 }
 
-fn accepts(dfa: &Dfa, trace: &tltl_compiler::trace::Trace) -> bool {
+fn accepts(dfa: &Dfa, trace: &tltlc::trace::Trace) -> bool {
     let place = |name: &String| trace.propositions.iter().position(|other| other == name);
     let places: Vec<_> = dfa.propositions.iter().map(|name| place(name).unwrap()).collect();
     let step = |q, letter: &Vec<bool>| dfa.next(q, |p| letter[places[p as usize]]);
@@ -95,7 +97,7 @@ fn guards_parse_back() {
     for formula in ["F a && F b && F c", "(a T b) && F c", "!(a && b) U (c || !d && X a)"] {
         let dfa = automaton(formula);
         for edge in edge::edges(&dfa).iter().filter(|edge| !edge.guard.iter().any(Vec::is_empty)) {
-            let label = edge.label(&dfa, sum::Notation::Ascii);
+            let label = sum::label(&dfa, &edge, sum::Notation::Ascii);
             let again = automaton(&label);
             let same = |p: u32| {
                 let name = &dfa.propositions[p as usize];

@@ -9,12 +9,13 @@ use proptest::prelude::*;
 use tltl_compiler::ast::{Ast, ItemKind};
 use tltl_compiler::check;
 use tltl_compiler::compile::{self, Compiled};
-use tltl_compiler::diff::{Difference, diff};
 use tltl_compiler::error::{Error, Errors, Kind, Style};
 use tltl_compiler::parse;
 use tltl_compiler::predicate::Module;
 use tltl_compiler::source::Source;
 use tltl_compiler::translate::Budget;
+use tltlc::diff::{Difference, diff};
+use tltlc::vacuity::advice;
 
 fn checked(mode: &str, source: &Source) -> Result<Module, Errors> {
     match mode {
@@ -39,7 +40,7 @@ fn report(mode: &str, source: &Source) -> String {
     match compiled(mode, source) {
         Err(errors) => errors.render(source, Style::Plain),
         Ok(compiled) => {
-            let mut warnings = [compiled.warnings.clone(), compiled.advice()].concat();
+            let mut warnings = [compiled.warnings.clone(), advice(&compiled)].concat();
             warnings.sort_by_key(Error::span);
             let told = warnings.iter().map(|warning| warning.render(source, Style::Plain));
             told.collect::<Vec<_>>().join("\n")

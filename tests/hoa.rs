@@ -6,12 +6,12 @@ use proptest::prelude::*;
 use serde_json::Value;
 use tltl_compiler::compile;
 use tltl_compiler::dfa::Dfa;
-use tltl_compiler::emit;
 use tltl_compiler::error::{Kind, Style};
 use tltl_compiler::hoa::read;
 use tltl_compiler::minimize::minimize;
 use tltl_compiler::source::Source;
 use tltl_compiler::translate::Budget;
+use tltlc::emit;
 
 fn source(text: &str) -> Source {
     Source::new("automaton.hoa", text)

@@ -3,9 +3,9 @@
 use tltl::robustness::{Predicate, Predicates};
 use tltl::{include_tltl, tltl};
 use tltl_compiler::compile::{self, Compiled};
-use tltl_compiler::emit::rust;
 use tltl_compiler::source::Source;
 use tltl_compiler::translate::Budget;
+use tltlc::emit::rust;
 
 include_tltl!("data/kitchen.tltl");
 include_tltl!("data/kitchen.tltl", state = Mine, mod = own);

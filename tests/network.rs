@@ -14,7 +14,7 @@ use tltl::estimate::{Estimate, Interval};
 use tltl::network::policy::{NetworkPolicy, Training};
 use tltl::network::{Dense, Network, Shape};
 use tltl::policy::States;
-use tltl_compiler::emit;
+use tltlc::emit;
 
 use super::random::{Choices, Seeded};
 

@@ -10,8 +10,8 @@ use std::collections::BTreeSet;
 use proptest::prelude::*;
 use tltl_compiler::arithmetic;
 use tltl_compiler::check;
-use tltl_compiler::evaluate::Evaluator;
 use tltl_compiler::source::Source;
+use tltlc::evaluate::Evaluator;
 
 /// A condition of some comparisons, as text.
 fn condition(comparison: impl Strategy<Value = String> + 'static) -> impl Strategy<Value = String> {

@@ -5,14 +5,14 @@ use std::collections::BTreeSet;
 use proptest::prelude::*;
 use tltl_compiler::check;
 use tltl_compiler::dfa::{Dfa, Guards, State};
-use tltl_compiler::emit::text;
 use tltl_compiler::guard::Cube;
 use tltl_compiler::minimize::minimize;
-use tltl_compiler::product::{Operator, product};
-use tltl_compiler::semantics;
 use tltl_compiler::source::Source;
 use tltl_compiler::spec::Spec;
 use tltl_compiler::translate::{Budget, translate};
+use tltlc::emit::text;
+use tltlc::product::{Operator, product};
+use tltlc::semantics;
 
 use crate::leak::leaked;
 use crate::random::{self, Bytes, Choices, NAMES};

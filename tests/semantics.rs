@@ -6,11 +6,12 @@ use std::collections::HashMap;
 use sha2::{Digest, Sha256};
 use tltl_compiler::compile::{self, Compiled};
 use tltl_compiler::dfa::Dfa;
-use tltl_compiler::emit::hoa as emit_hoa;
+use tltl_compiler::hoa;
 use tltl_compiler::source::Source;
 use tltl_compiler::spec::Spec;
 use tltl_compiler::translate::{Budget, translate};
-use tltl_compiler::{hoa, semantics};
+use tltlc::emit::hoa as emit_hoa;
+use tltlc::semantics;
 
 use crate::corpus::{Row, Trace, rejects, rows};
 use crate::static_corpus::{self, Letter};

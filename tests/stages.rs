@@ -5,11 +5,11 @@ use std::fmt::Write as _;
 
 use tltl_compiler::ast::ItemKind;
 use tltl_compiler::compile::{self, Compiled};
-use tltl_compiler::emit::{rust, text};
 use tltl_compiler::parse;
 use tltl_compiler::source::Source;
 use tltl_compiler::spec::{Formula, Spec};
 use tltl_compiler::translate::{Budget, translate};
+use tltlc::emit::{rust, text};
 
 const FORMULAS: [(&str, &str); 6] = [
     ("goal", "F a"),

@@ -5,12 +5,12 @@ use proptest::prelude::*;
 use tltl::include_tltl;
 use tltl_compiler::check;
 use tltl_compiler::compile;
-use tltl_compiler::emit::rust;
 use tltl_compiler::error::Style;
 use tltl_compiler::predicate::{Module, State};
 use tltl_compiler::source::Source;
 use tltl_compiler::translate::Budget;
 use tltl_compiler::unit::{MOST_NAMES, MOST_POWER, Unit};
+use tltlc::emit::rust;
 
 include_tltl!("data/units.tltl");
 include_tltl!("data/units.tltl", state = Cart, mod = own);

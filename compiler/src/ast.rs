@@ -399,7 +399,8 @@ impl Ast {
 const QUOTED: usize = 60;
 
 /// A text as messages quote it: on one line, and not too long.
-pub(crate) fn quoted(text: &str) -> String {
+#[must_use]
+pub fn quoted(text: &str) -> String {
     let mut short: String = text.chars().take(QUOTED).collect();
     if short.len() < text.len() {
         short.push('…');

@@ -11,8 +11,6 @@ use crate::predicate::{Module, Task};
 use crate::source::{Source, Span};
 use crate::spec::{FormulaId, Spec};
 use crate::translate::{Budget, Exceeded, translate};
-#[cfg(feature = "cli")]
-use crate::vacuity;
 
 /// A source and everything that it means.
 #[derive(Clone, Debug)]
@@ -83,17 +81,6 @@ pub fn file(source: &Source, budget: Budget) -> Result<Compiled, Errors> {
 /// All mistakes of the source, or that the budget does not suffice.
 pub fn fragment(source: &Source, budget: Budget) -> Result<Compiled, Errors> {
     check::fragment(source).and_then(|module| automata(module, budget))
-}
-
-#[cfg(feature = "cli")]
-impl Compiled {
-    /// Warnings that cost a search: parts of formulas that do not matter. Not part of compiling,
-    /// for the macros, which cannot warn, would search in vain.
-    #[must_use]
-    pub fn advice(&self) -> Vec<Error> {
-        let tasks = self.module.tasks.iter().zip(&self.automata);
-        tasks.flat_map(|(task, automata)| vacuity::parts(&self.module, task, automata)).collect()
-    }
 }
 
 fn automata(mut module: Module, budget: Budget) -> Result<Compiled, Errors> {

@@ -10,12 +10,13 @@ mod random;
 use std::time::Instant;
 
 use random::{Choices, NAMES, Seeded};
+use tltl_compiler::check;
 use tltl_compiler::dfa::Dfa;
 use tltl_compiler::minimize::minimize;
 use tltl_compiler::source::Source;
 use tltl_compiler::spec::Spec;
 use tltl_compiler::translate::{Budget, translate};
-use tltl_compiler::{check, semantics};
+use tltlc::semantics;
 
 const TRACES: u32 = 6;
 const LONGEST: u32 = 12;

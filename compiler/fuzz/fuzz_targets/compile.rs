@@ -10,7 +10,8 @@ use random::{Bytes, Choices, NAMES};
 use tltl_compiler::minimize::minimize;
 use tltl_compiler::source::Source;
 use tltl_compiler::translate::{Budget, translate};
-use tltl_compiler::{check, semantics};
+use tltl_compiler::check;
+use tltlc::semantics;
 
 fuzz_target!(|bytes: &[u8]| {
     let mut choices = Bytes(bytes);

@@ -2,10 +2,10 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use tltl_compiler::emit;
 use tltl_compiler::error::Style;
 use tltl_compiler::hoa::read;
 use tltl_compiler::source::Source;
+use tltlc::emit;
 
 fuzz_target!(|text: &str| {
     let source = Source::new("<fuzz>", text);

@@ -80,44 +80,6 @@ pub fn items(compiled: &Compiled, options: &Options<'_>) -> TokenStream {
     quote! { #(#enums)* #(#structs)* #state #(#predicates)* #(#tasks)* #(#factored)* }
 }
 
-/// A source as a Rust file, as the macros would generate it, formatted.
-///
-/// Declarations become items; of a bare formula, whose propositions are free, there are only the
-/// formula and its automaton.
-#[cfg(feature = "cli")]
-#[must_use]
-pub fn file(compiled: &Compiled) -> String {
-    let host = |_: Span| TokenStream::new();
-    let options = Options { runtime: quote! { ::tltl }, state: None, host: &host };
-    let bare = compiled.module.tasks.iter().all(|task| task.name.is_none());
-    let tokens = if bare { statics(compiled, &options) } else { items(compiled, &options) };
-    match syn::parse2(tokens.clone()) {
-        Ok(file) => prettyplease::unparse(&file),
-        Err(_) => tokens.to_string(),
-    }
-}
-
-/// The formula and the automaton of a bare formula, whose propositions are free.
-#[cfg(feature = "cli")]
-fn statics(compiled: &Compiled, options: &Options<'_>) -> TokenStream {
-    let emitter = Emitter::new(compiled, options);
-    let tasks = compiled.module.tasks.iter().zip(&compiled.automata);
-    let tasks = tasks.map(|(task, automata)| {
-        let (runtime, path) = (&options.runtime, &emitter.path);
-        let formula = tables::formula(&task.spec, &task.text, path);
-        let automaton = tables::automaton(&automata.dfa, path);
-        let about = format!("`{}`", task.text);
-        let size = sizes(&automata.dfa);
-        quote! {
-            #[doc = #about]
-            pub static FORMULA: #runtime::Formula = #formula;
-            #[doc = #size]
-            pub static AUTOMATON: #runtime::Automaton = #automaton;
-        }
-    });
-    quote! { #(#tasks)* }
-}
-
 /// A task in the making: its type, the statics that it needs, and the expression that is it.
 struct Made {
     kind: TokenStream,
@@ -563,7 +525,9 @@ pub(super) fn documentation(lines: &[String], paragraphs: &[String]) -> TokenStr
     quote! { #(#[doc = #lines])* }
 }
 
-pub(super) fn sizes(dfa: &Dfa) -> String {
+/// The size of an automaton, as a sentence of its documentation.
+#[must_use]
+pub fn sizes(dfa: &Dfa) -> String {
     let size = dfa.size();
     let trap = if size.trap { ", one of them the trap" } else { "" };
     let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });

@@ -294,7 +294,8 @@ impl Module {
     }
 
     /// All terms that some conditions compare, and what these are made of, operands first.
-    pub(crate) fn terms_of(&self, conditions: &[ConditionId]) -> Vec<TermId> {
+    #[must_use]
+    pub fn terms_of(&self, conditions: &[ConditionId]) -> Vec<TermId> {
         let mut terms = Vec::new();
         for &id in conditions {
             match *self.arena.condition(id) {
@@ -307,7 +308,8 @@ impl Module {
     }
 
     /// All conditions that `roots` are made of, those of predicates among them.
-    pub(crate) fn conditions_of(&self, roots: Vec<ConditionId>) -> Vec<ConditionId> {
+    #[must_use]
+    pub fn conditions_of(&self, roots: Vec<ConditionId>) -> Vec<ConditionId> {
         let roots = roots.into_iter().map(|root| root.0).collect();
         let needed = arena::needed(roots, &mut |id, open| {
             open.extend(self.operands(self.arena.condition(ConditionId(id))).iter().map(|a| a.0));

@@ -7,10 +7,10 @@ use tltl::product::Product;
 use tltl_compiler::compile;
 use tltl_compiler::dfa::Dfa;
 use tltl_compiler::minimize::minimize;
-use tltl_compiler::product::{Operator, product};
 use tltl_compiler::source::Source;
 use tltl_compiler::translate::Budget;
 use tltl_kitchen::tasks::{phi_3, phi1_3};
+use tltlc::product::{Operator, product};
 
 fn automaton(formula: &str) -> Dfa {
     let source = Source::new("formula", formula);

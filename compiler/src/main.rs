@@ -1,9 +1,0 @@
-//! `tltlc`: the compiler on the command line.
-
-mod cli;
-
-use std::process::ExitCode;
-
-fn main() -> ExitCode {
-    cli::run()
-}

@@ -1,0 +1,119 @@
+//! `tltlc automaton`.
+
+use tltl_compiler::compile::{self, Automata, Compiled};
+use tltl_compiler::dfa::Dfa;
+use tltl_compiler::error::{Error, Style};
+use tltl_compiler::predicate::Task;
+use tltl_compiler::source::Source;
+use tltl_compiler::translate::Budget;
+
+use crate::emit::{dot, hoa, json, mermaid, rust, svg, text};
+
+use super::subject::choose;
+use super::{Automaton, Exit, Format, Outcome, Report, Streams, input};
+
+/// Shows what the arguments ask for.
+pub(super) fn run(arguments: &Automaton, streams: &mut Streams<'_>) -> Outcome {
+    if let Some(list) = &arguments.formulas {
+        let list = streams.read(list)?;
+        return formulas(arguments, &list, streams);
+    }
+    if let Some(formula) = &arguments.formula {
+        return single(arguments, formula, streams);
+    }
+    let Some(path) = &arguments.file else { return Err("there is no formula and no file".into()) };
+    match input::file(path, streams)? {
+        // Rust is of the file as a whole.
+        Some(compiled) if arguments.format == Format::Rust => streams.print(&rust::file(&compiled)),
+        Some(compiled) => {
+            let (task, automata) = choose(&compiled, arguments.task.as_deref())?;
+            streams.print(&shown(arguments, &compiled, task, automata)?)
+        }
+        None => Ok(Exit::Mistaken),
+    }
+}
+
+/// One formula, in any form.
+fn single(arguments: &Automaton, formula: &str, streams: &mut Streams<'_>) -> Outcome {
+    let source = Source::new("formula", formula);
+    let result = compile::formula(&source, Budget::SHOWN);
+    if let (Format::Json, Err(errors)) = (arguments.format, &result) {
+        streams.print(&json::failure(formula, errors.first()))?;
+        return Ok(Exit::Mistaken);
+    }
+    match input::reported(&source, result, Report::Human, streams)? {
+        Some(compiled) => {
+            let (task, automata) = choose(&compiled, None)?;
+            streams.print(&shown(arguments, &compiled, task, automata)?)
+        }
+        None => Ok(Exit::Mistaken),
+    }
+}
+
+/// A list of formulas, one a line; a bad one is reported in its place and the rest goes on.
+fn formulas(arguments: &Automaton, list: &str, streams: &mut Streams<'_>) -> Outcome {
+    if !matches!(arguments.format, Format::Json | Format::Text) {
+        return Err("a list of formulas is shown with `--format json` or `--format text`".into());
+    }
+    let mut all_well = true;
+    for formula in list.lines() {
+        let shown = one_of_many(arguments, formula);
+        all_well &= shown.is_ok();
+        streams.print(&shown.unwrap_or_else(|failure| failure))?;
+    }
+    Ok(Exit::of(all_well))
+}
+
+fn one_of_many(arguments: &Automaton, formula: &str) -> Result<String, String> {
+    let source = Source::new("formula", formula);
+    let failure = |error: &Error| match arguments.format {
+        Format::Json => json::failure(formula, error),
+        _ => error.render(&source, Style::Plain),
+    };
+    let compiled =
+        compile::formula(&source, Budget::SHOWN).map_err(|errors| failure(errors.first()))?;
+    let automata = compiled.automata.first().ok_or_else(String::new)?;
+    let dfa = selected(arguments, automata);
+    match (arguments.format, arguments.explicit) {
+        (Format::Json, true) => json::explicit(formula, dfa).map_err(|error| failure(&error)),
+        (Format::Json, false) => Ok(json::summary(formula, dfa)),
+        _ => Ok(text::automaton(formula, dfa)),
+    }
+}
+
+fn selected<'a>(arguments: &Automaton, automata: &'a Automata) -> &'a Dfa {
+    if arguments.propositional { &automata.propositional } else { &automata.dfa }
+}
+
+fn shown(
+    arguments: &Automaton,
+    compiled: &Compiled,
+    task: &Task,
+    automata: &Automata,
+) -> Result<String, String> {
+    let dfa = selected(arguments, automata);
+    let title = task.name.as_deref().unwrap_or(&task.text);
+    Ok(match arguments.format {
+        Format::Text => sizes(arguments, &task.text, automata),
+        Format::Json if arguments.explicit => {
+            json::explicit(&task.text, dfa).map_err(|error| error.to_string())?
+        }
+        Format::Json => json::automaton(&task.text, dfa),
+        Format::Dot => dot::automaton(title, dfa),
+        Format::Svg => svg::automaton(title, dfa),
+        Format::Mermaid => mermaid::automaton(title, dfa),
+        Format::Hoa => hoa::automaton(title, dfa),
+        Format::Rust => rust::file(compiled),
+    })
+}
+
+/// The table of the automaton; where arithmetic has made it smaller, with both sizes.
+fn sizes(arguments: &Automaton, title: &str, automata: &Automata) -> String {
+    let dfa = selected(arguments, automata);
+    let mut written = text::automaton(title, dfa);
+    if !arguments.propositional && automata.dfa.possible.is_some() {
+        written.push_str("\nwith the predicates taken for free propositions:\n");
+        written.push_str(&text::sizes(automata.propositional.size()));
+    }
+    written
+}

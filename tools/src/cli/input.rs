@@ -1,0 +1,77 @@
+//! Files and sources, and the reports about them.
+
+use std::path::{Path, PathBuf};
+
+use tltl_compiler::compile::{self, Compiled};
+use tltl_compiler::error::{Error, Errors};
+use tltl_compiler::source::Source;
+use tltl_compiler::translate::Budget;
+
+use crate::emit::json;
+use crate::vacuity::advice;
+
+use super::{Exit, Outcome, Report, Streams};
+
+/// Compiles a task file, its mistakes and warnings reported.
+pub(super) fn file(path: &Path, streams: &mut Streams<'_>) -> Result<Option<Compiled>, String> {
+    let source = Source::new(path.display().to_string(), streams.read(path)?);
+    reported(&source, compile::file(&source, Budget::default()), Report::Human, streams)
+}
+
+/// Checks each file; the exit code says whether all are free of mistakes.
+pub(super) fn check(paths: &[PathBuf], report: Report, streams: &mut Streams<'_>) -> Outcome {
+    let mut all_well = true;
+    for path in paths {
+        let source = Source::new(path.display().to_string(), streams.read(path)?);
+        let result = compile::file(&source, Budget::default());
+        all_well &= reported(&source, result, report, streams)?.is_some();
+    }
+    Ok(Exit::of(all_well))
+}
+
+/// Reports mistakes and warnings; `None` if there were mistakes.
+pub(super) fn reported(
+    source: &Source,
+    result: Result<Compiled, Errors>,
+    report: Report,
+    streams: &mut Streams<'_>,
+) -> Result<Option<Compiled>, String> {
+    if let Ok(compiled) = &result {
+        let mut warnings = [compiled.warnings.clone(), advice(compiled)].concat();
+        warnings.sort_by_key(Error::span);
+        warnings.iter().try_for_each(|warning| show(source, warning, report, streams))?;
+    }
+    judged(source, result, report, streams)
+}
+
+/// Reports mistakes; `None` if there were any.
+pub(super) fn judged<T>(
+    source: &Source,
+    result: Result<T, Errors>,
+    report: Report,
+    streams: &mut Streams<'_>,
+) -> Result<Option<T>, String> {
+    match result {
+        Ok(good) => Ok(Some(good)),
+        Err(errors) => {
+            errors.iter().try_for_each(|error| show(source, error, report, streams))?;
+            Ok(None)
+        }
+    }
+}
+
+fn show(
+    source: &Source,
+    error: &Error,
+    report: Report,
+    streams: &mut Streams<'_>,
+) -> Result<(), String> {
+    match report {
+        Report::Json => streams.print(&json::report(source, error)).map(|_| ()),
+        Report::Human => {
+            let text = error.render(source, streams.err.style);
+            streams.complain(&text);
+            Ok(())
+        }
+    }
+}

@@ -1,0 +1,44 @@
+//! `tltlc fmt`.
+
+use std::path::{Path, PathBuf};
+
+use tltl_compiler::parse;
+use tltl_compiler::source::Source;
+
+use crate::format::format;
+
+use super::{Exit, Outcome, Report, Streams, input};
+
+/// Lays out files in place, or says which are not laid out; the standard input goes to the output.
+pub(super) fn run(paths: &[PathBuf], check: bool, streams: &mut Streams<'_>) -> Outcome {
+    let mut all_well = true;
+    for path in paths {
+        all_well &= one(path, check, streams)?;
+    }
+    Ok(Exit::of(all_well))
+}
+
+fn one(path: &Path, check: bool, streams: &mut Streams<'_>) -> Result<bool, String> {
+    let name = path.display().to_string();
+    let source = Source::new(name.as_str(), streams.read(path)?);
+    if input::judged(&source, parse::file(&source), Report::Human, streams)?.is_none() {
+        return Ok(false);
+    }
+    let Some(laid_out) = format(source.text()) else {
+        return Err(format!("{name}: cannot be laid out without changing it; nothing is written"));
+    };
+    let same = laid_out == source.text();
+    if check {
+        if !same {
+            streams.print(&format!("{name}: not laid out; run `tltlc fmt {name}`"))?;
+        }
+        return Ok(same);
+    }
+    if path == Path::new("-") {
+        streams.print(&laid_out)?;
+    } else if !same {
+        let failed = |error| format!("cannot write {name}: {error}");
+        std::fs::write(path, laid_out).map_err(failed)?;
+    }
+    Ok(true)
+}

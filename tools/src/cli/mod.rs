@@ -1,0 +1,274 @@
+//! The command line: arguments in, any stage of the compiler out.
+//!
+//! Exit codes: 0 all is well; 1 a source has mistakes, two tasks differ, a trajectory does not
+//! satisfy its task, or a file is not laid out; 2 the arguments or a file are at fault.
+
+mod arguments;
+mod automaton;
+mod input;
+mod layout;
+mod record;
+mod run;
+mod streams;
+mod subject;
+mod tell;
+
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use tltl_compiler::error::Style;
+
+use crate::emit::policy;
+
+pub use streams::{Output, Streams, style};
+
+/// How a run ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Exit {
+    /// All is well.
+    Success,
+    /// A source has mistakes, two tasks differ, a trajectory does not satisfy its task, or a file is
+    /// not laid out.
+    Mistaken,
+    /// The arguments or a file are at fault.
+    Failed,
+}
+
+impl Exit {
+    /// The exit code of the process: 0, 1 or 2.
+    #[must_use]
+    pub fn code(self) -> u8 {
+        self as u8
+    }
+
+    fn of(all_well: bool) -> Self {
+        if all_well { Self::Success } else { Self::Mistaken }
+    }
+}
+
+impl From<Exit> for ExitCode {
+    fn from(exit: Exit) -> Self {
+        exit.code().into()
+    }
+}
+
+/// Compiles scTLTL task specifications to minimal automata and Rust source.
+#[derive(Parser)]
+#[command(
+    name = "tltlc",
+    version,
+    after_help = "Exit codes: 0 all is well; 1 a source has mistakes, two tasks differ, a \
+                  trajectory does not satisfy its task, or a file is not laid out; 2 the \
+                  arguments or a file are at fault.\n\
+                  Colours are for terminals only; NO_COLOR turns them off."
+)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Checks task files: reports every mistake and warning, writes nothing.
+    Check {
+        /// The task files; `-` is the standard input.
+        #[arg(required = true)]
+        files: Vec<PathBuf>,
+        /// How to report.
+        #[arg(long, value_enum, default_value_t = Report::Human)]
+        format: Report,
+    },
+    /// Tells in plain English what a task asks for, and what each automaton state still does.
+    Explain {
+        /// A formula, a task file, or FILE:TASK.
+        #[arg(value_name = "FORMULA|FILE")]
+        subject: String,
+        /// The task of the file; may be left out if there is only one.
+        #[arg(long)]
+        task: Option<String>,
+    },
+    /// Tells whether two tasks mean the same; if not, shows a shortest trajectory between them.
+    ///
+    /// Propositions are the same if they have the same name.
+    Diff {
+        /// A formula, a task file with one task, FILE:TASK, or an automaton in HOA.
+        #[arg(value_name = "FORMULA|FILE[:TASK]")]
+        first: String,
+        /// The other one.
+        #[arg(value_name = "FORMULA|FILE[:TASK]")]
+        second: String,
+    },
+    /// Runs a recorded trajectory: verdict, robustness, and the automaton row by row.
+    Run(Run),
+    /// Lays out task files in place; comments, spellings and line breaks stay.
+    Fmt {
+        /// The task files; `-` takes the standard input to the standard output.
+        #[arg(required = true)]
+        files: Vec<PathBuf>,
+        /// Write nothing; say which files are not laid out.
+        #[arg(long)]
+        check: bool,
+    },
+    /// Shows the automaton of a formula, of each formula of a list, or of a task of a file.
+    Automaton(Automaton),
+    /// Turns a saved policy into a Rust source file that stands alone.
+    Policy {
+        /// The policy, as JSON; `-` is the standard input.
+        file: PathBuf,
+        /// Where to write the Rust source; the standard output if left out.
+        #[arg(short, long)]
+        output: Option<PathBuf>,
+    },
+}
+
+/// How mistakes are reported.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Report {
+    /// With the lines of the source and carets under the culprits.
+    Human,
+    /// One JSON object a line.
+    Json,
+}
+
+#[derive(Args)]
+struct Automaton {
+    /// The task file; `-` is the standard input.
+    #[arg(required_unless_present_any = ["formula", "formulas"])]
+    file: Option<PathBuf>,
+    /// The task of the file; may be left out if there is only one.
+    #[arg(long, requires = "file")]
+    task: Option<String>,
+    /// A formula whose names are free propositions.
+    #[arg(long, conflicts_with_all = ["file", "formulas"])]
+    formula: Option<String>,
+    /// A list of formulas, one a line; `-` is the standard input.
+    #[arg(long, conflicts_with = "file")]
+    formulas: Option<PathBuf>,
+    /// The form to write.
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+    /// With `--format json`: also the table of all transitions.
+    #[arg(long)]
+    explicit: bool,
+    /// Take all predicates for free propositions, as other tools do.
+    #[arg(long)]
+    propositional: bool,
+}
+
+#[derive(Args)]
+struct Run {
+    /// A task file or FILE:TASK; or a formula, whose propositions are read as robustness.
+    #[arg(value_name = "FILE|FORMULA")]
+    subject: String,
+    /// The trajectory, CSV or JSON Lines, one state a row; `-` is the standard input. Columns have
+    /// the names of the state's fields: `x`, `pose.x`, `joints[2]`; others are ignored.
+    trace: PathBuf,
+    /// The task of the file, with what it takes: `deliver(apple, fridge)`; may be left out if there
+    /// is only one.
+    #[arg(long)]
+    task: Option<String>,
+    /// The form to write.
+    #[arg(long, value_enum, default_value_t = RowFormat::Text)]
+    format: RowFormat,
+}
+
+/// The forms of a run.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum RowFormat {
+    /// A table for people.
+    Text,
+    /// One line a row, with a header.
+    Csv,
+    /// One JSON object a row, and one with the verdict at the end; infinite numbers are null.
+    Json,
+}
+
+/// The forms of an automaton.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// A table for people.
+    Text,
+    /// JSON.
+    Json,
+    /// Graphviz.
+    Dot,
+    /// A picture.
+    Svg,
+    /// A Mermaid diagram.
+    Mermaid,
+    /// Hanoi Omega-Automata, for Spot, Owl and others.
+    Hoa,
+    /// The Rust that the macros generate.
+    Rust,
+}
+
+/// Runs the command of `arguments`, of which the first is the name of the program.
+///
+/// It never ends the process, and writes to `streams` alone.
+///
+/// ```
+/// use tltl_compiler::error::Style;
+/// use tltlc::cli::{Exit, Output, Streams, main};
+///
+/// let (mut out, mut err) = (Vec::new(), Vec::new());
+/// let mut streams = Streams {
+///     input: &mut std::io::empty(),
+///     out: Output { stream: &mut out, style: Style::Plain },
+///     err: Output { stream: &mut err, style: Style::Plain },
+/// };
+/// let exit = main(["tltlc", "diff", "F a && F b", "F b && F a"], &mut streams);
+/// assert_eq!(exit, Exit::Success);
+/// assert_eq!(out, b"equal: every trajectory has the same verdict\n");
+/// ```
+pub fn main<I>(arguments: I, streams: &mut Streams<'_>) -> Exit
+where
+    I: IntoIterator<Item: Into<OsString> + Clone>,
+{
+    let outcome = match Arguments::try_parse_from(arguments) {
+        Ok(arguments) => run(arguments.command, streams),
+        Err(error) => return usage(&error, streams),
+    };
+    outcome.unwrap_or_else(|message| {
+        streams.complain(&format!("tltlc: {message}"));
+        Exit::Failed
+    })
+}
+
+fn run(command: Command, streams: &mut Streams<'_>) -> Outcome {
+    match command {
+        Command::Check { files, format } => input::check(&files, format, streams),
+        Command::Explain { subject, task } => tell::explain(&subject, task.as_deref(), streams),
+        Command::Diff { first, second } => tell::difference(&first, &second, streams),
+        Command::Run(arguments) => run::run(&arguments, streams),
+        Command::Fmt { files, check } => layout::run(&files, check, streams),
+        Command::Automaton(arguments) => automaton::run(&arguments, streams),
+        Command::Policy { file, output } => write_policy(&file, output, streams),
+    }
+}
+
+/// Writes what is wrong with the arguments, or the help that they ask for.
+fn usage(error: &clap::Error, streams: &mut Streams<'_>) -> Exit {
+    let output = if error.use_stderr() { &mut streams.err } else { &mut streams.out };
+    let text = error.render();
+    let _ = match output.style {
+        Style::Coloured => write!(output.stream, "{}", text.ansi()),
+        Style::Plain => write!(output.stream, "{text}"),
+    };
+    if error.use_stderr() { Exit::Failed } else { Exit::Success }
+}
+
+/// How a command ends; `Err` is a fault of the arguments or of a file.
+type Outcome = Result<Exit, String>;
+
+fn write_policy(file: &Path, output: Option<PathBuf>, streams: &mut Streams<'_>) -> Outcome {
+    let name = file.display();
+    let rust = policy::rust(&streams.read(file)?).map_err(|error| format!("{name}: {error}"))?;
+    match output {
+        None => streams.print(&rust),
+        Some(path) => std::fs::write(&path, rust)
+            .map(|()| Exit::Success)
+            .map_err(|error| format!("cannot write {}: {error}", path.display())),
+    }
+}

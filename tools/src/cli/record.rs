@@ -1,0 +1,180 @@
+//! Recorded trajectories: CSV and JSON Lines, one state a row.
+//!
+//! Columns are matched to the places that the task reads by name: `x`, `pose.x`, `joints[2]`. In
+//! JSON Lines a place may also be nested (`{"pose": {"x": 1}}`). Other columns are ignored.
+
+use crate::evaluate::{Input, InputKind};
+use serde_json::Value;
+use tltl_compiler::predicate::Scalar;
+
+/// One state, as numbers in the order of the inputs.
+pub(super) struct State {
+    /// The line of the file, from 1.
+    pub(super) line: usize,
+    pub(super) values: Vec<f64>,
+}
+
+/// Reads a record; `name` is what messages call it. The text says which of the two forms it has.
+pub(super) fn read(name: &str, text: &str, inputs: &[Input]) -> Result<Vec<State>, String> {
+    let text = text.trim_start_matches('\u{feff}');
+    let states = if text.trim_start().starts_with('{') {
+        json_lines(name, text, inputs)?
+    } else {
+        csv(name, text, inputs)?
+    };
+    if states.is_empty() {
+        return Err(format!("{name}: a trajectory has at least one state, and this has none"));
+    }
+    Ok(states)
+}
+
+fn csv(name: &str, text: &str, inputs: &[Input]) -> Result<Vec<State>, String> {
+    let mut lines = (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty());
+    let Some((first, header)) = lines.next() else { return Ok(Vec::new()) };
+    let comma = [',', ';', '\t'].into_iter().find(|&comma| header.contains(comma)).unwrap_or(',');
+    let header = fields(name, first, header, comma)?;
+    let columns = columns(name, &header, inputs)?;
+    let mut states = Vec::new();
+    for (line, text) in lines {
+        let fields = fields(name, line, text, comma)?;
+        if fields.len() != header.len() {
+            let (here, there) = (fields.len(), header.len());
+            return Err(format!("{name}:{line}: {here} fields, but the header has {there}"));
+        }
+        let value = |(input, &column): (&Input, &usize)| {
+            let (place, field) = &fields[column];
+            number(field, input).map_err(|what| format!("{name}:{line}:{place}: {what}"))
+        };
+        let values = inputs.iter().zip(&columns).map(value).collect::<Result<_, _>>()?;
+        states.push(State { line, values });
+    }
+    Ok(states)
+}
+
+/// The column of each input.
+fn columns(name: &str, header: &[(usize, String)], inputs: &[Input]) -> Result<Vec<usize>, String> {
+    let named = |input: &Input| header.iter().position(|(_, column)| *column == input.name);
+    let missing: Vec<_> = inputs.iter().filter(|input| named(input).is_none()).collect();
+    if !missing.is_empty() {
+        let missing: Vec<_> = missing.iter().map(|input| format!("`{}`", input.name)).collect();
+        let found: Vec<_> = header.iter().map(|(_, column)| format!("`{column}`")).collect();
+        let word = if missing.len() == 1 { "the column" } else { "the columns" };
+        let (missing, found) = (missing.join(", "), found.join(", "));
+        return Err(format!("{name}: the task reads {word} {missing}; the file has {found}"));
+    }
+    for (at, (_, column)) in header.iter().enumerate() {
+        let wanted = inputs.iter().any(|input| input.name == *column);
+        if wanted && header[..at].iter().any(|(_, other)| other == column) {
+            return Err(format!("{name}: two columns are called `{column}`"));
+        }
+    }
+    Ok(inputs.iter().filter_map(named).collect())
+}
+
+/// The fields of a line, each with its column from 1; a field may stand in double quotes.
+fn fields(
+    name: &str,
+    line: usize,
+    text: &str,
+    comma: char,
+) -> Result<Vec<(usize, String)>, String> {
+    let mut fields = vec![(1, String::new())];
+    let mut quoted = false;
+    let mut characters = (1..).zip(text.chars()).peekable();
+    while let Some((column, c)) = characters.next() {
+        let Some((_, field)) = fields.last_mut() else { break };
+        match c {
+            '"' if quoted && characters.peek().is_some_and(|(_, next)| *next == '"') => {
+                characters.next();
+                field.push('"');
+            }
+            '"' => quoted = !quoted,
+            c if c == comma && !quoted => fields.push((column + 1, String::new())),
+            c => field.push(c),
+        }
+    }
+    if quoted {
+        return Err(format!("{name}:{line}: a quote is not closed"));
+    }
+    fields.iter_mut().for_each(|(_, field)| *field = field.trim().to_owned());
+    Ok(fields)
+}
+
+fn json_lines(name: &str, text: &str, inputs: &[Input]) -> Result<Vec<State>, String> {
+    let mut states = Vec::new();
+    let lines = (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty());
+    for (line, text) in lines {
+        let state: Value = serde_json::from_str(text)
+            .map_err(|error| format!("{name}:{line}:{}: this is not JSON", error.column()))?;
+        let value = |input: &Input| {
+            let found = lookup(&state, &input.name)
+                .ok_or_else(|| format!("{name}:{line}: there is no `{}`", input.name))?;
+            let text = found.as_str().map_or_else(|| found.to_string(), str::to_owned);
+            number(&text, input).map_err(|what| format!("{name}:{line}: {what}"))
+        };
+        states.push(State { line, values: inputs.iter().map(value).collect::<Result<_, _>>()? });
+    }
+    Ok(states)
+}
+
+/// The value of a place: under its whole name, or step by step.
+fn lookup<'a>(state: &'a Value, name: &str) -> Option<&'a Value> {
+    if let Some(value) = state.get(name) {
+        return Some(value);
+    }
+    let steps = name.split(['.', '[']).map(|step| step.trim_end_matches(']'));
+    steps.into_iter().try_fold(state, |value, step| match value {
+        Value::Array(elements) => elements.get(step.parse::<usize>().ok()?),
+        other => other.get(step),
+    })
+}
+
+/// The number that a field is, as the input's type has it.
+fn number(text: &str, input: &Input) -> Result<f64, String> {
+    let Input { name, kind, values } = input;
+    let ty = match kind {
+        InputKind::Place(scalar) => scalar.name(),
+        InputKind::Variable | InputKind::Proposition => "f64",
+    };
+    let value = match (kind, text) {
+        (InputKind::Place(Scalar::Enum { optional: true, .. }), "" | "none" | "null") => Some(-1.0),
+        (_, "") => return Err(format!("`{name}` is empty")),
+        (InputKind::Place(Scalar::Bool), _) => truth(text),
+        (InputKind::Place(Scalar::Enum { .. }), _) => {
+            let known = values.iter().position(|value| value == text);
+            let Some(number) = known else {
+                return Err(format!("`{text}` is no value of `{name}`: {}", values.join(", ")));
+            };
+            Some(number as f64)
+        }
+        (InputKind::Proposition, "true" | "True") => Some(1.0),
+        (InputKind::Proposition, "false" | "False") => Some(-1.0),
+        _ => typed(text, ty),
+    };
+    match value {
+        Some(value) if value.is_nan() => Err(format!("`{name}` is not a number (NaN)")),
+        Some(value) => Ok(value),
+        None => Err(format!("`{text}` is no `{ty}`, which `{name}` is")),
+    }
+}
+
+fn truth(text: &str) -> Option<f64> {
+    match text {
+        "true" | "True" | "TRUE" | "1" | "1.0" => Some(1.0),
+        "false" | "False" | "FALSE" | "0" | "0.0" => Some(0.0),
+        _ => None,
+    }
+}
+
+/// A number of the Rust type `ty`, as arithmetic reads it.
+fn typed(text: &str, ty: &str) -> Option<f64> {
+    let (least, most) = match ty {
+        "f64" => return text.parse().ok(),
+        "f32" => return text.parse::<f32>().ok().map(f64::from),
+        _ => Scalar::named(ty)?.whole()?,
+    };
+    // Other programs write whole numbers as `3.0`.
+    let whole = text.split_once('.').filter(|(_, rest)| rest.bytes().all(|digit| digit == b'0'));
+    let value: i128 = whole.map_or(text, |(whole, _)| whole).parse().ok()?;
+    (least <= value && value <= most).then_some(value as f64)
+}

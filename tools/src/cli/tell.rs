@@ -1,0 +1,61 @@
+//! `tltlc explain` and `tltlc diff`.
+
+use tltl_compiler::dfa::Dfa;
+use tltl_compiler::error::Style;
+
+use crate::diff::{Difference, diff};
+use crate::explain::explain as explanation;
+
+use super::subject::{self, Subject};
+use super::{Exit, Outcome, Streams};
+
+/// Tells what a task asks for.
+pub(super) fn explain(text: &str, task: Option<&str>, streams: &mut Streams<'_>) -> Outcome {
+    match subject::read(text, task, streams)? {
+        None => Ok(Exit::Mistaken),
+        Some(Subject::Automaton(_)) => {
+            Err(format!("{text} is an automaton: it has no formula to explain"))
+        }
+        Some(Subject::Task(compiled, place)) => {
+            let task = &compiled.module.tasks[place];
+            let title = match &task.name {
+                Some(name) => format!("{name} = {}", task.text),
+                None => task.text.clone(),
+            };
+            let told = explanation(&task.spec, &compiled.automata[place].dfa);
+            let told = headed(&format!("{title}\n\n{told}"), streams.out.style);
+            streams.print(&told)
+        }
+    }
+}
+
+/// Tells whether two tasks are the same, or how they differ.
+pub(super) fn difference(first: &str, second: &str, streams: &mut Streams<'_>) -> Outcome {
+    let first = subject::read(first, None, streams)?;
+    let (Some(first), Some(second)) = (first, subject::read(second, None, streams)?) else {
+        return Ok(Exit::Mistaken);
+    };
+    let found = diff(automaton(&first), automaton(&second));
+    streams.print(&found.to_string())?;
+    Ok(Exit::of(found == Difference::None))
+}
+
+fn automaton(subject: &Subject) -> &Dfa {
+    match subject {
+        Subject::Task(compiled, place) => &compiled.automata[*place].dfa,
+        Subject::Automaton(automaton) => &automaton.dfa,
+    }
+}
+
+/// The text with its headings, the lines that are not indented, in bold on a terminal.
+fn headed(text: &str, style: Style) -> String {
+    if style == Style::Plain {
+        return text.to_owned();
+    }
+    let bold = |line: &str| match line {
+        "" => "\n".to_owned(),
+        line if line.starts_with(' ') => format!("{line}\n"),
+        line => format!("\x1b[1m{line}\x1b[0m\n"),
+    };
+    text.lines().map(bold).collect()
+}

@@ -1,0 +1,44 @@
+//! Graphviz.
+
+use std::fmt::Write as _;
+
+use crate::emit::sum::{Notation, label, quoted};
+use tltl_compiler::dfa::{Dfa, State};
+use tltl_compiler::emit::edge::{Edge, edges};
+
+/// A digraph, left to right: the accepting state with two circles, the trap dashed.
+#[must_use]
+pub fn automaton(title: &str, dfa: &Dfa) -> String {
+    let mut dot = format!("digraph {} {{\n", quoted(title));
+    dot.push_str("  rankdir=LR;\n");
+    dot.push_str("  node [shape=circle, fontname=\"Helvetica\"];\n");
+    dot.push_str("  edge [fontname=\"Helvetica\", fontsize=11];\n");
+    let _ = writeln!(dot, "  label={}; labelloc=t; fontname=\"Helvetica\";", quoted(title));
+    dot.push_str("  start [shape=point, width=0.08, label=\"\"];\n");
+    for q in dfa.states() {
+        let _ = writeln!(dot, "  {q}{};", attributes(dfa, q));
+    }
+    dot.push_str("  start -> 0;\n");
+    for edge in edges(dfa) {
+        let _ = writeln!(dot, "{}", arrow(dfa, &edge));
+    }
+    dot.push_str("}\n");
+    dot
+}
+
+fn attributes(dfa: &Dfa, q: State) -> &'static str {
+    if dfa.accepting == Some(q) {
+        " [shape=doublecircle]"
+    } else if dfa.trap == Some(q) {
+        " [style=dashed, color=gray40, fontcolor=gray40]"
+    } else {
+        ""
+    }
+}
+
+fn arrow(dfa: &Dfa, edge: &Edge) -> String {
+    let label = quoted(&label(dfa, edge, Notation::Ascii));
+    let into_trap = dfa.trap == Some(edge.to);
+    let colour = if into_trap { ", color=gray40, fontcolor=gray40" } else { "" };
+    format!("  {} -> {} [label={label}{colour}];", edge.from, edge.to)
+}

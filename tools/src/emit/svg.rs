@@ -1,0 +1,272 @@
+//! Automata as pictures, drawn without any other program.
+//!
+//! The module `layout` says where things go; here they are drawn: the initial state
+//! with an arrow from nowhere, the accepting one with two circles, the trap dashed and grey, each
+//! edge a smooth line with its guard standing on it. Guards are wrapped; those too long even so
+//! get a name and stand below the picture. Every shape carries its own attributes (no styles, no
+//! ids), so that a [`Drawing`] can be put into any other picture; colours print well in grey.
+//! Up to some 40 states the picture is meant to be read; larger ones are still correct, and beyond
+//! [`MOST_STATES`] or [`MOST_EDGES`] the drawing only says how large the automaton is.
+
+mod curve;
+mod text;
+
+use std::fmt::Write as _;
+
+use crate::emit::layout::{Graph, Layout, Link, Room, layout};
+use crate::emit::sum::Notation;
+use tltl_compiler::dfa::{Dfa, Size, State};
+use tltl_compiler::emit::edge::{Edge, edges};
+
+use curve::Arrow;
+use text::{Label, Legend};
+
+/// A picture, or a part of one: elements of SVG in a box from (0, 0) to (width, height).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Drawing {
+    /// The width, in pixels.
+    pub width: f64,
+    /// The height, in pixels.
+    pub height: f64,
+    /// The elements.
+    pub body: String,
+}
+
+/// How an automaton is drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct Options<'a> {
+    /// A line above the picture.
+    pub title: Option<&'a str>,
+    /// The symbols of the guards.
+    pub notation: Notation,
+    /// Whether the trap and the edges into it are drawn.
+    pub trap: bool,
+    /// What stands in the states, if not their numbers.
+    pub names: Option<&'a [String]>,
+}
+
+impl Default for Options<'_> {
+    fn default() -> Self {
+        Self { title: None, notation: Notation::Mathematical, trap: true, names: None }
+    }
+}
+
+const INK: &str = "#1d2733";
+const GREY: &str = "#7d858f";
+const FILL: &str = "#f3f6fa";
+const ACCEPTING: (&str, &str) = ("#e5f3e8", "#17653a");
+const LOST: &str = "#f4f4f4";
+/// Room around the picture, and for the initial arrow.
+const MARGIN: f64 = 10.0;
+const ARROW: f64 = 26.0;
+/// How high a self-loop stands above its state.
+const LOOP: f64 = 17.0;
+
+/// The most states that are drawn.
+pub const MOST_STATES: usize = 1024;
+/// The most edges between different states that are drawn.
+pub const MOST_EDGES: usize = 4096;
+
+/// An automaton as an SVG document with a title.
+#[must_use]
+pub fn automaton(title: &str, dfa: &Dfa) -> String {
+    document(title, &drawing(dfa, &Options { title: Some(title), ..Options::default() }))
+}
+
+/// A whole SVG document; `title` is what screen readers read.
+#[must_use]
+pub fn document(title: &str, drawing: &Drawing) -> String {
+    let (width, height) = (number(drawing.width), number(drawing.height));
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+         viewBox=\"0 0 {width} {height}\" role=\"img\">\n<title>{}</title>\n\
+         <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n{}</svg>\n",
+        text::escape(title),
+        drawing.body
+    )
+}
+
+/// An automaton as a drawing to be put into a larger one.
+#[must_use]
+pub fn drawing(dfa: &Dfa, options: &Options) -> Drawing {
+    let size = dfa.size();
+    if size.states > MOST_STATES || size.edges > MOST_EDGES {
+        return too_large(size);
+    }
+    let picture = Picture::new(dfa, options);
+    let layout = layout(&picture.graph());
+    picture.draw(&layout)
+}
+
+fn too_large(size: Size) -> Drawing {
+    let message = format!("{} states and {} edges: too many to draw", size.states, size.edges);
+    let width = text::width(&message, text::STATE) + 2.0 * MARGIN;
+    let body = text::line(MARGIN, 24.0, &message, &text::STATE);
+    Drawing { width, height: 24.0 + 2.0 * MARGIN, body }
+}
+
+/// What is drawn: states by their place in the list, edges with their labels.
+struct Picture<'a> {
+    dfa: &'a Dfa,
+    options: &'a Options<'a>,
+    states: Vec<State>,
+    loops: Vec<Option<Label>>,
+    links: Vec<(Edge, Label)>,
+    legend: Legend,
+    radius: f64,
+}
+
+impl<'a> Picture<'a> {
+    fn new(dfa: &'a Dfa, options: &'a Options<'a>) -> Self {
+        let drawn = |q: State| options.trap || dfa.trap != Some(q) || q == 0;
+        let states: Vec<_> = dfa.states().filter(|&q| drawn(q)).collect();
+        let mut legend = Legend::new(options.notation);
+        let mut loops = vec![None; states.len()];
+        let mut links = Vec::new();
+        for edge in edges(dfa).into_iter().filter(|edge| drawn(edge.to) && drawn(edge.from)) {
+            let label = legend.label(dfa, &edge);
+            if edge.is_loop() {
+                let place = states.binary_search(&edge.from).unwrap_or(0);
+                loops[place] = Some(label);
+            } else {
+                links.push((edge, label));
+            }
+        }
+        let mut picture = Self { dfa, options, states, loops, links, legend, radius: 0.0 };
+        picture.radius = picture.radius();
+        picture
+    }
+
+    /// Large enough for the longest name and for the arrows at the busiest state.
+    fn radius(&self) -> f64 {
+        let mut arrows = vec![0; self.dfa.len()];
+        self.links.iter().for_each(|(edge, _)| arrows[edge.to as usize] += 1);
+        let busiest = arrows.into_iter().max().unwrap_or(0);
+        let names = self.states.iter().map(|&q| text::width(&self.name(q), text::STATE));
+        let longest = names.fold(0.0, f64::max);
+        (longest / 2.0 + 6.0).max(2.2 * f64::from(busiest)).clamp(16.0, 40.0)
+    }
+
+    fn name(&self, q: State) -> String {
+        let given = self.options.names.and_then(|names| names.get(q as usize));
+        given.cloned().unwrap_or_else(|| q.to_string())
+    }
+
+    fn place(&self, q: State) -> usize {
+        self.states.binary_search(&q).unwrap_or(0)
+    }
+
+    fn graph(&self) -> Graph {
+        let links = self.links.iter().map(|(edge, label)| Link {
+            from: self.place(edge.from),
+            to: self.place(edge.to),
+            label: Room { width: label.width + 8.0, up: label.height() + 2.0, down: 3.0 },
+            weight: if self.dfa.trap == Some(edge.to) { 0.03 } else { 1.0 },
+        });
+        let shown = |q: Option<State>| q.and_then(|q| self.states.binary_search(&q).ok());
+        Graph {
+            nodes: self.loops.iter().map(|label| self.room(label.as_ref())).collect(),
+            links: links.collect(),
+            radius: self.radius,
+            last: shown(self.dfa.accepting),
+            lowest: shown(self.dfa.trap),
+        }
+    }
+
+    fn room(&self, label: Option<&Label>) -> Room {
+        let above = label.map_or(0.0, |label| LOOP + label.height() + 3.0);
+        let width = label.map_or(0.0, |label| label.width).max(2.0 * self.radius);
+        Room { width: width + 4.0, up: self.radius + above + 2.0, down: self.radius + 3.0 }
+    }
+
+    fn draw(&self, layout: &Layout) -> Drawing {
+        let title = self.options.title.map(|title| text::wrap_title(title, layout.width + ARROW));
+        let top = MARGIN + title.as_ref().map_or(0.0, |lines| 18.0 * lines.len() as f64 + 8.0);
+        let mut body = String::new();
+        let mut width = layout.width + ARROW + 2.0 * MARGIN;
+        for (i, line) in title.iter().flatten().enumerate() {
+            let y = MARGIN + 13.0 + 18.0 * i as f64;
+            body.push_str(&text::line(MARGIN, y, line, &text::TITLE));
+            width = width.max(text::width(line, text::TITLE) + 2.0 * MARGIN);
+        }
+        let shift = format!("translate({} {})", number(MARGIN + ARROW), number(top));
+        let _ = writeln!(body, "<g transform=\"{shift}\">");
+        self.draw_links(layout, &mut body);
+        self.draw_states(layout, &mut body);
+        body.push_str("</g>\n");
+        let bottom = top + layout.height + MARGIN;
+        let (below, legend_width) = self.legend.draw(MARGIN, bottom, width, &mut body);
+        Drawing { width: width.max(legend_width), height: bottom + below, body }
+    }
+
+    fn draw_states(&self, layout: &Layout, body: &mut String) {
+        for (i, &q) in self.states.iter().enumerate() {
+            let (x, y) = layout.nodes[i];
+            if q == 0 {
+                let tip = x - self.radius - 0.5;
+                let arrow = Arrow::line((tip - ARROW + 4.0, y), (tip, y));
+                body.push_str(&arrow.draw(INK));
+            }
+            if let Some(label) = &self.loops[i] {
+                let colour = self.colour(q);
+                body.push_str(&Arrow::loop_above((x, y), self.radius, LOOP).draw(colour));
+                body.push_str(&label.draw(x, y - self.radius - LOOP - 4.0, colour));
+            }
+            self.draw_state(q, (x, y), body);
+        }
+    }
+
+    fn draw_state(&self, q: State, (x, y): (f64, f64), body: &mut String) {
+        let accepting = self.dfa.accepting == Some(q);
+        let lost = self.dfa.trap == Some(q);
+        let (fill, stroke) = match (accepting, lost) {
+            (true, _) => ACCEPTING,
+            (_, true) => (LOST, GREY),
+            _ => (FILL, INK),
+        };
+        let dashes = if lost { " stroke-dasharray=\"3.5 2.5\"" } else { "" };
+        let mut circle = |radius: f64, fill: &str| {
+            let _ = writeln!(
+                body,
+                "<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"{fill}\" stroke=\"{stroke}\" \
+                 stroke-width=\"1.2\"{dashes}/>",
+                number(x),
+                number(y),
+                number(radius)
+            );
+        };
+        circle(self.radius, fill);
+        if accepting {
+            circle(self.radius - 3.0, "none");
+        }
+        let ink = if lost { GREY } else { INK };
+        body.push_str(&text::centred(x, y + 4.5, &self.name(q), &text::STATE, ink));
+    }
+
+    /// Edges into the trap are grey and lie below the others.
+    fn draw_links(&self, layout: &Layout, body: &mut String) {
+        let mut drawn: Vec<(bool, String)> = Vec::new();
+        for (i, (edge, label)) in self.links.iter().enumerate() {
+            let colour = self.colour(edge.to);
+            let route = &layout.routes[i];
+            let arrow = Arrow::route(route);
+            let (x, y) = route.label;
+            let label = label.draw(x, y - 4.0, colour);
+            drawn.push((colour == INK, format!("{}{label}", arrow.draw(colour))));
+        }
+        drawn.sort_by_key(|&(dark, _)| dark);
+        drawn.iter().for_each(|(_, elements)| body.push_str(elements));
+    }
+
+    fn colour(&self, to: State) -> &'static str {
+        if self.dfa.trap == Some(to) { GREY } else { INK }
+    }
+}
+
+/// A coordinate, to a tenth of a pixel.
+fn number(value: f64) -> String {
+    let tenths = (value * 10.0).round() as i64;
+    let sign = if tenths < 0 { "-" } else { "" };
+    let (whole, part) = (tenths.abs() / 10, tenths.abs() % 10);
+    if part == 0 { format!("{sign}{whole}") } else { format!("{sign}{whole}.{part}") }
+}

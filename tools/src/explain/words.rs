@@ -1,0 +1,177 @@
+//! A formula in plain English.
+
+use tltl_compiler::spec::{Formula, FormulaId, Spec};
+
+/// Formulas with more operators, counted where they are used, are not retold.
+const MOST_OPERATORS: usize = 120;
+
+/// The formula as indented lines; none if it is too large.
+pub(super) fn retell(spec: &Spec) -> Vec<String> {
+    let sizes = sizes(spec);
+    let mut lines = Vec::new();
+    if sizes[spec.root().0 as usize] <= MOST_OPERATORS {
+        Words { spec, state: states(spec) }.tell(spec.root(), "", 0, &mut lines);
+    }
+    lines
+}
+
+/// How large each formula is as a tree.
+fn sizes(spec: &Spec) -> Vec<usize> {
+    let mut sizes = vec![0_usize; spec.formulas().len()];
+    for (id, formula) in spec.formulas() {
+        let operands = formula.operands().map(|operand| sizes[operand.0 as usize]);
+        sizes[id.0 as usize] = operands.fold(1, usize::saturating_add);
+    }
+    sizes
+}
+
+/// For each formula whether it speaks of one state only.
+fn states(spec: &Spec) -> Vec<bool> {
+    let mut state = vec![false; spec.formulas().len()];
+    for (id, formula) in spec.formulas() {
+        state[id.0 as usize] = match formula {
+            Formula::True | Formula::False | Formula::Literal { .. } => true,
+            Formula::And(a, b) | Formula::Or(a, b) => state[a.0 as usize] && state[b.0 as usize],
+            _ => false,
+        };
+    }
+    state
+}
+
+struct Words<'a> {
+    spec: &'a Spec,
+    state: Vec<bool>,
+}
+
+impl Words<'_> {
+    /// Tells a formula on lines, `before` standing in front.
+    fn tell(&self, id: FormulaId, before: &str, depth: usize, lines: &mut Vec<String>) {
+        if let Some(sentence) = self.sentence(id) {
+            return lines.push(format!("{}{before}{sentence}", "  ".repeat(depth)));
+        }
+        let mut head = |text: &str| lines.push(format!("{}{before}{text}", "  ".repeat(depth)));
+        let parts: Vec<(FormulaId, &str)> = match self.spec.formula(id) {
+            Formula::And(..) => {
+                head("all of these:");
+                self.chain(id).into_iter().map(|part| (part, "- ")).collect()
+            }
+            Formula::Or(..) => {
+                head("one of these:");
+                self.chain(id).into_iter().map(|part| (part, "- ")).collect()
+            }
+            Formula::Next(a) => {
+                head("at the next instant:");
+                vec![(a, "- ")]
+            }
+            Formula::Eventually(a) => {
+                head("at some instant, from then on:");
+                vec![(a, "- ")]
+            }
+            Formula::Until(a, b) => {
+                head("these two:");
+                vec![(b, "- at some instant: "), (a, "- at every instant before that: ")]
+            }
+            Formula::Then(a, b) => {
+                head("in this order:");
+                vec![(a, "- first: "), (self.goal(b), "- strictly later: ")]
+            }
+            Formula::True | Formula::False | Formula::Literal { .. } => Vec::new(),
+        };
+        for (part, mark) in parts {
+            self.tell(part, mark, depth + 1, lines);
+        }
+    }
+
+    /// The formula as one clause, if it is simple enough.
+    fn sentence(&self, id: FormulaId) -> Option<String> {
+        if self.is_state(id) {
+            return Some(self.condition(id));
+        }
+        let simple = |a: FormulaId| self.is_state(a).then(|| self.condition(a));
+        match self.spec.formula(id) {
+            Formula::Next(a) => self.next(a, 1),
+            Formula::Eventually(a) => simple(a).map(|a| format!("at some instant {a}")),
+            Formula::Until(a, b) => {
+                let (a, b) = (simple(a)?, simple(b)?);
+                Some(format!("{a}, at every instant until {b}, which must come"))
+            }
+            Formula::Then(..) => self.order(id),
+            _ => None,
+        }
+    }
+
+    fn next(&self, a: FormulaId, instants: usize) -> Option<String> {
+        match self.spec.formula(a) {
+            Formula::Next(b) => self.next(b, instants + 1),
+            _ if !self.is_state(a) => None,
+            _ if instants == 1 => Some(format!("at the next instant {}", self.condition(a))),
+            _ => Some(format!("{instants} instants later {}", self.condition(a))),
+        }
+    }
+
+    /// `a T b T c` as one clause.
+    fn order(&self, id: FormulaId) -> Option<String> {
+        let mut text = String::from("first ");
+        let mut at = id;
+        while let Formula::Then(a, b) = self.spec.formula(at) {
+            if !self.is_state(a) {
+                return None;
+            }
+            text.push_str(&format!("{}, strictly later ", self.condition(a)));
+            at = self.goal(b);
+        }
+        self.is_state(at).then(|| text + &self.condition(at))
+    }
+
+    /// ψ of a ◇ψ.
+    fn goal(&self, id: FormulaId) -> FormulaId {
+        match self.spec.formula(id) {
+            Formula::Eventually(a) => a,
+            _ => id,
+        }
+    }
+
+    fn is_state(&self, id: FormulaId) -> bool {
+        self.state[id.0 as usize]
+    }
+
+    /// A condition on one state.
+    fn condition(&self, id: FormulaId) -> String {
+        match self.spec.formula(id) {
+            Formula::True => "anything".to_owned(),
+            Formula::False => "what can never be".to_owned(),
+            Formula::Literal { proposition, negated } => {
+                let name = &self.spec.propositions()[proposition as usize];
+                format!("{}{name}", if negated { "not " } else { "" })
+            }
+            Formula::And(..) => self.joined(id, " and "),
+            _ => self.joined(id, " or "),
+        }
+    }
+
+    fn joined(&self, id: FormulaId, word: &str) -> String {
+        let compound = |part| matches!(self.spec.formula(part), Formula::And(..) | Formula::Or(..));
+        let parts = self.chain(id).into_iter().map(|part| match compound(part) {
+            true => format!("({})", self.condition(part)),
+            false => self.condition(part),
+        });
+        parts.collect::<Vec<_>>().join(word)
+    }
+
+    /// The operands of a chain of one and the same operator.
+    fn chain(&self, id: FormulaId) -> Vec<FormulaId> {
+        let and = matches!(self.spec.formula(id), Formula::And(..));
+        match self.spec.formula(id) {
+            Formula::And(a, b) | Formula::Or(a, b) => {
+                let same = |part| match self.spec.formula(part) {
+                    Formula::And(..) => and,
+                    Formula::Or(..) => !and,
+                    _ => false,
+                };
+                let open = |part| if same(part) { self.chain(part) } else { vec![part] };
+                [open(a), open(b)].concat()
+            }
+            _ => vec![id],
+        }
+    }
+}

@@ -1,0 +1,181 @@
+//! Lays out a task file: what `tltlc fmt` does.
+//!
+//! Only blanks change. The author's line breaks stay (at most one empty line in a row), every line
+//! is indented by what it continues, and tokens stand as the reference writes them: blanks around
+//! operators, none inside brackets. Comments, spellings (`◇` or `F`) and Rust code stay as they
+//! are, so the meaning does too: the tokens before and after are the same, which is checked. Laying
+//! out twice changes nothing.
+
+mod lex;
+
+use lex::{Kind, Token, lex};
+
+/// The columns of one level.
+const INDENT: usize = 4;
+
+/// The text of a task file, laid out; `None` if that could change its meaning, which would be a
+/// fault of this tool. The text must be one that [`parse::file`](tltl_compiler::parse::file) accepts.
+#[must_use]
+pub fn format(text: &str) -> Option<String> {
+    let tokens = lex(text);
+    let mut layout = Layout::default();
+    for (at, token) in tokens.iter().enumerate() {
+        layout.token(token, tokens.get(at + 1));
+    }
+    if !layout.out.is_empty() {
+        layout.out.push('\n');
+    }
+    let again = lex(&layout.out);
+    let same = again.len() == tokens.len()
+        && again.iter().zip(&tokens).all(|(a, b)| a.text == b.text && a.kind == b.kind);
+    same.then_some(layout.out)
+}
+
+#[derive(Default)]
+struct Layout<'a> {
+    out: String,
+    before: Option<Token<'a>>,
+    /// Whether each open bracket is a block of fields.
+    open: Vec<bool>,
+    /// Whether the last token was an operator before its operand.
+    prefix: bool,
+    /// Whether an item has begun on an earlier line.
+    within_item: bool,
+}
+
+impl<'a> Layout<'a> {
+    fn token(&mut self, token: &Token<'a>, next: Option<&Token<'a>>) {
+        let closes = matches!(token.text, ")" | "]" | "}") && token.kind == Kind::Symbol;
+        let was_block = closes && self.open.pop().unwrap_or(false);
+        let prefix = self.is_prefix(token);
+        if token.newlines > 0 || self.before.is_none() {
+            self.start_line(token, next);
+        } else if self.blank(token, prefix, was_block) {
+            self.out.push(' ');
+        }
+        self.out.push_str(token.text);
+        if matches!(token.text, "(" | "[" | "{") && token.kind == Kind::Symbol {
+            self.open.push(token.text == "{");
+        }
+        self.prefix = prefix;
+        self.within_item = !(token.text == ";" && self.open.is_empty())
+            && (self.within_item || !matches!(token.kind, Kind::Comment | Kind::Doc));
+        self.before = Some(*token);
+    }
+
+    fn start_line(&mut self, token: &Token<'a>, next: Option<&Token<'a>>) {
+        if self.before.is_some() {
+            self.out.push_str(if token.newlines > 1 { "\n\n" } else { "\n" });
+        }
+        if self.open.is_empty() && begins_item(token, next) {
+            self.within_item = false;
+        }
+        let continued = self.within_item && self.open.is_empty();
+        let closing_line = matches!(token.text, ")" | "]" | "}") && self.open.is_empty();
+        let depth = self.open.len() + usize::from(continued && !closing_line);
+        self.out.push_str(&" ".repeat(INDENT * depth));
+    }
+
+    /// Whether a token is an operator before its operand.
+    fn is_prefix(&self, token: &Token<'_>) -> bool {
+        match token.text {
+            _ if token.kind == Kind::Unit => false,
+            "!" | "¬" | "◇" | "○" | "<>" => true,
+            "F" | "X" | "not" => token.kind == Kind::Word,
+            "-" | "−" => self.before.is_none_or(|before| !before.ends_operand()),
+            _ => false,
+        }
+    }
+
+    /// Whether a blank belongs before a token on its line.
+    fn blank(&self, token: &Token<'_>, prefix: bool, closes_block: bool) -> bool {
+        let Some(before) = self.before else { return false };
+        let symbol = |text: &str| before.kind == Kind::Symbol && before.text == text;
+        if before.kind == Kind::Comment || token.kind == Kind::Comment {
+            return true;
+        }
+        let calls = before.ends_operand() && !before.is_operator_word();
+        match token.text {
+            _ if token.kind == Kind::Unit => before.kind != Kind::Unit,
+            _ if token.kind == Kind::Rust => !symbol("("),
+            "," | ";" | ":" | "?" => false,
+            "." | "::" | ".." | "..=" => false,
+            _ if symbol("..") || symbol("..=") => false,
+            ")" | "]" => false,
+            "}" => closes_block && !symbol("{"),
+            "{" => true,
+            "(" | "[" if calls => false,
+            _ if symbol("(") || symbol("[") || symbol(".") || symbol("::") => false,
+            _ if self.prefix && before.kind == Kind::Symbol => {
+                prefix && token.text == before.text && token.text == "-"
+            }
+            _ => true,
+        }
+    }
+}
+
+/// Whether a line that starts with `token` starts an item, or what is said about one.
+fn begins_item(token: &Token<'_>, next: Option<&Token<'_>>) -> bool {
+    const ITEMS: [&str; 6] = ["state", "struct", "enum", "const", "predicate", "task"];
+    let named = next.is_some_and(|next| next.kind == Kind::Word);
+    match token.kind {
+        Kind::Doc => true,
+        Kind::Comment => next.is_none_or(|next| {
+            matches!(next.kind, Kind::Doc | Kind::Comment) || ITEMS.contains(&next.text)
+        }),
+        Kind::Word => ITEMS.contains(&token.text) && named,
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::format;
+
+    fn laid_out(text: &str) -> String {
+        let once = format(text).unwrap_or_else(|| panic!("{text}"));
+        assert_eq!(format(&once).as_deref(), Some(once.as_str()), "laid out twice");
+        once
+    }
+
+    #[test]
+    fn blanks_stand_where_the_reference_has_them() {
+        for (text, expected) in [
+            ("task  t=F  a&&F(b)", "task t = F a && F (b)\n"),
+            ("task t=! a U(b T c)", "task t = !a U (b T c)\n"),
+            ("predicate p=1<x&&- x<- 3", "predicate p = 1 < x && -x < -3\n"),
+            ("predicate p = hypot( x ,y )<1.5e-3", "predicate p = hypot(x, y) < 1.5e-3\n"),
+            ("predicate p = joints [ 2 ] . x > 0", "predicate p = joints[2].x > 0\n"),
+            ("state S{x:f64,joints:[f64;6]}", "state S { x: f64, joints: [f64; 6] }\n"),
+            ("state S {\nx : f64 ,\n  ok: bool\n}", "state S {\n    x: f64,\n    ok: bool\n}\n"),
+            ("state s: Grid<'a, T>;\ntask t=F a;", "state s: Grid<'a, T>;\ntask t = F a;\n"),
+            ("task t = ◇a∧◇ b", "task t = ◇a ∧ ◇b\n"),
+            ("task t = - - x < 1", "task t = - -x < 1\n"),
+            ("enum E{A,B}\n\n\n\nconst c=-1", "enum E { A, B }\n\nconst c = -1\n"),
+            ("task t = F a\n&& F b\n// last", "task t = F a\n    && F b\n// last\n"),
+            ("task t = (\nF a &&\nF b\n)", "task t = (\n    F a &&\n    F b\n)\n"),
+            ("task t = for all r in rooms:F seen[r]", "task t = for all r in rooms: F seen[r]\n"),
+            ("task t = for all i in 0 .. n:F a", "task t = for all i in 0..n: F a\n"),
+            ("task t = for all i in 1..= 6 : F a", "task t = for all i in 1..=6: F a\n"),
+            (
+                "  \n//! File.  \n/// Doc\ntask t=a // why\n",
+                "//! File.\n/// Doc\ntask t = a // why\n",
+            ),
+            ("predicate p = { s . ok( ) }", "predicate p = { s . ok( ) }\n"),
+            ("task t = a /* x\n  y */ && b", "task t = a /* x\n  y */ && b\n"),
+            (
+                "state S{x:f64 in m,v:[f64;2]in m / s ^ - 2}",
+                "state S { x: f64 in m, v: [f64; 2] in m/s^-2 }\n",
+            ),
+            ("const  r in  1 / s=- 2", "const r in 1/s = -2\n"),
+            ("predicate p(d:f64 in N * m,e:u8)=x<d", "predicate p(d: f64 in N*m, e: u8) = x < d\n"),
+            ("const g in F* /* ? */T = 1", "const g in F* /* ? */ T = 1\n"),
+            ("state S{k:K?in m}", "state S { k: K? in m }\n"),
+            ("task t = for all in in R: F in", "task t = for all in in R: F in\n"),
+            ("task t = for all r in F:F r", "task t = for all r in F: F r\n"),
+            ("", ""),
+        ] {
+            assert_eq!(laid_out(text), expected);
+        }
+    }
+}

@@ -1,0 +1,137 @@
+//! Parts of formulas that do not matter: with a constant in their place the task means the same.
+
+use rustc_hash::FxHashSet;
+use tltl_compiler::arithmetic::{self, Possible};
+use tltl_compiler::ast::quoted;
+use tltl_compiler::compile::{Automata, Compiled};
+use tltl_compiler::dfa::{Dfa, Target};
+use tltl_compiler::error::{Error, Kind};
+use tltl_compiler::minimize::minimize;
+use tltl_compiler::predicate::{Module, Task};
+use tltl_compiler::source::Span;
+use tltl_compiler::spec::{Formula, FormulaId, Spec};
+use tltl_compiler::translate::{Budget, translate};
+
+/// Formulas with more operators and operands are not searched for parts that do not matter.
+const MOST_OPERATORS: usize = 40;
+
+/// Nor are automata with more states.
+const MOST_STATES: usize = 64;
+
+/// Warnings that cost a search: for each task, the largest parts of its formula that could as well
+/// be left out.
+///
+/// Not part of compiling: the macros, which cannot warn, would search in vain. Deterministic, and
+/// bounded: large formulas and automata are not searched.
+#[must_use]
+pub fn advice(compiled: &Compiled) -> Vec<Error> {
+    let tasks = compiled.module.tasks.iter().zip(&compiled.automata);
+    tasks.flat_map(|(task, automata)| parts(&compiled.module, task, automata)).collect()
+}
+
+fn parts(module: &Module, task: &Task, automata: &Automata) -> Vec<Error> {
+    let spec = &task.spec;
+    let reachable = spec.reachable();
+    let count = reachable.iter().filter(|reachable| **reachable).count();
+    let states = automata.propositional.len();
+    let judged = matches!(automata.dfa.accepting, None | Some(0));
+    if count > MOST_OPERATORS || states > MOST_STATES || judged {
+        return Vec::new();
+    }
+    let mut possible = arithmetic::possible(module, task);
+    let mut warnings = Vec::new();
+    let mut within = vec![false; reachable.len()];
+    for (id, formula) in spec.formulas().rev().filter(|(id, _)| reachable[id.0 as usize]) {
+        let constant = match formula {
+            Formula::True | Formula::False => true,
+            Formula::Literal { proposition, .. } => possible.values(proposition) != (true, true),
+            _ => false,
+        };
+        let matters = constant || within[id.0 as usize] || id == spec.root();
+        if !matters && let Some(value) = indifferent(spec, id, &possible, &automata.dfa) {
+            warnings.push(vacuous_part(task, id, value));
+            within[id.0 as usize] = true;
+        }
+        if within[id.0 as usize] {
+            formula.operands().for_each(|operand| within[operand.0 as usize] = true);
+        }
+    }
+    warnings
+}
+
+fn vacuous_part(task: &Task, id: FormulaId, value: bool) -> Error {
+    let text = quoted(&task.spec.text(id, 1024));
+    let what = task.name.as_ref().map_or("the formula".to_owned(), |name| format!("task `{name}`"));
+    let message = format!("`{text}` does not matter: {what} means the same without it");
+    let span = task.spec.span(id);
+    let span = if span == Span::default() { task.span } else { span };
+    Error::new(Kind::Vacuous, message, span)
+        .label(format!("with `{value}` here it would mean the same"))
+        .help("leave it out, or look whether the rest says more than it should")
+        .warning()
+}
+
+/// The constant that a part may be replaced by, if the automaton stays the same.
+fn indifferent(spec: &Spec, part: FormulaId, possible: &Possible, dfa: &Dfa) -> Option<bool> {
+    [false, true].into_iter().find(|&value| {
+        let changed = replaced(spec, part, value);
+        translate(&changed, Budget::EMITTED).is_ok_and(|raw| {
+            let minimal = minimize(&raw);
+            let other = match possible.all() {
+                true => minimal,
+                false => minimize(&possible.restrict(&minimal)),
+            };
+            same(dfa, &other)
+        })
+    })
+}
+
+/// The formula with a constant in the place of a part.
+fn replaced(spec: &Spec, part: FormulaId, value: bool) -> Spec {
+    let mut changed = Spec::new(spec.propositions().to_vec());
+    let mut built: Vec<FormulaId> = Vec::new();
+    for (id, formula) in spec.formulas() {
+        let of = |id: FormulaId| built[id.0 as usize];
+        let span = spec.span(id);
+        built.push(match formula {
+            _ if id == part => changed.truth(value, span),
+            Formula::True => changed.truth(true, span),
+            Formula::False => changed.truth(false, span),
+            Formula::Literal { proposition, negated } => {
+                changed.literal(proposition, negated, span)
+            }
+            Formula::And(a, b) => changed.and(of(a), of(b), span),
+            Formula::Or(a, b) => changed.or(of(a), of(b), span),
+            Formula::Next(a) => changed.next(of(a), span),
+            Formula::Eventually(a) => changed.eventually(of(a), span),
+            Formula::Until(a, b) => changed.until(of(a), of(b), span),
+            Formula::Then(a, b) => changed.then(of(a), of(b), span),
+        });
+    }
+    changed.set_root(built[spec.root().0 as usize]);
+    changed
+}
+
+/// Whether two minimal automata over the same propositions, numbered alike, are the same.
+fn same(a: &Dfa, b: &Dfa) -> bool {
+    if (a.accepting, a.trap, a.len()) != (b.accepting, b.trap, b.len()) {
+        return false;
+    }
+    let pairs = a.transitions.iter().copied().zip(b.transitions.iter().copied());
+    let mut open: Vec<(Target, Target)> = pairs.collect();
+    let mut seen = FxHashSet::default();
+    while let Some((x, y)) = open.pop() {
+        if !seen.insert((x, y)) {
+            continue;
+        }
+        let (p, q) = (a.diagram.proposition(x), b.diagram.proposition(y));
+        if p != q || (p.is_none() && x.state() != y.state()) {
+            return false;
+        }
+        if let Some(p) = p {
+            let ((x0, x1), (y0, y1)) = (a.diagram.split(x, p), b.diagram.split(y, p));
+            open.extend([(x0, y0), (x1, y1)]);
+        }
+    }
+    true
+}
