@@ -2,7 +2,6 @@
 
 use tltl_compiler::compile;
 use tltl_compiler::dfa::Dfa;
-use tltl_compiler::emit::edge;
 use tltl_compiler::minimize;
 use tltl_compiler::source::Source;
 use tltl_compiler::translate::Budget;
@@ -96,7 +95,7 @@ fn accepts(dfa: &Dfa, trace: &tltlc::trace::Trace) -> bool {
 fn guards_parse_back() {
     for formula in ["F a && F b && F c", "(a T b) && F c", "!(a && b) U (c || !d && X a)"] {
         let dfa = automaton(formula);
-        for edge in edge::edges(&dfa).iter().filter(|edge| !edge.guard.iter().any(Vec::is_empty)) {
+        for edge in dfa.edges().iter().filter(|edge| !edge.guard.iter().any(Vec::is_empty)) {
             let label = sum::label(&dfa, &edge, sum::Notation::Ascii);
             let again = automaton(&label);
             let same = |p: u32| {

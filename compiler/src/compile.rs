@@ -2,7 +2,7 @@
 
 use crate::arithmetic;
 use crate::check;
-use crate::dfa::{Dfa, Guards};
+use crate::dfa::{Automata, Dfa, Guards};
 use crate::error::{Error, Errors, Kind};
 use crate::factor::{Factor, factors};
 use crate::judge;
@@ -23,15 +23,6 @@ pub struct Compiled {
     pub factored: Vec<Factored>,
     /// What the author should look at.
     pub warnings: Vec<Error>,
-}
-
-/// The two automata of a task.
-#[derive(Clone, Debug)]
-pub struct Automata {
-    /// Minimal with all predicates taken for free propositions: what other tools compute.
-    pub propositional: Dfa,
-    /// Minimal over the letters that can occur: what is emitted.
-    pub dfa: Dfa,
 }
 
 /// A conjunction whose parts run side by side.

@@ -2,13 +2,17 @@
 //! their transition function.
 //!
 //! A [`Dfa`] may be raw (as translated) or canonical (as [`minimize`](crate::minimize::minimize)
-//! and [`product`](crate::product) leave it): complete, reachable, states numbered breadth-first,
+//! leaves it): complete, reachable, states numbered breadth-first,
 //! letters in lexicographic order (proposition 0 first, false before true).
+
+mod edge;
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::arena::{self, Memo};
 use crate::guard::{Cube, Guard, Store};
+
+pub use edge::Edge;
 
 /// A state of an automaton; the initial one is 0.
 pub type State = u32;
@@ -121,6 +125,15 @@ pub struct Dfa {
     /// The letters that can occur, as transitions to state 1 (possible) or 0 (impossible);
     /// `None` if all can.
     pub possible: Option<Target>,
+}
+
+/// The two automata of a task.
+#[derive(Clone, Debug)]
+pub struct Automata {
+    /// Minimal with all predicates taken for free propositions: what other tools compute.
+    pub propositional: Dfa,
+    /// Minimal over the letters that can occur: what is emitted.
+    pub dfa: Dfa,
 }
 
 /// How big an automaton is, under the usual conventions.

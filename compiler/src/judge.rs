@@ -4,9 +4,7 @@
 //! made smaller until each is needed for the contradiction.
 
 use crate::arithmetic::{self, Possible};
-use crate::compile::Automata;
-use crate::dfa::Dfa;
-use crate::emit::edge::edges;
+use crate::dfa::{Automata, Dfa};
 use crate::error::{Error, Kind};
 use crate::predicate::{Condition, ConditionId, Module, Task};
 use crate::source::Span;
@@ -252,7 +250,7 @@ fn obstacle(possible: &mut Possible, dfa: &Dfa) -> Option<Vec<(u32, bool)>> {
     dfa.accepting?;
     let distances = dfa.distances();
     let nearer = |from: u32, to: u32| distances[to as usize] < distances[from as usize];
-    for edge in edges(dfa).iter().filter(|edge| nearer(edge.from, edge.to)) {
+    for edge in dfa.edges().iter().filter(|edge| nearer(edge.from, edge.to)) {
         let cubes = edge.guard.iter().map(|cube| core(possible, cube.clone()));
         let cores: Vec<_> = cubes.collect();
         if let (Some(first), true) = (cores.first(), cores.iter().all(|core| !core.is_empty())) {

@@ -7,15 +7,14 @@
 mod expression;
 mod item;
 mod message;
-mod token;
 
 use pest::Parser;
-use token::Tokens;
 
 use crate::ast::{Ast, Item, ItemKind};
 use crate::error::{Error, Errors, Kind};
 use crate::grammar::{Grammar, Rule};
 use crate::source::{Source, Span};
+use crate::token;
 
 type Pair<'a> = pest::iterators::Pair<'a, Rule>;
 
@@ -59,43 +58,6 @@ pub(crate) fn recover_file(source: &Source) -> (Ast, Vec<Error>) {
 /// Parses as much of the macro's input as there is.
 pub(crate) fn recover_fragment(source: &Source) -> (Ast, Vec<Error>) {
     if token::starts_with_item(source.text()) { items(source) } else { one(source, Rule::fragment) }
-}
-
-/// A text without the blanks and comments that make no difference.
-pub(crate) fn compact(text: &str) -> String {
-    if text.contains(['"', '\'']) {
-        return text.trim().to_owned();
-    }
-    let mut compact = String::new();
-    for token in Tokens::new(text, 0) {
-        let word = &text[token.start..token.end];
-        let wordy = |c: char| c.is_alphanumeric() || c == '_';
-        if compact.ends_with(wordy) && word.starts_with(wordy) {
-            compact.push(' ');
-        }
-        compact.push_str(word);
-    }
-    compact
-}
-
-/// The Rust expression `text` with other words in the place of some names.
-pub(crate) fn renamed(text: &str, words: &[(&str, String)]) -> String {
-    let mut renamed = String::new();
-    let mut end = 0;
-    for token in Tokens::new(text, 0) {
-        let name = &text[token.start..token.end];
-        if let Some((_, word)) = words.iter().find(|(known, _)| *known == name) {
-            renamed.push_str(&text[end..token.start]);
-            renamed.push_str(word);
-            end = token.end;
-        }
-    }
-    renamed + &text[end..]
-}
-
-/// Whether the Rust expression `text` has the word `name` in it.
-pub(crate) fn mentions(text: &str, name: &str) -> bool {
-    Tokens::new(text, 0).any(|token| &text[token.start..token.end] == name)
 }
 
 fn finish((ast, mistakes): (Ast, Vec<Error>)) -> Result<Ast, Errors> {

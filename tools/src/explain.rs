@@ -11,8 +11,8 @@ use std::fmt;
 use crate::emit::sum::{Notation, Sum, label};
 use crate::emit::text;
 use crate::trace::{Trace, shortest};
+use tltl_compiler::dfa::Edge;
 use tltl_compiler::dfa::{Dfa, Guards, Size, State, Target};
-use tltl_compiler::emit::edge::{Edge, edges};
 use tltl_compiler::spec::Spec;
 
 /// A task explained.
@@ -68,7 +68,7 @@ pub const MOST_STATES: usize = 64;
 /// Explains the task that `spec` says and `dfa` is.
 #[must_use]
 pub fn explain(spec: &Spec, dfa: &Dfa) -> Explanation {
-    let edges = edges(dfa);
+    let edges = dfa.edges();
     let accepts = |q: State| dfa.accepting == Some(q);
     let distances = dfa.distances();
     let falls = edges.iter().filter(|edge| dfa.trap == Some(edge.to) && !edge.is_loop());

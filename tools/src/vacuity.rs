@@ -3,8 +3,8 @@
 use rustc_hash::FxHashSet;
 use tltl_compiler::arithmetic::{self, Possible};
 use tltl_compiler::ast::quoted;
-use tltl_compiler::compile::{Automata, Compiled};
-use tltl_compiler::dfa::{Dfa, Target};
+use tltl_compiler::compile::Compiled;
+use tltl_compiler::dfa::{Automata, Dfa, Target};
 use tltl_compiler::error::{Error, Kind};
 use tltl_compiler::minimize::minimize;
 use tltl_compiler::predicate::{Module, Task};

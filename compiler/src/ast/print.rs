@@ -4,7 +4,7 @@
 use std::fmt;
 
 use super::{Arithmetic, Ast, Infix, Node, NodeId, Prefix};
-use crate::parse::compact;
+use crate::token::compact;
 
 /// An expression of an [`Ast`] that can be printed.
 pub struct Printed<'a> {

@@ -81,7 +81,7 @@ impl Checker<'_> {
             Names::Host => {
                 self.refuse_unlike_rust(id)?;
                 let text = self.compact(id);
-                if self.host().is_some_and(|host| crate::parse::mentions(&text, host)) {
+                if self.host().is_some_and(|host| crate::token::mentions(&text, host)) {
                     return Some(Condition::Bool(self.host_term(id, false)));
                 }
                 let bindings = self.bindings(id);

@@ -41,5 +41,5 @@ fn distance(a: &str, b: &str) -> usize {
 
 /// Whether Rust has taken a word, and a name of the same letters is written with `r#`.
 pub(super) fn is_rust_word(word: &str) -> bool {
-    crate::emit::predicates::KEYWORDS.contains(&word) && !matches!(word, "true" | "false")
+    crate::reserved::is_keyword(word) && !matches!(word, "true" | "false")
 }

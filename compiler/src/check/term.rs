@@ -236,7 +236,7 @@ impl Checker<'_> {
 
     /// The text of an expression without blanks and comments that make no difference.
     pub(super) fn compact(&self, id: NodeId) -> String {
-        crate::parse::compact(self.ast.text(id))
+        crate::token::compact(self.ast.text(id))
     }
 
     /// The name of a free proposition or variable; a name is one or the other throughout.

@@ -192,7 +192,7 @@ impl Checker<'_> {
     /// What the parameters and the bound names stand for that the Rust expression `id` mentions.
     pub(super) fn bindings(&mut self, id: NodeId) -> Vec<Binding> {
         let text = self.compact(id);
-        let mentioned = |name: &str| crate::parse::mentions(&text, name);
+        let mentioned = |name: &str| crate::token::mentions(&text, name);
         let mut bindings = Vec::new();
         for parameter in self.parameters.iter().filter(|known| mentioned(&known.name)) {
             let (name, ty) = (parameter.name.clone(), parameter.ty);
@@ -204,7 +204,7 @@ impl Checker<'_> {
             let term = match *bound {
                 Bound::Variant(of, number) => self.add_variant(of, number),
                 Bound::Element(element) => {
-                    let text = crate::parse::compact(self.written.text(element));
+                    let text = crate::token::compact(self.written.text(element));
                     let span = self.written.span(element);
                     let term = Term::Host { text, span, bindings: Vec::new(), value: true };
                     self.module.arena.add_term(term)

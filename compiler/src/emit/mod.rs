@@ -2,7 +2,6 @@
 //!
 //! Every function here is a function of its arguments alone: same automaton, same bytes.
 
-pub mod edge;
 pub mod foreign;
 mod implementation;
 pub mod predicates;

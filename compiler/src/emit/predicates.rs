@@ -15,6 +15,7 @@ use crate::predicate::{
     Binding, Condition, ConditionId, Module, Number, ParameterType, PredicateId, Scalar, State,
     Step, Term, TermId,
 };
+use crate::reserved::is_keyword;
 use crate::source::Span;
 
 /// Expressions deeper than this are cut by a `let`.
@@ -485,18 +486,9 @@ pub fn ident(name: &str) -> Ident {
     let name = name.strip_prefix("r#").unwrap_or(name);
     if matches!(name, "self" | "Self" | "super" | "crate" | "_") {
         format_ident!("{}_", name)
-    } else if KEYWORDS.contains(&name) {
+    } else if is_keyword(name) {
         Ident::new_raw(name, span)
     } else {
         Ident::new(name, span)
     }
 }
-
-/// Rust's strict and reserved words that a raw identifier may be.
-pub(crate) const KEYWORDS: [&str; 48] = [
-    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "do", "dyn",
-    "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let",
-    "loop", "macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref", "return",
-    "static", "struct", "trait", "true", "try", "type", "typeof", "unsafe", "unsized", "use",
-    "virtual", "where", "while", "yield",
-];

@@ -2,11 +2,12 @@
 
 use pest::Parser;
 
-use super::{Pair, expression, token};
+use super::{Pair, expression};
 use crate::ast::{Ast, Attribute, Declaration, FieldType, Item, ItemKind, UnitFactor, WrittenUnit};
 use crate::error::{Error, Kind};
 use crate::grammar::{Grammar, Rule};
 use crate::source::Span;
+use crate::token;
 
 /// Adds the item of `pair`, whose text starts at byte `at` of the source.
 pub(super) fn build(ast: &mut Ast, pair: Pair<'_>, at: usize, mistakes: &mut Vec<Error>) {

@@ -1,9 +1,9 @@
 //! Syntax mistakes as sentences: what is missing or too much, in the author's own words.
 
-use super::token::{self, Tokens};
 use crate::error::{Error, Kind};
 use crate::grammar::Rule;
 use crate::source::{Source, Span};
+use crate::token::{self, Tokens};
 
 /// What stands around the place where parsing stopped.
 struct Found<'a> {

@@ -147,7 +147,7 @@ impl Printed<'_> {
         };
         let words: Vec<_> =
             bindings.iter().map(|one| (one.name.as_str(), print(one.term))).collect();
-        Piece::Word(crate::parse::renamed(text, &words))
+        Piece::Word(crate::token::renamed(text, &words))
     }
 }
 

@@ -1,7 +1,7 @@
 //! `tltlc automaton`.
 
-use tltl_compiler::compile::{self, Automata, Compiled};
-use tltl_compiler::dfa::Dfa;
+use tltl_compiler::compile::{self, Compiled};
+use tltl_compiler::dfa::{Automata, Dfa};
 use tltl_compiler::error::{Error, Style};
 use tltl_compiler::predicate::Task;
 use tltl_compiler::source::Source;

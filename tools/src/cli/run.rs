@@ -5,8 +5,7 @@ use std::fmt::Write as _;
 use crate::evaluate::{Evaluator, Reading, Row, run as run_automaton};
 use crate::semantics;
 use serde::Serialize;
-use tltl_compiler::compile::Automata;
-use tltl_compiler::dfa::{Dfa, State};
+use tltl_compiler::dfa::{Automata, Dfa, State};
 use tltl_compiler::predicate::{Module, Task};
 
 use super::subject::{self, Subject};

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use tltl_compiler::compile::{self, Automata, Compiled};
+use tltl_compiler::compile::{self, Compiled};
+use tltl_compiler::dfa::Automata;
 use tltl_compiler::error::Errors;
 use tltl_compiler::hoa;
 use tltl_compiler::predicate::Task;

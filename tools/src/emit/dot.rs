@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 
 use crate::emit::sum::{Notation, label, quoted};
+use tltl_compiler::dfa::Edge;
 use tltl_compiler::dfa::{Dfa, State};
-use tltl_compiler::emit::edge::{Edge, edges};
 
 /// A digraph, left to right: the accepting state with two circles, the trap dashed.
 #[must_use]
@@ -19,7 +19,7 @@ pub fn automaton(title: &str, dfa: &Dfa) -> String {
         let _ = writeln!(dot, "  {q}{};", attributes(dfa, q));
     }
     dot.push_str("  start -> 0;\n");
-    for edge in edges(dfa) {
+    for edge in dfa.edges() {
         let _ = writeln!(dot, "{}", arrow(dfa, &edge));
     }
     dot.push_str("}\n");

@@ -8,8 +8,8 @@
 use std::fmt::Write as _;
 
 use crate::emit::sum::{Notation, Sum, quoted};
+use tltl_compiler::dfa::Edge;
 use tltl_compiler::dfa::{Dfa, State};
-use tltl_compiler::emit::edge::{Edge, edges};
 
 /// HOA v1. Letters that cannot occur go where the automaton sends them: edges stay disjoint.
 #[must_use]
@@ -17,7 +17,7 @@ pub fn automaton(title: &str, dfa: &Dfa) -> String {
     let free = Dfa { possible: None, ..dfa.clone() };
     let mut hoa = header(title, dfa);
     let mut last = None;
-    for edge in edges(&free) {
+    for edge in free.edges() {
         if last.replace(edge.from) != Some(edge.from) {
             let _ = writeln!(hoa, "State: {}{}", edge.from, mark(dfa, edge.from));
         }

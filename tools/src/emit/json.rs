@@ -9,7 +9,6 @@ use serde::Serialize;
 
 use crate::emit::sum::{Notation, label};
 use tltl_compiler::dfa::{Dfa, State};
-use tltl_compiler::emit::edge::edges;
 use tltl_compiler::error::{Error, Kind};
 use tltl_compiler::source::{Source, Span};
 
@@ -117,7 +116,7 @@ pub fn explicit(formula: &str, dfa: &Dfa) -> Result<String, Error> {
 /// The automaton with the guards of its edges, self-loops included, over several lines.
 #[must_use]
 pub fn automaton(formula: &str, dfa: &Dfa) -> String {
-    let guards = edges(dfa).into_iter().map(|edge| Transition {
+    let guards = dfa.edges().into_iter().map(|edge| Transition {
         from: edge.from,
         to: edge.to,
         guard: label(dfa, &edge, Notation::Ascii),

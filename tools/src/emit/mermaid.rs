@@ -7,7 +7,6 @@ use std::fmt::Write as _;
 
 use crate::emit::sum::{Notation, label, quoted};
 use tltl_compiler::dfa::{Dfa, State};
-use tltl_compiler::emit::edge::edges;
 
 /// A flowchart, left to right: the accepting state with two circles, the trap dashed.
 #[must_use]
@@ -17,7 +16,7 @@ pub fn automaton(title: &str, dfa: &Dfa) -> String {
     for q in dfa.states() {
         let _ = writeln!(text, "  {}", node(dfa, q));
     }
-    for edge in edges(dfa) {
+    for edge in dfa.edges() {
         let label = escape(&label(dfa, &edge, Notation::Ascii));
         let arrow = if dfa.trap == Some(edge.to) { "-.->" } else { "-->" };
         let _ = writeln!(text, "  q{} {arrow}|\"{label}\"| q{}", edge.from, edge.to);

@@ -9,7 +9,7 @@ use std::borrow::Cow;
 use std::fmt;
 
 use tltl_compiler::dfa::Dfa;
-use tltl_compiler::emit::edge::Edge;
+use tltl_compiler::dfa::Edge;
 use tltl_compiler::guard::Cube;
 
 /// The symbols in which a guard is printed.

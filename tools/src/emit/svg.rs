@@ -15,8 +15,8 @@ use std::fmt::Write as _;
 
 use crate::emit::layout::{Graph, Layout, Link, Room, layout};
 use crate::emit::sum::Notation;
+use tltl_compiler::dfa::Edge;
 use tltl_compiler::dfa::{Dfa, Size, State};
-use tltl_compiler::emit::edge::{Edge, edges};
 
 use curve::Arrow;
 use text::{Label, Legend};
@@ -123,7 +123,7 @@ impl<'a> Picture<'a> {
         let mut legend = Legend::new(options.notation);
         let mut loops = vec![None; states.len()];
         let mut links = Vec::new();
-        for edge in edges(dfa).into_iter().filter(|edge| drawn(edge.to) && drawn(edge.from)) {
+        for edge in dfa.edges().into_iter().filter(|edge| drawn(edge.to) && drawn(edge.from)) {
             let label = legend.label(dfa, &edge);
             if edge.is_loop() {
                 let place = states.binary_search(&edge.from).unwrap_or(0);

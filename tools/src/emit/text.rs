@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 
 use crate::emit::sum::{Notation, label};
+use tltl_compiler::dfa::Edge;
 use tltl_compiler::dfa::{Dfa, Size, State};
-use tltl_compiler::emit::edge::{Edge, edges};
 
 /// The sizes under every convention, then each state with its edges and their guards. The initial
 /// state is marked `>`, the accepting one `*`, the trap `x`.
@@ -13,7 +13,7 @@ pub fn automaton(title: &str, dfa: &Dfa) -> String {
     let mut text = format!("{title}\n\n{}\n", sizes(dfa.size()));
     let width = dfa.len().to_string().len().max(4);
     let _ = writeln!(text, "   {:>width$}  {:>width$}  when", "from", "to");
-    for edge in edges(dfa) {
+    for edge in dfa.edges() {
         let _ = writeln!(text, "{}", row(dfa, &edge, width));
     }
     text.push_str(legend(dfa));

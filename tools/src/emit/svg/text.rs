@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::number;
 use crate::emit::sum::{Notation, Sum};
 use tltl_compiler::dfa::Dfa;
-use tltl_compiler::emit::edge::Edge;
+use tltl_compiler::dfa::Edge;
 
 /// The look of a text.
 #[derive(Clone, Copy, Debug)]

@@ -1,5 +1,5 @@
-//! Words and symbols as a reader sees them, for messages and for finding the next item after a
-//! mistake. Parsing itself does not use this.
+//! Words and symbols as a reader sees them: for messages, for finding the next item after a mistake,
+//! and for expressions of Rust, which the grammar takes as they are. Parsing itself does not use this.
 
 use crate::source::Span;
 
@@ -11,7 +11,7 @@ const SYMBOLS: [&str; 24] = [
 ];
 
 /// What a keyword means; `None` if `word` is an ordinary name.
-pub(super) fn keyword(word: &str) -> Option<&'static str> {
+pub(crate) fn keyword(word: &str) -> Option<&'static str> {
     Some(match word {
         "F" => "\"eventually\"",
         "X" => "\"at the next state\"",
@@ -26,7 +26,7 @@ pub(super) fn keyword(word: &str) -> Option<&'static str> {
 }
 
 /// Whether `text` begins like an item.
-pub(super) fn starts_with_item(text: &str) -> bool {
+pub(crate) fn starts_with_item(text: &str) -> bool {
     let mut tokens = Tokens::new(text, 0);
     let Some(mut first) = tokens.next() else { return false };
     while &text[first.start..first.end] == "#" {
@@ -39,7 +39,7 @@ pub(super) fn starts_with_item(text: &str) -> bool {
 }
 
 /// The name of the item that starts in `span`.
-pub(super) fn item_name(text: &str, span: Span) -> Option<Span> {
+pub(crate) fn item_name(text: &str, span: Span) -> Option<Span> {
     let mut tokens = Tokens::new(text, span.start);
     let word = tokens.find(|token| ITEM_WORDS.contains(&&text[token.start..token.end]))?;
     (word.end <= span.end && begins_item(text, word)).then(|| tokens.next()).flatten()
@@ -47,7 +47,7 @@ pub(super) fn item_name(text: &str, span: Span) -> Option<Span> {
 
 /// Where the next item starts, at `from` or later but after the item that starts at `at`: its word
 /// is the first of a line, or follows a `;`.
-pub(super) fn next_item(text: &str, at: usize, from: usize) -> usize {
+pub(crate) fn next_item(text: &str, at: usize, from: usize) -> usize {
     let mut first = true;
     let mut item_seen = false;
     let mut doc = None;
@@ -77,6 +77,43 @@ pub(super) fn next_item(text: &str, at: usize, from: usize) -> usize {
     text.len()
 }
 
+/// A text without the blanks and comments that make no difference.
+pub(crate) fn compact(text: &str) -> String {
+    if text.contains(['"', '\'']) {
+        return text.trim().to_owned();
+    }
+    let mut compact = String::new();
+    for token in Tokens::new(text, 0) {
+        let word = &text[token.start..token.end];
+        let wordy = |c: char| c.is_alphanumeric() || c == '_';
+        if compact.ends_with(wordy) && word.starts_with(wordy) {
+            compact.push(' ');
+        }
+        compact.push_str(word);
+    }
+    compact
+}
+
+/// The Rust expression `text` with other words in the place of some names.
+pub(crate) fn renamed(text: &str, words: &[(&str, String)]) -> String {
+    let mut renamed = String::new();
+    let mut end = 0;
+    for token in Tokens::new(text, 0) {
+        let name = &text[token.start..token.end];
+        if let Some((_, word)) = words.iter().find(|(known, _)| *known == name) {
+            renamed.push_str(&text[end..token.start]);
+            renamed.push_str(word);
+            end = token.end;
+        }
+    }
+    renamed + &text[end..]
+}
+
+/// Whether the Rust expression `text` has the word `name` in it.
+pub(crate) fn mentions(text: &str, name: &str) -> bool {
+    Tokens::new(text, 0).any(|token| &text[token.start..token.end] == name)
+}
+
 fn begins_item(text: &str, token: Span) -> bool {
     ITEM_WORDS.contains(&&text[token.start..token.end])
         && Tokens::new(text, token.end)
@@ -85,13 +122,13 @@ fn begins_item(text: &str, token: Span) -> bool {
 }
 
 /// The tokens of a text from some byte on; comments are skipped, doc comments are one token `///`.
-pub(super) struct Tokens<'a> {
+pub(crate) struct Tokens<'a> {
     text: &'a str,
     at: usize,
 }
 
 impl<'a> Tokens<'a> {
-    pub(super) fn new(text: &'a str, at: usize) -> Self {
+    pub(crate) fn new(text: &'a str, at: usize) -> Self {
         Self { text, at }
     }
 
@@ -135,6 +172,6 @@ impl Iterator for Tokens<'_> {
     }
 }
 
-pub(super) fn is_word_start(c: char) -> bool {
+pub(crate) fn is_word_start(c: char) -> bool {
     c.is_alphabetic() || c == '_'
 }
