@@ -94,31 +94,21 @@ fn extract(spec: &Spec, roots: &[FormulaId]) -> Factor {
     let names = chosen.iter().map(|&p| spec.propositions()[p as usize].clone()).collect();
     let mut part = Spec::new(names);
     let parts = parts(spec, roots);
-    let mut copies = Vec::with_capacity(parts.len());
-    let place = |id: FormulaId| parts.binary_search(&id).expect("operands are parts");
-    for &id in &parts {
-        let span = spec.span(id);
-        let of = |operand| copies[place(operand)];
-        let copy = match spec.formula(id) {
-            Formula::True => part.truth(true, span),
-            Formula::False => part.truth(false, span),
+    let copies = part.rebuild(spec, &parts, &mut |part, id, formula| {
+        let formula = match formula {
             Formula::Literal { proposition, negated } => {
                 let place = chosen.binary_search(&proposition).unwrap_or_default();
-                part.literal(place as u32, negated, span)
+                Formula::Literal { proposition: place as u32, negated }
             }
-            Formula::And(a, b) => part.and(of(a), of(b), span),
-            Formula::Or(a, b) => part.or(of(a), of(b), span),
-            Formula::Next(a) => part.next(of(a), span),
-            Formula::Eventually(a) => part.eventually(of(a), span),
-            Formula::Until(a, b) => part.until(of(a), of(b), span),
-            Formula::Then(a, b) => part.then(of(a), of(b), span),
+            other => other,
         };
-        copies.push(copy);
-    }
+        part.add(formula, spec.span(id))
+    });
     let span = roots.first().map_or_else(Default::default, |&root| spec.span(root));
     let mut root = part.truth(true, span);
-    for &conjunct in roots {
-        root = part.and(root, copies[place(conjunct)], span);
+    for conjunct in roots {
+        let place = parts.binary_search(conjunct).expect("conjuncts are parts");
+        root = part.and(root, copies[place], span);
     }
     part.set_root(root);
     Factor { spec: part, propositions: chosen }

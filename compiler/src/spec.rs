@@ -59,6 +59,21 @@ impl Formula {
         };
         pair.into_iter().flatten()
     }
+
+    /// The same operator over other operands.
+    #[must_use]
+    fn over(self, mut image: impl FnMut(FormulaId) -> FormulaId) -> Self {
+        use Formula::{And, Eventually, False, Literal, Next, Or, Then, True, Until};
+        match self {
+            True | False | Literal { .. } => self,
+            And(a, b) => And(image(a), image(b)),
+            Or(a, b) => Or(image(a), image(b)),
+            Next(a) => Next(image(a)),
+            Eventually(a) => Eventually(image(a)),
+            Until(a, b) => Until(image(a), image(b)),
+            Then(a, b) => Then(image(a), image(b)),
+        }
+    }
 }
 
 /// A formula over propositions: hash-consed, in negation normal form, co-safe.
@@ -211,6 +226,42 @@ impl Spec {
                 self.intern(Formula::Then(a, b), span)
             }
         }
+    }
+
+    /// An operator over formulas of this spec, simplified as its own constructor does.
+    pub fn add(&mut self, formula: Formula, span: Span) -> FormulaId {
+        match formula {
+            Formula::True | Formula::False | Formula::Literal { .. } => self.intern(formula, span),
+            Formula::And(a, b) => self.and(a, b, span),
+            Formula::Or(a, b) => self.or(a, b, span),
+            Formula::Next(a) => self.next(a, span),
+            Formula::Eventually(a) => self.eventually(a, span),
+            Formula::Until(a, b) => self.until(a, b, span),
+            Formula::Then(a, b) => self.then(a, b, span),
+        }
+    }
+
+    /// Rebuilds formulas of `other` in this spec, and returns the image of each, in order.
+    ///
+    /// `ids` rise, and hold the operands of every formula among them. `image` makes one formula:
+    /// it gets the formula's id in `other`, and its operator over the images of its operands, which
+    /// [`add`](Self::add) takes as it is.
+    ///
+    /// # Panics
+    /// If `ids` lack an operand.
+    pub fn rebuild(
+        &mut self,
+        other: &Self,
+        ids: &[FormulaId],
+        image: &mut dyn FnMut(&mut Self, FormulaId, Formula) -> FormulaId,
+    ) -> Vec<FormulaId> {
+        let mut images = Vec::with_capacity(ids.len());
+        for &id in ids {
+            let place = |operand| ids.binary_search(&operand).expect("operands are among the ids");
+            let formula = other.formula(id).over(|operand| images[place(operand)]);
+            images.push(image(self, id, formula));
+        }
+        images
     }
 
     fn intern(&mut self, formula: Formula, span: Span) -> FormulaId {

@@ -89,26 +89,12 @@ fn indifferent(spec: &Spec, part: FormulaId, possible: &Possible, dfa: &Dfa) -> 
 /// The formula with a constant in the place of a part.
 fn replaced(spec: &Spec, part: FormulaId, value: bool) -> Spec {
     let mut changed = Spec::new(spec.propositions().to_vec());
-    let mut built: Vec<FormulaId> = Vec::new();
-    for (id, formula) in spec.formulas() {
-        let of = |id: FormulaId| built[id.0 as usize];
-        let span = spec.span(id);
-        built.push(match formula {
-            _ if id == part => changed.truth(value, span),
-            Formula::True => changed.truth(true, span),
-            Formula::False => changed.truth(false, span),
-            Formula::Literal { proposition, negated } => {
-                changed.literal(proposition, negated, span)
-            }
-            Formula::And(a, b) => changed.and(of(a), of(b), span),
-            Formula::Or(a, b) => changed.or(of(a), of(b), span),
-            Formula::Next(a) => changed.next(of(a), span),
-            Formula::Eventually(a) => changed.eventually(of(a), span),
-            Formula::Until(a, b) => changed.until(of(a), of(b), span),
-            Formula::Then(a, b) => changed.then(of(a), of(b), span),
-        });
-    }
-    changed.set_root(built[spec.root().0 as usize]);
+    let ids: Vec<_> = spec.formulas().map(|(id, _)| id).collect();
+    let images = changed.rebuild(spec, &ids, &mut |changed, id, formula| match id == part {
+        true => changed.truth(value, spec.span(id)),
+        false => changed.add(formula, spec.span(id)),
+    });
+    changed.set_root(images[spec.root().0 as usize]);
     changed
 }
 

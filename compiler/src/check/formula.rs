@@ -360,31 +360,24 @@ impl Builder {
         negated: bool,
         span: Span,
     ) -> FormulaId {
-        let mut built: Vec<FormulaId> = Vec::new();
-        for (_, formula) in task.spec.formulas() {
-            use Formula::{And, Eventually, False, Literal, Next, Or, Then, True, Until};
-            let of = |id: FormulaId| built[id.0 as usize];
-            let spec = &mut self.spec;
-            let id = match formula {
-                True => spec.truth(!negated, span),
-                False => spec.truth(negated, span),
-                Literal { proposition, negated: not } => match literals[proposition as usize] {
-                    self::Literal::Truth(value) => spec.truth(value != (not != negated), span),
-                    self::Literal::Proposition(predicate, reversed) => {
-                        self.literal(predicate, reversed != (not != negated), span)
+        let positions = &self.positions;
+        let ids: Vec<_> = task.spec.formulas().map(|(id, _)| id).collect();
+        let images = self.spec.rebuild(&task.spec, &ids, &mut |spec, _, formula| match formula {
+            Formula::True => spec.truth(!negated, span),
+            Formula::False => spec.truth(negated, span),
+            Formula::Literal { proposition, negated: not } => {
+                match literals[proposition as usize] {
+                    Literal::Truth(value) => spec.truth(value != (not != negated), span),
+                    Literal::Proposition(predicate, reversed) => {
+                        let position = positions.get(predicate).unwrap_or_default();
+                        spec.literal(position, reversed != (not != negated), span)
                     }
-                },
-                And(a, b) if negated => spec.or(of(a), of(b), span),
-                Or(a, b) if negated => spec.and(of(a), of(b), span),
-                And(a, b) => spec.and(of(a), of(b), span),
-                Or(a, b) => spec.or(of(a), of(b), span),
-                Next(a) => spec.next(of(a), span),
-                Eventually(a) => spec.eventually(of(a), span),
-                Until(a, b) => spec.until(of(a), of(b), span),
-                Then(a, b) => spec.then(of(a), of(b), span),
-            };
-            built.push(id);
-        }
-        built[task.spec.root().0 as usize]
+                }
+            }
+            Formula::And(a, b) if negated => spec.or(a, b, span),
+            Formula::Or(a, b) if negated => spec.and(a, b, span),
+            other => spec.add(other, span),
+        });
+        images[task.spec.root().0 as usize]
     }
 }
