@@ -10,7 +10,7 @@ use crate::minimize::minimize;
 use crate::predicate::{Module, Task};
 use crate::source::{Source, Span};
 use crate::spec::{FormulaId, Spec};
-use crate::translate::{Budget, Exceeded, translate};
+use crate::translate::{Budget, Exceeded, Resource, translate};
 
 /// A source and everything that it means.
 #[derive(Clone, Debug)]
@@ -164,7 +164,7 @@ fn check_size(dfa: &Dfa, budget: Budget) -> Result<(), Exceeded> {
     for &target in &dfa.transitions {
         edges += dfa.leaves(target).len();
         if edges > budget.edges {
-            return Err(Exceeded { what: "edges", limit: budget.edges });
+            return Err(Exceeded { what: Resource::Edges, limit: budget.edges });
         }
     }
     check_guards(dfa, budget)
@@ -177,14 +177,20 @@ fn check_size(dfa: &Dfa, budget: Budget) -> Result<(), Exceeded> {
 pub fn check_guards(dfa: &Dfa, budget: Budget) -> Result<(), Exceeded> {
     let limit = budget.products;
     let fits = Guards::new(dfa).are_below(limit);
-    if fits { Ok(()) } else { Err(Exceeded { what: "products of one guard", limit }) }
+    if fits { Ok(()) } else { Err(Exceeded { what: Resource::Products, limit }) }
 }
 
 fn exceeds(task: &Task, budget: Budget, exceeded: Exceeded) -> Error {
     let Exceeded { what, limit } = exceeded;
     let name = task.name.as_ref().map_or("the formula".to_owned(), |name| format!("task `{name}`"));
-    let setting = if what == "products of one guard" { "products" } else { what };
-    let whole = matches!(what, "edges" | "products of one guard");
+    let setting = match what {
+        Resource::States => Some("states"),
+        Resource::Nodes => Some("nodes"),
+        Resource::Edges => Some("edges"),
+        Resource::Products => Some("products"),
+        Resource::Operators => None,
+    };
+    let whole = matches!(what, Resource::Edges | Resource::Products);
     let span = if whole { task.span } else { culprit(&task.spec, budget) };
     let error = Error::new(
         Kind::Budget,
@@ -193,12 +199,13 @@ fn exceeds(task: &Task, budget: Budget, exceeded: Exceeded) -> Error {
     );
     let error = error
         .label("this is what grows")
-        .help("a conjunction can be kept factored, its parts side by side: write `#[factored]` before the task; n unordered goals are then 2n states, not 2^n")
-        ;
-    if setting == "operators" {
-        return error;
+        .help("a conjunction can be kept factored, its parts side by side: write `#[factored]` before the task; n unordered goals are then 2n states, not 2^n");
+    match setting {
+        Some(setting) => {
+            error.help(format!("or allow more: write `#[budget({setting} = …)]` before the task"))
+        }
+        None => error,
     }
-    error.help(format!("or allow more: write `#[budget({setting} = …)]` before the task"))
 }
 
 /// Where a subformula stands whose own automaton is too large, but that of none of its parts.

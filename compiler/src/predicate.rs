@@ -38,11 +38,67 @@ pub struct TermId(pub u32);
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct TaskId(pub u32);
 
+/// A number type of Rust.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[allow(missing_docs, reason = "each is the type of its name")]
+pub enum Numeric {
+    F64,
+    F32,
+    I8,
+    I16,
+    I32,
+    I64,
+    U8,
+    U16,
+    U32,
+    U64,
+}
+
+impl Numeric {
+    /// All of them, with their names.
+    const ALL: [(&str, Self); 10] = [
+        ("f64", Self::F64),
+        ("f32", Self::F32),
+        ("i8", Self::I8),
+        ("i16", Self::I16),
+        ("i32", Self::I32),
+        ("i64", Self::I64),
+        ("u8", Self::U8),
+        ("u16", Self::U16),
+        ("u32", Self::U32),
+        ("u64", Self::U64),
+    ];
+
+    /// What Rust calls it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        Self::ALL[self as usize].0
+    }
+
+    /// The least and the greatest of its values if they are whole numbers.
+    #[must_use]
+    pub const fn whole(self) -> Option<(i128, i128)> {
+        let bits = match self {
+            Self::F64 | Self::F32 => return None,
+            Self::I8 | Self::U8 => 8,
+            Self::I16 | Self::U16 => 16,
+            Self::I32 | Self::U32 => 32,
+            Self::I64 | Self::U64 => 64,
+        };
+        Some(match self {
+            Self::I8 | Self::I16 | Self::I32 | Self::I64 => {
+                (-(1 << (bits - 1)), (1 << (bits - 1)) - 1)
+            }
+            _ => (0, (1 << bits) - 1),
+        })
+    }
+}
+
 /// A scalar type of a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Scalar {
-    /// A Rust number type, by its name.
-    Number(&'static str),
+    /// A number.
+    Number(Numeric),
     /// `bool`
     Bool,
     /// A value of an enumeration.
@@ -58,36 +114,28 @@ impl Scalar {
     /// The scalar type that Rust calls `name`.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
-        const NUMBERS: [&str; 10] =
-            ["f64", "f32", "i8", "i16", "i32", "i64", "u8", "u16", "u32", "u64"];
         if name == "bool" {
             return Some(Self::Bool);
         }
-        NUMBERS.into_iter().find(|number| *number == name).map(Self::Number)
+        let found = Numeric::ALL.into_iter().find(|(known, _)| *known == name)?;
+        Some(Self::Number(found.1))
     }
 
     /// The least and the greatest of its values if they are whole numbers. The values of an
     /// enumeration are not numbers here.
     #[must_use]
-    pub fn whole(self) -> Option<(i128, i128)> {
-        let Self::Number(name) = self else { return None };
-        let signed = match name.chars().next()? {
-            'i' => true,
-            'u' => false,
-            _ => return None,
-        };
-        let bits: u32 = name[1..].parse().ok()?;
-        Some(match signed {
-            true => (-(1 << (bits - 1)), (1 << (bits - 1)) - 1),
-            false => (0, (1 << bits) - 1),
-        })
+    pub const fn whole(self) -> Option<(i128, i128)> {
+        match self {
+            Self::Number(numeric) => numeric.whole(),
+            _ => None,
+        }
     }
 
     /// What Rust calls it; a value of an enumeration is called by what the source calls that.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
-            Self::Number(name) => name,
+            Self::Number(numeric) => numeric.name(),
             Self::Bool => "bool",
             Self::Enum { .. } => "enum",
         }

@@ -14,6 +14,8 @@
 //! is the number of states times the size of their diagrams; a [`Budget`] bounds it. The known
 //! weakness is the order of the levels, which is that of first appearance and never searched for.
 
+use std::fmt;
+
 use rustc_hash::FxHashSet;
 
 use crate::arena::Memo;
@@ -54,12 +56,38 @@ impl Default for Budget {
     }
 }
 
+/// What a [`Budget`] limits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Resource {
+    /// [`Budget::states`]
+    States,
+    /// [`Budget::nodes`]
+    Nodes,
+    /// [`Budget::edges`]
+    Edges,
+    /// [`Budget::products`]
+    Products,
+    /// Operators of one formula, as many as a decision diagram has levels: no budget allows more.
+    Operators,
+}
+
+impl fmt::Display for Resource {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::States => "states",
+            Self::Nodes => "nodes",
+            Self::Edges => "edges",
+            Self::Products => "products of one guard",
+            Self::Operators => "operators",
+        })
+    }
+}
+
 /// A formula needs more than the [`Budget`] allows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Exceeded {
-    /// What ran out, as words: "states", "nodes", "operators", "edges" or
-    /// "products of one guard".
-    pub what: &'static str,
+    /// What ran out.
+    pub what: Resource,
     /// How many were allowed.
     pub limit: usize,
 }
@@ -139,7 +167,7 @@ impl<'a> Translation<'a> {
             self.obligations.push(id);
         }
         let levels = self.propositions as usize + self.obligations.len();
-        self.check("operators", levels, Store::MAX_LEVELS as usize)
+        self.check(Resource::Operators, levels, Store::MAX_LEVELS as usize)
     }
 
     fn expand_formulas(&mut self) -> Result<(), Exceeded> {
@@ -257,7 +285,7 @@ impl<'a> Translation<'a> {
             let target = self.target(root);
             transitions.push(target);
             self.check_nodes()?;
-            self.check("states", self.roots.len(), self.budget.states)?;
+            self.check(Resource::States, self.roots.len(), self.budget.states)?;
         }
         Ok(Dfa {
             propositions: self.spec.propositions().to_vec(),
@@ -308,10 +336,10 @@ impl<'a> Translation<'a> {
     }
 
     fn check_nodes(&self) -> Result<(), Exceeded> {
-        self.check("nodes", self.store.len(), self.budget.nodes)
+        self.check(Resource::Nodes, self.store.len(), self.budget.nodes)
     }
 
-    fn check(&self, what: &'static str, count: usize, limit: usize) -> Result<(), Exceeded> {
+    fn check(&self, what: Resource, count: usize, limit: usize) -> Result<(), Exceeded> {
         if count > limit { Err(Exceeded { what, limit }) } else { Ok(()) }
     }
 }

@@ -8,7 +8,7 @@ use super::{Checker, Names};
 use crate::ast::{Arithmetic, ItemKind, Node, NodeId};
 use crate::error::{Error, Kind};
 use crate::predicate::{
-    Arguments, ConditionId, Number, Parameter, ParameterType, Scalar, Step, Term, TermId,
+    Arguments, ConditionId, Number, Numeric, Parameter, ParameterType, Scalar, Step, Term, TermId,
 };
 
 impl Checker<'_> {
@@ -297,7 +297,7 @@ impl Checker<'_> {
             ParameterType::Scalar(Scalar::Enum { of, optional }) => {
                 format!("`{}{}`", self.enum_name(of), if optional { "?" } else { "" })
             }
-            ParameterType::Scalar(Scalar::Number("f64")) => "a number".to_owned(),
+            ParameterType::Scalar(Scalar::Number(Numeric::F64)) => "a number".to_owned(),
             ParameterType::Scalar(scalar) => format!("`{}`", scalar.name()),
             ParameterType::Host(span) => format!("`{}`", self.ast.source().slice(span)),
         }

@@ -6,7 +6,7 @@ use super::{Names, name, unit};
 use crate::ast::{Ast, Declaration, FieldType, Item, ItemKind, WrittenUnit, quoted};
 use crate::error::{Error, Kind};
 use crate::predicate::{
-    Enum, Field, Parameter, ParameterType, Scalar, State, Struct, TaskId, Type,
+    Enum, Field, Numeric, Parameter, ParameterType, Scalar, State, Struct, TaskId, Type,
 };
 use crate::source::Span;
 use crate::unit::{Unit, Units};
@@ -288,7 +288,7 @@ impl<'a> Scope<'a> {
             return Ok(ParameterType::Host(written.span));
         }
         match self.resolve(ast, written)? {
-            Type::Scalar(scalar) if scalar != Scalar::Number("f32") => {
+            Type::Scalar(scalar) if scalar != Scalar::Number(Numeric::F32) => {
                 Ok(ParameterType::Scalar(scalar))
             }
             _ => {

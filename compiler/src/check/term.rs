@@ -5,7 +5,9 @@ use super::role::{Role, Roles};
 use crate::ast::quoted;
 use crate::ast::{Arithmetic, Infix, ItemKind, Node, NodeId, Prefix};
 use crate::error::{Error, Kind};
-use crate::predicate::{Function, Number, ParameterType, Scalar, Step, Term, TermId, Type};
+use crate::predicate::{
+    Function, Number, Numeric, ParameterType, Scalar, Step, Term, TermId, Type,
+};
 use crate::source::Span;
 
 use super::Names;
@@ -541,9 +543,10 @@ pub(super) fn elements(length: u32) -> String {
 pub(super) fn a_type(scalar: Scalar) -> String {
     let name = scalar.name();
     match scalar {
-        Scalar::Number("i8" | "i16" | "i32" | "i64") => format!("an `{name}`"),
-        Scalar::Number("f64" | "f32") => format!("an `{name}`"),
-        Scalar::Number(_) => format!("a `{name}`"),
+        Scalar::Number(Numeric::U8 | Numeric::U16 | Numeric::U32 | Numeric::U64) => {
+            format!("a `{name}`")
+        }
+        Scalar::Number(_) => format!("an `{name}`"),
         Scalar::Bool => "true or false".to_owned(),
         Scalar::Enum { .. } => "a value of an enumeration".to_owned(),
     }

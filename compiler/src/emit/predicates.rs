@@ -12,8 +12,8 @@ use rustc_hash::FxHashMap;
 use crate::arena;
 use crate::ast::{Arithmetic, Comparison};
 use crate::predicate::{
-    Binding, Condition, ConditionId, Module, Number, ParameterType, PredicateId, Scalar, State,
-    Step, Term, TermId,
+    Binding, Condition, ConditionId, Module, Number, Numeric, ParameterType, PredicateId, Scalar,
+    State, Step, Term, TermId,
 };
 use crate::reserved::is_keyword;
 use crate::source::Span;
@@ -210,13 +210,15 @@ impl Writer<'_> {
             _ => None,
         };
         match (term, scalar) {
-            (Term::Number(Number(value)), Some(Scalar::Number(name))) if name != "f64" => {
-                whole(*value, name)
+            (Term::Number(Number(value)), Some(Scalar::Number(numeric)))
+                if numeric != Numeric::F64 =>
+            {
+                whole(*value, numeric.name())
             }
             (Term::Number(Number(value)), None) if value.fract() == 0.0 => whole(*value, ""),
-            (_, Some(Scalar::Number("f64"))) => self.term(id).0,
-            (_, Some(wanted @ Scalar::Number(name))) if own.is_some_and(|own| own != wanted) => {
-                let (name, value) = (ident(name), self.leaf(id));
+            (_, Some(Scalar::Number(Numeric::F64))) => self.term(id).0,
+            (_, Some(wanted @ Scalar::Number(numeric))) if own.is_some_and(|own| own != wanted) => {
+                let (name, value) = (ident(numeric.name()), self.leaf(id));
                 quote! { ::core::primitive::#name::from(#value) }
             }
             (_, Some(Scalar::Enum { optional: true, .. })) if !self.is_optional(id) => {
@@ -349,7 +351,7 @@ impl Writer<'_> {
         let runtime = self.scope.runtime;
         match self.scope.module.arena.term(id) {
             Term::Number(Number(value)) => (number(*value), 0),
-            Term::Place { scalar: Scalar::Number("f64") | Scalar::Enum { .. }, .. }
+            Term::Place { scalar: Scalar::Number(Numeric::F64) | Scalar::Enum { .. }, .. }
             | Term::Variant { .. }
             | Term::Absent
             | Term::Truth(_)
@@ -357,7 +359,9 @@ impl Writer<'_> {
             | Term::Parameter {
                 ty:
                     ParameterType::Host(_)
-                    | ParameterType::Scalar(Scalar::Number("f64") | Scalar::Bool | Scalar::Enum { .. }),
+                    | ParameterType::Scalar(
+                        Scalar::Number(Numeric::F64) | Scalar::Bool | Scalar::Enum { .. },
+                    ),
                 ..
             } => (self.leaf(id), 0),
             Term::Place { .. } | Term::Host { .. } | Term::Parameter { .. } => {
