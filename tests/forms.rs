@@ -96,7 +96,7 @@ fn guards_parse_back() {
     for formula in ["F a && F b && F c", "(a T b) && F c", "!(a && b) U (c || !d && X a)"] {
         let dfa = automaton(formula);
         for edge in dfa.edges().iter().filter(|edge| !edge.guard.iter().any(Vec::is_empty)) {
-            let label = sum::label(&dfa, &edge, sum::Notation::Ascii);
+            let label = sum::label(&dfa, edge, sum::Notation::Ascii);
             let again = automaton(&label);
             let same = |p: u32| {
                 let name = &dfa.propositions[p as usize];

@@ -11,6 +11,7 @@ mod hoa;
 mod language;
 mod leak;
 mod network;
+mod policies;
 mod possible;
 mod properties;
 mod random;

@@ -155,11 +155,22 @@ pub struct Dense {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Invalid {
     /// There are not as many layers as the shape says.
-    Layers,
+    Layers {
+        /// How many there are.
+        found: usize,
+        /// How many there should be.
+        expected: usize,
+    },
     /// A layer has not the sizes that the shape says.
     Size {
         /// Which layer.
         layer: usize,
+        /// Its weights, or its bias.
+        part: &'static str,
+        /// How many numbers there are.
+        found: usize,
+        /// How many there should be; `None`: more than fit into memory.
+        expected: Option<usize>,
     },
     /// A weight is infinite or not a number.
     NotFinite {
@@ -176,14 +187,22 @@ pub enum Invalid {
 impl fmt::Display for Invalid {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Layers => f.write_str("a network with too few or too many layers"),
-            Self::Size { layer } => write!(f, "layer {layer} is not of the shape's size"),
+            Self::Layers { found, expected } => {
+                write!(f, "`network.layers` has {found} layers, not {expected}")
+            }
+            Self::Size { layer, part, found, expected } => {
+                write!(f, "`network.layers[{layer}].{part}` ")?;
+                match expected {
+                    Some(expected) => write!(f, "has {found} entries, not {expected}"),
+                    None => f.write_str("would be too large"),
+                }
+            }
             Self::NotFinite { layer } => {
                 write!(f, "layer {layer} has a weight that is not a finite number")
             }
             Self::Shape { field } => write!(
                 f,
-                "`shape.{field}` cannot be: a network needs heads, actions, an action for each \
+                "`network.shape.{field}` cannot be: a network needs heads, actions, an action for each \
                  entity, units in each hidden layer, and channels only with entities"
             ),
         }
@@ -211,13 +230,19 @@ impl Network {
             return Err(Invalid::Shape { field });
         }
         let widths = shape.widths();
-        if layers.len() + 1 != widths.len() {
-            return Err(Invalid::Layers);
+        let (found, expected) = (layers.len(), widths.len() - 1);
+        if found != expected {
+            return Err(Invalid::Layers { found, expected });
         }
         for (layer, (dense, width)) in layers.iter().zip(widths.windows(2)).enumerate() {
-            let size = width[0].checked_mul(width[1]);
-            if Some(dense.weights.len()) != size || dense.bias.len() != width[1] {
-                return Err(Invalid::Size { layer });
+            let weights = width[0].checked_mul(width[1]);
+            let parts =
+                [("weights", &dense.weights, weights), ("bias", &dense.bias, Some(width[1]))];
+            for (part, numbers, expected) in parts {
+                let found = numbers.len();
+                if expected != Some(found) {
+                    return Err(Invalid::Size { layer, part, found, expected });
+                }
             }
             if !dense.weights.iter().chain(&dense.bias).all(|w| w.is_finite()) {
                 return Err(Invalid::NotFinite { layer });

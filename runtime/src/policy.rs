@@ -71,6 +71,8 @@ use alloc::vec::Vec;
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
+#[cfg(feature = "serde")]
+pub(crate) use document::checked;
 pub use document::{Document, Invalid, Starts, States, Training};
 
 use crate::augmented::{End, Labelled};

@@ -1,14 +1,18 @@
 //! Saved policies as Rust: what is told, and what is refused.
 
 use serde_json::{Value, json};
+use tltl::learn::Settings;
 use tltlc::emit::policy::rust;
 
 /// A policy composed of two skills in a world of two states.
 fn policy() -> Value {
-    let training = |task: &str, seed: u64| json!({"task": task, "settings": {"gamma": 0.95}, "steps": 1000, "episodes": 10, "seed": seed});
+    let settings = serde_json::to_value(Settings { gamma: 0.95, ..Settings::default() }).unwrap();
+    let training = |task: &str, seed: u64| json!({"task": task, "settings": settings, "steps": 1000, "episodes": 10, "seed": seed});
     let certificate = json!({
         "kind": "exact", "satisfied": 1.0, "steps": 2.5,
         "optimal_satisfied": 1.0, "optimal_steps": 2.5,
+        "regret_satisfied": 0.0, "regret_steps": 0.0,
+        "worst_regret_satisfied": 0.0, "fraction_optimal": 1.0,
     });
     json!({
         "format": "tltl-policy", "version": 2, "task": "both", "formula": "F a && F b",
@@ -35,11 +39,13 @@ fn emitted(policy: &Value) -> String {
 fn all_skills_are_named_with_their_seeds() {
     let text = emitted(&policy());
     assert!(text.contains("on `first` for 1000 steps in 10 episodes with seed 7, and on `second`"));
-    assert!(text.contains("with seed 8; settings gamma 0.95."), "shared settings once: {text}");
+    assert!(text.contains("with seed 8; settings alpha"), "{text}");
+    assert_eq!(text.matches("gamma 0.95").count(), 1, "shared settings once: {text}");
     let mut other = policy();
     other["training"][1]["settings"]["gamma"] = 0.9.into();
     let text = emitted(&other);
-    assert!(text.contains("seed 7, settings gamma 0.95; and") && text.contains("gamma 0.9."));
+    assert!(text.contains("seed 7, settings alpha") && text.contains("seed 8, settings alpha"));
+    assert!(text.contains("gamma 0.95,") && text.contains("gamma 0.9,"), "{text}");
 }
 
 #[test]
@@ -75,7 +81,10 @@ fn what_is_not_a_policy_is_refused() {
         bad[field] = value;
         rust(&bad.to_string()).unwrap_err()
     };
-    assert_eq!(refused("version", json!(1)), "policy version 1; this compiler reads 2");
+    assert!(
+        refused("version", json!(1))
+            .starts_with("policy version 1; this library reads 2 at line 1")
+    );
     assert!(
         refused("starts", json!({"state": [2], "satisfied": [1.0], "steps": [0.0]}))
             .contains("2 is not less than 2")

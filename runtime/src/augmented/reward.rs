@@ -11,7 +11,7 @@ use crate::task::{Error, Monitor};
 /// What a move of the automaton pays.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase", deny_unknown_fields))]
 pub enum Reward {
     /// 1 if the move leaves q, neither by a self-loop nor into the trap (the intent of the paper's
     /// Eq. 3A3).
@@ -41,6 +41,7 @@ impl Reward {
 /// The reward of the augmented MDP: a mode, and what is added to it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Rewards {
     /// What a move of the automaton pays.
     pub mode: Reward,

@@ -50,7 +50,7 @@ use crate::solve::Problem;
 /// A number that changes while learning goes on; n counts what its user counts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase", deny_unknown_fields))]
 pub enum Schedule {
     /// The same for ever.
     Constant(f64),
@@ -92,6 +92,7 @@ impl Schedule {
 /// How to learn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Settings {
     /// The discount factor, 0 ≤ γ < 1.
     pub gamma: f64,

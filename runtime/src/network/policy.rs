@@ -221,12 +221,8 @@ impl From<NetworkPolicy> for Document {
 
 impl Document {
     fn check(&self) -> Result<(), Invalid> {
-        if self.format != NetworkPolicy::FORMAT {
-            return Err(Invalid::Format(self.format.clone()));
-        }
-        if self.version != NetworkPolicy::VERSION {
-            return Err(Invalid::Version(self.version));
-        }
+        check_format(&self.format)?;
+        check_version(&self.version)?;
         self.check_automaton()?;
         let shape = self.network.shape();
         let named = |field, names: &[String], expected| match names.len() {
@@ -401,25 +397,32 @@ impl NetworkPolicy {
     }
 }
 
+fn check_format(found: &String) -> Result<(), Invalid> {
+    let known = found == NetworkPolicy::FORMAT;
+    if known { Ok(()) } else { Err(Invalid::Format(found.clone())) }
+}
+
+fn check_version(found: &u32) -> Result<(), Invalid> {
+    let known = *found == NetworkPolicy::VERSION;
+    if known { Ok(()) } else { Err(Invalid::Version(*found)) }
+}
+
 /// What says what a document is, looked at where it stands: before fields that only another format
 /// has.
 #[cfg(feature = "serde")]
 mod early {
     use alloc::string::String;
 
-    use serde::de::{Deserialize, Deserializer, Error};
+    use serde::de::Deserializer;
 
-    use super::{Invalid, NetworkPolicy};
+    use super::{check_format, check_version};
+    use crate::policy::checked;
 
     pub(super) fn format<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error> {
-        let format = String::deserialize(from)?;
-        let known = format == NetworkPolicy::FORMAT;
-        if known { Ok(format) } else { Err(D::Error::custom(Invalid::Format(format))) }
+        checked(from, check_format)
     }
 
     pub(super) fn version<'de, D: Deserializer<'de>>(from: D) -> Result<u32, D::Error> {
-        let version = u32::deserialize(from)?;
-        let known = version == NetworkPolicy::VERSION;
-        if known { Ok(version) } else { Err(D::Error::custom(Invalid::Version(version))) }
+        checked(from, check_version)
     }
 }

@@ -99,8 +99,10 @@ impl Starts {
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Document {
     /// [`Policy::FORMAT`].
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "early::format"))]
     pub format: String,
     /// [`Policy::VERSION`].
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "early::version"))]
     pub version: u32,
     /// The name of the task.
     pub task: String,
@@ -210,12 +212,8 @@ impl core::error::Error for Invalid {}
 
 impl Document {
     pub(super) fn check(&self) -> Result<(), Invalid> {
-        if self.format != Policy::FORMAT {
-            return Err(Invalid::Format(self.format.clone()));
-        }
-        if self.version != Policy::VERSION {
-            return Err(Invalid::Version(self.version));
-        }
+        check_format(&self.format)?;
+        check_version(&self.version)?;
         self.check_sizes()?;
         let n = self.automaton.states as usize;
         below("class", &self.class, self.classes)?;
@@ -269,6 +267,16 @@ impl Document {
     }
 }
 
+fn check_format(found: &String) -> Result<(), Invalid> {
+    let known = found == Policy::FORMAT;
+    if known { Ok(()) } else { Err(Invalid::Format(found.clone())) }
+}
+
+fn check_version(found: &u32) -> Result<(), Invalid> {
+    let known = *found == Policy::VERSION;
+    if known { Ok(()) } else { Err(Invalid::Version(*found)) }
+}
+
 fn check_certificate(certificate: &Certificate) -> Result<(), Invalid> {
     let Certificate { satisfied, optimal_satisfied, steps, .. } = certificate;
     probabilities("certificate.satisfied", &[*satisfied, *optimal_satisfied])?;
@@ -303,4 +311,33 @@ fn durations(field: &'static str, values: &[Option<f64>]) -> Result<(), Invalid>
     let bad =
         values.iter().position(|steps| steps.is_some_and(|steps| steps.is_nan() || steps < 0.0));
     bad.map_or(Ok(()), |at| Err(Invalid::Worth { field, at }))
+}
+
+/// What says what a document is, looked at where it stands: before fields that only another format
+/// has.
+#[cfg(feature = "serde")]
+mod early {
+    use alloc::string::String;
+
+    use serde::de::Deserializer;
+
+    use super::{check_format, check_version, checked};
+
+    pub(super) fn format<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error> {
+        checked(from, check_format)
+    }
+
+    pub(super) fn version<'de, D: Deserializer<'de>>(from: D) -> Result<u32, D::Error> {
+        checked(from, check_version)
+    }
+}
+
+/// A field that is refused on reading unless it passes `check`.
+#[cfg(feature = "serde")]
+pub(crate) fn checked<'de, T: Deserialize<'de>, E: fmt::Display, D: serde::Deserializer<'de>>(
+    from: D,
+    check: impl FnOnce(&T) -> Result<(), E>,
+) -> Result<T, D::Error> {
+    let field = T::deserialize(from)?;
+    check(&field).map_err(serde::de::Error::custom).map(|()| field)
 }

@@ -23,6 +23,7 @@ pub enum Kind {
 /// For a world without a model there is [`Estimate`](crate::estimate::Estimate).
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Certificate {
     /// What it rests on.
     #[cfg_attr(feature = "serde", serde(default))]

@@ -1,270 +1,374 @@
 //! A saved network policy as a Rust source file that stands alone: `static` weights and a forward
 //! pass, no dependency, no allocation, `no_std`.
 //!
-//! The file that comes in is the JSON that the runtime saves (its module `network::policy` has the
-//! schema). It is checked in full before anything is written. Weights are written as the shortest
-//! decimals that are read back exactly, and products are added up in the runtime's order, so the
-//! values are the runtime's to the last bit.
+//! Weights are written as the shortest decimals that are read back exactly, and products are added
+//! up in the runtime's order, so the values are the runtime's to the last bit. The text is laid out
+//! as rustfmt does with any of its settings, and clippy has nothing to say of it.
 
-mod source;
+use std::fmt::Write as _;
 
-use serde::Deserialize;
-use serde_json::Value;
+use tltl::estimate::{Estimate, Interval};
+use tltl::network::policy::{Document, NetworkPolicy, Training};
+use tltl::network::{Dense, Shape};
+use tltl::policy::States;
 
-/// The value of the field `format`.
-pub(super) const FORMAT: &str = "tltl-network-policy";
-/// The version that this compiler reads.
-const VERSION: u64 = 1;
+use super::policy::{known, paragraph};
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Policy {
-    #[serde(rename = "format")]
-    _format: String,
-    #[serde(rename = "version")]
-    _version: u64,
-    task: String,
-    formula: String,
-    actions: Vec<String>,
-    automaton: States,
-    #[serde(default)]
-    inputs: Vec<String>,
-    #[serde(default)]
-    channels: Vec<String>,
-    training: Vec<Training>,
-    #[serde(default)]
-    estimate: Option<Estimate>,
-    network: Network,
-}
+/// The columns that a line may have.
+const COLUMNS: usize = 96;
+/// What stands before weights: one that happens to look like a rounded π or √2 is no mistake,
+/// whatever clippy thinks.
+const LEARNED: &str = "#[rustfmt::skip]\n#[allow(clippy::approx_constant, reason = \"learned\")]";
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct States {
-    states: usize,
-    initial: usize,
-    accepting: Option<usize>,
-    trap: Option<usize>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Training {
-    task: String,
-    steps: u64,
-    episodes: u64,
-    updates: u64,
-    gamma: f64,
-    seed: u64,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Interval {
-    mean: f64,
-    low: f64,
-    high: f64,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Estimate {
-    episodes: u64,
-    horizon: u64,
-    confidence: f64,
-    satisfied: Interval,
-    lost: Interval,
-    steps: Option<Interval>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Network {
-    shape: Shape,
-    layers: Vec<Layer>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Shape {
-    inputs: usize,
-    hidden: Vec<usize>,
-    heads: usize,
-    actions: usize,
-    entities: usize,
-    channels: usize,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Layer {
-    /// Indexed `input * outputs + output`.
-    weights: Vec<f32>,
-    bias: Vec<f32>,
-}
-
-/// The Rust source of the network policy that `json` holds.
-///
-/// # Errors
-/// Says why `json` is not a network policy.
-pub fn rust(json: &str) -> Result<String, String> {
-    let value: Value = serde_json::from_str(json).map_err(|error| format!("not JSON: {error}"))?;
-    let format = value.get("format").and_then(Value::as_str).unwrap_or_default();
-    if format != FORMAT {
-        return Err(format!("not a network policy: format is `{format}`, not `{FORMAT}`"));
+/// The Rust source of a network policy.
+#[must_use]
+pub fn source(policy: &NetworkPolicy) -> String {
+    let (document, network) = (policy.document(), policy.network());
+    let mut text = documentation(document);
+    constants(&mut text, document);
+    let states = 0..document.automaton.states;
+    let heads = states.map(|q| format!("{:?}", policy.head(q)));
+    let _ = write!(
+        text,
+        "\n/// The head of each automaton state in which the task goes on.\n#[rustfmt::skip]\n\
+         static HEAD: [Option<usize>; AUTOMATON_STATES] = "
+    );
+    rows(&mut text, "", heads);
+    text.push_str(";\n");
+    let shape = network.shape();
+    let (last, hidden) = network.layers().split_last().expect("a network has heads");
+    for (i, layer) in hidden.iter().enumerate() {
+        dense(&mut text, i, layer);
     }
-    match value.get("version").and_then(Value::as_u64) {
-        Some(VERSION) => {}
-        Some(other) => {
-            return Err(format!("network policy version {other}; this compiler reads {VERSION}"));
+    head(&mut text, shape, last);
+    functions(&mut text, shape);
+    text
+}
+
+fn documentation(policy: &Document) -> String {
+    let States { states, initial, accepting, trap } = policy.automaton;
+    let mut text = "// Generated by `tltlc policy`; do not edit.\n".to_owned();
+    for content in [
+        format!("A network policy for the task `{}`: `{}`.", policy.task, policy.formula),
+        format!(
+            "Automaton: {states} states, initial {initial}, accepting {}, trap {}.",
+            known(accepting),
+            known(trap)
+        ),
+        sizes(policy),
+        trained(&policy.training),
+        policy.estimate.as_ref().map_or("Not tried in episodes.".to_owned(), estimated),
+        "An episode: `q` is the state of the task's automaton; until `is_done(q)`, take the action \
+         `act(q, inputs, entities)`, and let the automaton read the next state of the world."
+            .to_owned(),
+    ] {
+        paragraph(&mut text, &content);
+    }
+    text.truncate(text.len() - "//!\n".len());
+    text
+}
+
+fn sizes(policy: &Document) -> String {
+    let Shape { inputs, hidden, heads, actions, entities, channels } = policy.network.shape();
+    let pointing = match entities {
+        0 => String::new(),
+        1 => format!(", the last of which points at an entity of {}", count(*channels, "feature")),
+        _ => format!(
+            ", the last {entities} of which point at an entity each, of {}",
+            count(*channels, "feature")
+        ),
+    };
+    let units: Vec<String> = hidden.iter().map(usize::to_string).collect();
+    let hidden = match hidden.as_slice() {
+        [] => "no hidden layer".to_owned(),
+        [one] => format!("a hidden layer of {}", count(*one, "unit")),
+        _ => format!("hidden layers of {} units", units.join(" and ")),
+    };
+    let weights =
+        policy.network.layers().iter().map(|layer| layer.weights.len() + layer.bias.len());
+    format!(
+        "Network: {} of the state, {hidden}, {} for {}{pointing}; {} in all.",
+        count(*inputs, "feature"),
+        count(*heads, "head"),
+        count(*actions, "action"),
+        count(weights.sum(), "weight")
+    )
+}
+
+/// `1 head`, `2 heads`
+fn count(number: usize, what: &str) -> String {
+    format!("{number} {what}{}", if number == 1 { "" } else { "s" })
+}
+
+fn trained(all: &[Training]) -> String {
+    let entry = |training: &Training| {
+        let Training { task, steps, episodes, updates, gamma, seed } = training;
+        format!(
+            "on `{task}` for {steps} steps in {episodes} episodes, {updates} updates, gamma \
+             {gamma}, with seed {seed}"
+        )
+    };
+    let entries: Vec<String> = all.iter().map(entry).collect();
+    if all.is_empty() {
+        "How it was trained is not known.".to_owned()
+    } else {
+        format!("Trained {}.", entries.join("; and "))
+    }
+}
+
+/// What a policy was seen to be worth, as a sentence.
+pub(super) fn estimated(estimate: &Estimate) -> String {
+    let shown = |Interval { mean, low, high }: &Interval, digits: usize| {
+        format!("{mean:.digits$} ({low:.digits$} to {high:.digits$})")
+    };
+    let steps = estimate.steps.as_ref();
+    let steps = steps.map(|steps| format!(", E[steps | satisfied] = {}", shown(steps, 2)));
+    format!(
+        "Seen in {} episodes of at most {} steps: P(satisfied) = {}, P(lost) = {}{}; intervals of \
+         confidence {}.",
+        estimate.episodes,
+        estimate.horizon,
+        shown(&estimate.satisfied, 4),
+        shown(&estimate.lost, 4),
+        steps.unwrap_or_default(),
+        estimate.confidence
+    )
+}
+
+fn constants(text: &mut String, policy: &Document) {
+    let States { states, initial, accepting, trap } = policy.automaton;
+    let Shape { inputs, entities, channels, actions, .. } = *policy.network.shape();
+    let _ = write!(
+        text,
+        "
+/// The number of automaton states.
+pub const AUTOMATON_STATES: usize = {states};
+/// The automaton state before the first state of the world is read.
+pub const INITIAL: usize = {initial};
+/// The automaton state in which the task is accomplished.
+pub const ACCEPTING: Option<usize> = {accepting:?};
+/// The automaton state in which the task is lost.
+pub const TRAP: Option<usize> = {trap:?};
+/// The number of features of the state.
+pub const INPUTS: usize = {inputs};
+/// The number of entities that actions point at.
+pub const ENTITIES: usize = {entities};
+/// The number of features of each entity.
+pub const CHANNELS: usize = {channels};
+"
+    );
+    for (name, about, names, length) in [
+        ("ACTIONS", "What the actions are called.", &policy.actions, actions.to_string()),
+        ("INPUT_NAMES", "The features of the state.", &policy.inputs, "INPUTS".to_owned()),
+        ("CHANNEL_NAMES", "The features of an entity.", &policy.channels, "CHANNELS".to_owned()),
+    ] {
+        if !names.is_empty() {
+            listed(text, name, about, names, &length);
         }
-        None => return Err("the network policy has no version".to_owned()),
-    }
-    // Not from the value, whose numbers are of 64 bits: they would be rounded twice.
-    let policy: Policy = serde_json::from_str(json).map_err(|error| error.to_string())?;
-    policy.check()?;
-    Ok(source::write(&policy))
-}
-
-impl Policy {
-    fn check(&self) -> Result<(), String> {
-        self.network.check()?;
-        self.check_automaton()?;
-        let Shape { inputs, actions, channels, .. } = self.network.shape;
-        for (field, names, expected) in [
-            ("actions", &self.actions, actions),
-            ("inputs", &self.inputs, inputs),
-            ("channels", &self.channels, channels),
-        ] {
-            let found = names.len();
-            if found != expected && (found > 0 || field == "actions") {
-                return Err(format!(
-                    "`{field}` has {found} names, and the network has {expected} {field}"
-                ));
-            }
-        }
-        self.estimate.as_ref().map_or(Ok(()), Estimate::check)
-    }
-
-    fn check_automaton(&self) -> Result<(), String> {
-        let States { states, initial, accepting, trap } = self.automaton;
-        let fields = [("initial", Some(initial)), ("accepting", accepting), ("trap", trap)];
-        for (field, state) in fields {
-            if let Some(q) = state.filter(|&q| q >= states) {
-                return Err(format!("`automaton.{field}` is {q}, not less than {states}"));
-            }
-        }
-        if let Some(q) = accepting.filter(|_| accepting == trap) {
-            return Err(format!("automaton state {q} is both accepting and the trap"));
-        }
-        let decided = accepting.iter().chain(&trap).count();
-        match (self.network.shape.heads, states - decided) {
-            (found, expected) if found != expected => Err(format!(
-                "the network has {found} heads, and the task goes on in {expected} automaton states"
-            )),
-            _ => Ok(()),
-        }
-    }
-
-    /// The head of each automaton state in which the task goes on: they are in the same order.
-    fn heads(&self) -> impl Iterator<Item = Option<usize>> {
-        let States { states, accepting, trap, .. } = self.automaton;
-        let mut next = 0;
-        (0..states).map(move |q| {
-            let live = accepting != Some(q) && trap != Some(q);
-            next += usize::from(live);
-            live.then(|| next - 1)
-        })
     }
 }
 
-impl Estimate {
-    fn check(&self) -> Result<(), String> {
-        let probability = |interval: &Interval| {
-            [interval.low, interval.mean, interval.high].iter().all(|p| (0.0..=1.0).contains(p))
-        };
-        for (field, sound) in [
-            ("satisfied", probability(&self.satisfied)),
-            ("lost", probability(&self.lost)),
-            ("steps", self.steps.as_ref().is_none_or(|steps| steps.mean >= 0.0)),
-        ] {
-            if !sound {
-                return Err(format!(
-                    "`estimate.{field}` is not a probability, or not a number of steps"
-                ));
-            }
-        }
-        Ok(())
+/// A constant array of names, in one line or in rows that rustfmt leaves alone.
+fn listed(text: &mut String, name: &str, about: &str, names: &[String], length: &str) {
+    let short = format!("{names:?}");
+    let lone = short.chars().count() <= 60;
+    let skip = if lone { "" } else { "#[rustfmt::skip]\n" };
+    let _ = write!(text, "/// {about}\n{skip}pub const {name}: [&str; {length}] = ");
+    if lone {
+        text.push_str(&short);
+    } else {
+        rows(text, "", names.iter().map(|name| format!("{name:?}")));
     }
+    text.push_str(";\n");
 }
 
-impl Shape {
-    /// Actions that point at nothing.
-    fn plain(&self) -> usize {
-        self.actions - self.entities
-    }
-
-    /// What a head puts out: values, one that all pointing actions have in common, and a weight for
-    /// each channel.
-    fn head_width(&self) -> Option<usize> {
-        (self.plain() + usize::from(self.entities > 0)).checked_add(self.channels)
-    }
-
-    /// The widths of all layers, the input first; or which size does not go with the others.
-    fn widths(&self) -> Result<Vec<usize>, &'static str> {
-        let lone = self.entities == 0 && self.channels > 0;
-        for (field, wrong) in [
-            ("heads", self.heads == 0),
-            ("actions", self.actions == 0),
-            ("entities", self.entities > self.actions),
-            ("channels", lone || self.channels.checked_mul(self.entities).is_none()),
-            ("hidden", self.hidden.contains(&0)),
-        ] {
-            if wrong {
-                return Err(field);
-            }
-        }
-        let last = self.head_width().and_then(|width| width.checked_mul(self.heads));
-        let mut widths = vec![self.inputs];
-        widths.extend(&self.hidden);
-        widths.push(last.ok_or("heads")?);
-        Ok(widths)
-    }
+/// A hidden layer.
+fn dense(text: &mut String, i: usize, layer: &Dense) {
+    let outputs = layer.bias.len();
+    let inputs = layer.weights.len() / outputs;
+    let _ = write!(
+        text,
+        "\n/// Hidden layer {i}: a row for each input.\n{LEARNED}\n\
+         static WEIGHTS_{i}: [[f32; {outputs}]; {inputs}] = "
+    );
+    matrix(text, "", layer.weights.chunks(outputs));
+    let _ = write!(text, ";\n{LEARNED}\nstatic BIAS_{i}: [f32; {outputs}] = ");
+    rows(text, "", layer.bias.iter().map(|&w| literal(w)));
+    text.push_str(";\n");
 }
 
-impl Network {
-    fn check(&self) -> Result<(), String> {
-        let widths = self.shape.widths().map_err(|field| {
+/// The last layer, head by head.
+fn head(text: &mut String, shape: &Shape, layer: &Dense) {
+    let (heads, outputs) = (shape.heads, layer.bias.len());
+    let (width, inputs) = (outputs / heads, layer.weights.len() / outputs);
+    let _ = write!(
+        text,
+        "\n/// The heads: for each a row for each input.\n{LEARNED}\n\
+         static HEAD_WEIGHTS: [[[f32; {width}]; {inputs}]; {heads}] = ["
+    );
+    for head in 0..heads {
+        text.push_str("\n    ");
+        matrix(
+            text,
+            "    ",
+            layer.weights.chunks(outputs).map(|row| &row[head * width..][..width]),
+        );
+        text.push(',');
+    }
+    let _ = write!(text, "\n];\n{LEARNED}\nstatic HEAD_BIAS: [[f32; {width}]; {heads}] = ");
+    matrix(text, "", layer.bias.chunks(width));
+    text.push_str(";\n");
+}
+
+/// An array of arrays.
+fn matrix<'a>(text: &mut String, margin: &str, all: impl Iterator<Item = &'a [f32]>) {
+    let inner = format!("{margin}    ");
+    text.push('[');
+    for row in all {
+        let _ = write!(text, "\n{inner}");
+        rows(text, &inner, row.iter().map(|&w| literal(w)));
+        text.push(',');
+    }
+    let _ = write!(text, "\n{margin}]");
+}
+
+/// An array of entries: in one line, or in lines with as many as fit.
+fn rows(text: &mut String, margin: &str, entries: impl Iterator<Item = String>) {
+    let entries: Vec<String> = entries.collect();
+    let width = |entry: &String| entry.chars().count() + 2;
+    let start = text.len() - text.rfind('\n').map_or(0, |end| end + 1);
+    if start + entries.iter().map(width).sum::<usize>() <= COLUMNS {
+        let _ = write!(text, "[{}]", entries.join(", "));
+        return;
+    }
+    text.push('[');
+    let mut column = COLUMNS;
+    for entry in &entries {
+        if column + width(entry) > COLUMNS {
+            let _ = write!(text, "\n{margin}   ");
+            column = margin.len() + 3;
+        }
+        let _ = write!(text, " {entry},");
+        column += width(entry);
+    }
+    let _ = write!(text, "\n{margin}]");
+}
+
+/// The shortest decimal that is read back exactly.
+fn literal(weight: f32) -> String {
+    format!("{weight:?}")
+}
+
+fn functions(text: &mut String, shape: &Shape) {
+    let mut trunk = String::new();
+    for i in 0..shape.hidden.len() {
+        let from = if i == 0 { "inputs" } else { "&x" };
+        let _ = writeln!(trunk, "    let x = rectified(dense({from}, &WEIGHTS_{i}, &BIAS_{i}));");
+    }
+    let last = if shape.hidden.is_empty() { "inputs" } else { "&x" };
+    let out = format!("dense({last}, &HEAD_WEIGHTS[head], &HEAD_BIAS[head])");
+    let (plain, forward) = match shape.entities {
+        0 => (String::new(), format!("{trunk}    {out}\n")),
+        _ => (
             format!(
-                "`network.shape.{field}` cannot be: a network needs heads, actions, an action for \
-                 each entity, units in each hidden layer, and channels only with entities"
-            )
-        })?;
-        let (found, expected) = (self.layers.len(), widths.len() - 1);
-        if found != expected {
-            return Err(format!("`network.layers` has {found} layers, not {expected}"));
-        }
-        for (i, (layer, width)) in self.layers.iter().zip(widths.windows(2)).enumerate() {
-            let size = width[0].checked_mul(width[1]);
-            let parts = [("weights", &layer.weights, size), ("bias", &layer.bias, Some(width[1]))];
-            for (part, entries, expected) in parts {
-                check(&format!("network.layers[{i}].{part}"), entries, expected)?;
-            }
-        }
-        Ok(())
+                "\n/// The actions before this one point at nothing.\nconst PLAIN: usize = {};\n",
+                shape.actions - shape.entities
+            ),
+            format!("{trunk}    let out = {out};\n{POINTING}"),
+        ),
+    };
+    text.push_str(&plain);
+    let unused = if shape.entities == 0 { "_entities" } else { "entities" };
+    text.push_str(&FUNCTIONS.replace("FORWARD", &forward).replace("UNUSED", unused));
+    text.push_str(if shape.hidden.is_empty() { "" } else { RECTIFIED });
+}
+
+const FUNCTIONS: &str = "
+/// Q(s, q, ·): what each of the [`ACTIONS`] is worth in the state whose features are `inputs`, at
+/// the automaton state `q`; 0 where the task is decided.
+///
+/// `entities`, indexed `channel * ENTITIES + entity`, are the features of the entities. All
+/// features must be finite.
+///
+/// # Panics
+/// If `q` is not below [`AUTOMATON_STATES`].
+#[must_use]
+pub fn values(
+    q: usize,
+    inputs: &[f32; INPUTS],
+    entities: &[f32; CHANNELS * ENTITIES],
+) -> [f32; ACTIONS.len()] {
+    match HEAD[q] {
+        Some(head) => forward(head, inputs, entities),
+        None => [0.0; ACTIONS.len()],
     }
 }
 
-/// Refuses what has not `expected` entries, all finite.
-fn check(field: &str, entries: &[f32], expected: Option<usize>) -> Result<(), String> {
-    match expected {
-        Some(expected) if expected == entries.len() => {}
-        Some(expected) => {
-            return Err(format!("`{field}` has {} entries, not {expected}", entries.len()));
+/// The action of the largest value, an index of [`ACTIONS`], the lowest of equals: 0 where the task
+/// is decided.
+///
+/// # Panics
+/// If `q` is not below [`AUTOMATON_STATES`].
+#[must_use]
+pub fn act(q: usize, inputs: &[f32; INPUTS], entities: &[f32; CHANNELS * ENTITIES]) -> usize {
+    let values = values(q, inputs, entities);
+    let mut best = 0;
+    for (action, value) in values.iter().enumerate() {
+        if *value > values[best] {
+            best = action;
         }
-        None => return Err(format!("`{field}` would be too large")),
     }
-    match entries.iter().position(|w| !w.is_finite()) {
-        Some(at) => Err(format!("`{field}`, entry {at}: not a finite number of 32 bits")),
-        None => Ok(()),
-    }
+    best
 }
+
+/// Whether an episode ends at `q`: accomplished, or lost.
+#[must_use]
+pub fn is_done(q: usize) -> bool {
+    ACCEPTING == Some(q) || TRAP == Some(q)
+}
+
+fn forward(
+    head: usize,
+    inputs: &[f32; INPUTS],
+    UNUSED: &[f32; CHANNELS * ENTITIES],
+) -> [f32; ACTIONS.len()] {
+FORWARD}
+
+/// `x W + b`; what is 0 in `x` costs nothing.
+fn dense<const I: usize, const O: usize>(
+    x: &[f32; I],
+    weights: &[[f32; O]; I],
+    bias: &[f32; O],
+) -> [f32; O] {
+    let mut y = *bias;
+    for (x, row) in x.iter().zip(weights) {
+        if *x != 0.0 {
+            for (y, w) in y.iter_mut().zip(row) {
+                *y += x * w;
+            }
+        }
+    }
+    y
+}
+";
+
+/// What comes after the heads where actions point at entities.
+const POINTING: &str = "    let mut values = [out[PLAIN]; ACTIONS.len()];
+    values[..PLAIN].copy_from_slice(&out[..PLAIN]);
+    let query = &out[PLAIN + 1..];
+    for (weight, features) in query.iter().zip(entities.chunks_exact(ENTITIES)) {
+        for (value, feature) in values[PLAIN..].iter_mut().zip(features) {
+            *value += weight * feature;
+        }
+    }
+    values
+";
+
+const RECTIFIED: &str = "
+fn rectified<const N: usize>(mut x: [f32; N]) -> [f32; N] {
+    for value in &mut x {
+        *value = value.max(0.0);
+    }
+    x
+}
+";
