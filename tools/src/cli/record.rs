@@ -4,6 +4,8 @@
 //! JSON Lines a place may also be nested (`{"pose": {"x": 1}}`). Other columns are ignored.
 
 use crate::evaluate::{Input, InputKind};
+mod delimited;
+
 use serde_json::Value;
 use tltl_compiler::predicate::Scalar;
 
@@ -20,84 +22,12 @@ pub(super) fn read(name: &str, text: &str, inputs: &[Input]) -> Result<Vec<State
     let states = if text.trim_start().starts_with('{') {
         json_lines(name, text, inputs)?
     } else {
-        csv(name, text, inputs)?
+        delimited::read(name, text, inputs)?
     };
     if states.is_empty() {
         return Err(format!("{name}: a trajectory has at least one state, and this has none"));
     }
     Ok(states)
-}
-
-fn csv(name: &str, text: &str, inputs: &[Input]) -> Result<Vec<State>, String> {
-    let mut lines = (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty());
-    let Some((first, header)) = lines.next() else { return Ok(Vec::new()) };
-    let comma = [',', ';', '\t'].into_iter().find(|&comma| header.contains(comma)).unwrap_or(',');
-    let header = fields(name, first, header, comma)?;
-    let columns = columns(name, &header, inputs)?;
-    let mut states = Vec::new();
-    for (line, text) in lines {
-        let fields = fields(name, line, text, comma)?;
-        if fields.len() != header.len() {
-            let (here, there) = (fields.len(), header.len());
-            return Err(format!("{name}:{line}: {here} fields, but the header has {there}"));
-        }
-        let value = |(input, &column): (&Input, &usize)| {
-            let (place, field) = &fields[column];
-            number(field, input).map_err(|what| format!("{name}:{line}:{place}: {what}"))
-        };
-        let values = inputs.iter().zip(&columns).map(value).collect::<Result<_, _>>()?;
-        states.push(State { line, values });
-    }
-    Ok(states)
-}
-
-/// The column of each input.
-fn columns(name: &str, header: &[(usize, String)], inputs: &[Input]) -> Result<Vec<usize>, String> {
-    let named = |input: &Input| header.iter().position(|(_, column)| *column == input.name);
-    let missing: Vec<_> = inputs.iter().filter(|input| named(input).is_none()).collect();
-    if !missing.is_empty() {
-        let missing: Vec<_> = missing.iter().map(|input| format!("`{}`", input.name)).collect();
-        let found: Vec<_> = header.iter().map(|(_, column)| format!("`{column}`")).collect();
-        let word = if missing.len() == 1 { "the column" } else { "the columns" };
-        let (missing, found) = (missing.join(", "), found.join(", "));
-        return Err(format!("{name}: the task reads {word} {missing}; the file has {found}"));
-    }
-    for (at, (_, column)) in header.iter().enumerate() {
-        let wanted = inputs.iter().any(|input| input.name == *column);
-        if wanted && header[..at].iter().any(|(_, other)| other == column) {
-            return Err(format!("{name}: two columns are called `{column}`"));
-        }
-    }
-    Ok(inputs.iter().filter_map(named).collect())
-}
-
-/// The fields of a line, each with its column from 1; a field may stand in double quotes.
-fn fields(
-    name: &str,
-    line: usize,
-    text: &str,
-    comma: char,
-) -> Result<Vec<(usize, String)>, String> {
-    let mut fields = vec![(1, String::new())];
-    let mut quoted = false;
-    let mut characters = (1..).zip(text.chars()).peekable();
-    while let Some((column, c)) = characters.next() {
-        let Some((_, field)) = fields.last_mut() else { break };
-        match c {
-            '"' if quoted && characters.peek().is_some_and(|(_, next)| *next == '"') => {
-                characters.next();
-                field.push('"');
-            }
-            '"' => quoted = !quoted,
-            c if c == comma && !quoted => fields.push((column + 1, String::new())),
-            c => field.push(c),
-        }
-    }
-    if quoted {
-        return Err(format!("{name}:{line}: a quote is not closed"));
-    }
-    fields.iter_mut().for_each(|(_, field)| *field = field.trim().to_owned());
-    Ok(fields)
 }
 
 fn json_lines(name: &str, text: &str, inputs: &[Input]) -> Result<Vec<State>, String> {
