@@ -19,7 +19,7 @@
 //! of ids, operands first, so no pass recurses on what an author nests.
 //!
 //! Beside the pipeline stand [`factor`] (a conjunction taken apart), [`judge`] (what can hardly be
-//! meant) and [`hoa`] (automata of other tools). Every user of the macros builds this crate, so what only
+//! meant) and `hoa` (automata of other tools, with the feature of that name). Every user of the macros builds this crate, so what only
 //! the command line needs (pictures, other formats, explanations) is in the package `tltlc`.
 //!
 //! The compiler never learns, and does not know the runtime: the Rust that it writes is their only
@@ -45,6 +45,7 @@ pub mod emit;
 pub mod error;
 pub mod factor;
 pub mod guard;
+#[cfg(feature = "hoa")]
 pub mod hoa;
 pub mod judge;
 pub mod linear;

@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use proc_macro2::{Span, TokenStream, TokenTree};
 use quote::{quote, quote_spanned};
 use tltl_compiler::compile::{self, Compiled};
+#[cfg(feature = "hoa")]
 use tltl_compiler::emit::foreign;
 use tltl_compiler::emit::rust::{self, Options};
 use tltl_compiler::error::{Error, Errors, Kind, Style};
-use tltl_compiler::hoa;
 use tltl_compiler::source::Source;
 use tltl_compiler::translate::Budget;
 
@@ -57,20 +57,35 @@ pub(crate) fn include(input: TokenStream) -> TokenStream {
     let options =
         |host| Options { runtime: arguments.runtime.clone(), state: arguments.state.clone(), host };
     if arguments.path.ends_with(".hoa") {
-        let code = match hoa::read(&source) {
-            Ok(read) => {
-                let name = read.name.unwrap_or_else(|| arguments.stem());
-                foreign::automaton(&name, &read.dfa, &arguments.runtime)
-            }
-            Err(error) => failure(&Errors::from(error), &source, span),
-        };
-        return arguments.module(&code);
+        return arguments.module(&automaton(&source, &arguments));
     }
     let code = match compile::file(&source, Budget::default()) {
         Ok(compiled) => emit(&compiled, &options(&|_| TokenStream::new())),
         Err(errors) => failure(&errors, &source, span),
     };
     arguments.module(&code)
+}
+
+/// An automaton in HOA as a task.
+#[cfg(feature = "hoa")]
+fn automaton(source: &Source, arguments: &Arguments) -> TokenStream {
+    match tltl_compiler::hoa::read(source) {
+        Ok(read) => {
+            let name = read.name.unwrap_or_else(|| arguments.stem());
+            foreign::automaton(&name, &read.dfa, &arguments.runtime)
+        }
+        Err(error) => failure(&Errors::from(error), source, arguments.span),
+    }
+}
+
+/// Most users of the macros have no automata of other tools: reading them is not built for all.
+#[cfg(not(feature = "hoa"))]
+fn automaton(source: &Source, arguments: &Arguments) -> TokenStream {
+    let message = format!(
+        "`{}` is an automaton: to read it, turn on the feature `hoa` of the crate `tltl`",
+        source.name()
+    );
+    quote_spanned! { arguments.span => ::core::compile_error! { #message } }
 }
 
 /// The mistakes of a file, with its own lines and carets, at the path that names it.
@@ -227,4 +242,19 @@ fn split(input: TokenStream) -> Vec<Vec<TokenTree>> {
         }
     }
     parts
+}
+
+#[cfg(test)]
+mod tests {
+    use quote::quote;
+
+    use super::include;
+
+    #[test]
+    fn an_automaton_needs_the_feature() {
+        let code = include(quote! { "../tests/data/avoid.hoa" }).to_string();
+        let told = code.contains("turn on the feature `hoa` of the crate `tltl`");
+        assert_eq!(told, !cfg!(feature = "hoa"), "{code}");
+        assert_eq!(code.contains("pub fn task"), cfg!(feature = "hoa"), "{code}");
+    }
 }

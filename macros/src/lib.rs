@@ -49,7 +49,7 @@ pub fn tltl(input: TokenStream) -> TokenStream {
 /// include_tltl!("tasks/gridworld.tltl");                        // pub mod gridworld { … }
 /// include_tltl!("tasks/gridworld.tltl", state = world::Cell);   // over a type of yours
 /// include_tltl!("tasks/gridworld.tltl", mod = tasks, crate = path::to::tltl);
-/// include_tltl!("automata/order.hoa");                          // order::task(first, second)
+/// include_tltl!("automata/order.hoa");                          // order::task(first, second); feature `hoa`
 /// ```
 ///
 /// The path is relative to the package. The module has the declared types, for each predicate a

@@ -17,8 +17,8 @@
 //! | `policy`, `network`, `controller`, `shield`, `checkpoint` | results into what runs, is safe, and is kept |
 //!
 //! Features: `std` and `macros` are on; `alloc` is all that owns tables; `serde` saves and loads;
-//! `libm` has `sqrt` and the like without `std`; `deep` learns with networks (Rust 1.95). Where
-//! tasks are only followed, `macros` alone is enough, and builds quickest: no allocation, no `std`.
+//! `libm` has `sqrt` and the like without `std`; `deep` learns with networks (Rust 1.95); `hoa` lets
+//! `include_tltl!` read automata of other tools. Where tasks are only followed, `macros` alone is enough, and builds quickest: no allocation, no `std`.
 //!
 #![cfg_attr(all(feature = "std", feature = "macros"), doc = "```")]
 #![cfg_attr(not(all(feature = "std", feature = "macros")), doc = "```ignore")]

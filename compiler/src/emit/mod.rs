@@ -2,6 +2,7 @@
 //!
 //! Every function here is a function of its arguments alone: same automaton, same bytes.
 
+#[cfg(feature = "hoa")]
 pub mod foreign;
 mod implementation;
 pub mod predicates;
