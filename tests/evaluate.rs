@@ -7,7 +7,7 @@ use tltl::tltl;
 use tltl_compiler::compile::{self, Compiled};
 use tltl_compiler::source::Source;
 use tltl_compiler::translate::Budget;
-use tltlc::evaluate::{Evaluator, Reading, run};
+use tltlc::evaluate::{Columns, Evaluator, Scratch, run};
 use tltlc::semantics;
 
 /// The same file as the macro has it.
@@ -62,41 +62,51 @@ fn field(arm: &Arm, name: &str) -> f64 {
     }
 }
 
-/// What generated code says of a state; nothing if a predicate is not a number.
-fn generated<P: Predicates<Arm>>(task: &Task<P>, arm: &Arm) -> Option<Reading> {
-    let mut reading = Reading::default();
-    for i in 0..task.automaton().propositions.len() {
-        reading.robustness.push(task.predicate_robustness(i, arm).ok()?);
-    }
+/// The robustness of each predicate as generated code has it; nothing if one is not a number.
+fn generated<P: Predicates<Arm>>(task: &Task<P>, arm: &Arm) -> Option<Vec<u64>> {
     for q in 0..task.automaton().states {
-        task.next(q, arm).unwrap();
+        let numbers = (0..task.automaton().propositions.len())
+            .all(|i| task.predicate_robustness(i, arm).is_ok());
+        assert_eq!(task.next(q, arm).is_ok(), numbers, "{arm:?}");
     }
-    Some(reading)
+    let rho = |i| task.predicate_robustness(i, arm).ok().map(f64::to_bits);
+    (0..task.automaton().propositions.len()).map(rho).collect()
 }
 
 fn agree<P: Predicates<Arm>>(compiled: &Compiled, task: &Task<P>, trajectory: &[Arm]) {
     let place = |name: Option<&str>| name == Some(task.name());
     let tasks = &compiled.module.tasks;
     let at = tasks.iter().position(|task| place(task.name.as_deref())).unwrap();
-    let mut evaluator = Evaluator::new(&compiled.module, &tasks[at]).unwrap();
-    let names: Vec<_> = evaluator.inputs().iter().map(|input| input.name.clone()).collect();
-    let mut readings = Vec::new();
-    for arm in trajectory {
-        let inputs: Vec<f64> = names.iter().map(|name| field(arm, name)).collect();
-        let (read, expected) = (evaluator.read(&inputs).ok(), generated(task, arm));
-        let bits = |reading: &Reading| -> Vec<u64> {
-            reading.robustness.iter().map(|rho| rho.to_bits()).collect()
-        };
-        assert_eq!(read.as_ref().map(bits), expected.as_ref().map(bits), "{arm:?}");
-        let Some(read) = read else { break };
-        readings.push(read);
+    let evaluator = Evaluator::new(&compiled.module, &tasks[at]).unwrap();
+    let names: Vec<_> = evaluator.inputs().iter().map(|input| input.name.as_str()).collect();
+    let row = |arm| names.iter().map(move |name| field(arm, name));
+    let numbers: Vec<f64> = trajectory.iter().flat_map(row).collect();
+    let mut scratch = Scratch::default();
+    let mut length = trajectory.len();
+    let width = evaluator.propositions();
+    let mut rho = vec![0.0; length * width];
+    let columns =
+        |length| Columns::of_rows(length, names.len(), &numbers[..length * names.len()]).unwrap();
+    if let Err(nan) = evaluator.rho(&columns(length), &mut scratch, &mut rho) {
+        let arm = &trajectory[nan.row];
+        assert!(task.predicate_robustness(nan.predicate as usize, arm).is_err(), "{arm:?}");
+        assert!((0..nan.predicate).all(|p| task.predicate_robustness(p as usize, arm).is_ok()));
+        length = nan.row;
     }
-    let trajectory = &trajectory[..readings.len()];
-    let rho = |p: u32, t: usize| readings[t].robustness[p as usize];
-    let robustness = semantics::robustness(&tasks[at].spec, readings.len(), rho);
-    assert_eq!(robustness, task.robustness(trajectory).unwrap());
+    for (arm, rho) in trajectory[..length].iter().zip(rho.chunks(width)) {
+        let rho: Vec<_> = rho.iter().map(|rho| rho.to_bits()).collect();
+        assert_eq!(Some(rho), generated(task, arm), "{arm:?}");
+    }
+    let trajectory = &trajectory[..length];
+    let robustness = evaluator.robustness(&columns(length), &mut scratch).unwrap();
+    assert_eq!(robustness.to_bits(), task.robustness(trajectory).unwrap().to_bits());
+    let of = |p: u32, t: usize| rho[t * width + p as usize];
+    assert_eq!(semantics::robustness(&tasks[at].spec, length, of), robustness);
+    let mut labels = vec![false; length * width];
+    evaluator.labels(&columns(length), &mut scratch, &mut labels).unwrap();
     let mut q = 0;
-    for (row, arm) in run(&compiled.automata[at].dfa, readings).iter().zip(trajectory) {
+    for (row, arm) in run(&compiled.automata[at].dfa, length, &labels, &rho).iter().zip(trajectory)
+    {
         assert_eq!(row.progress, task.progress_robustness(q, arm).unwrap(), "{arm:?}");
         q = task.next(q, arm).unwrap();
         assert_eq!(row.state, q, "{arm:?}");
@@ -129,12 +139,15 @@ fn rust_code_is_refused() {
 fn a_bare_formula_reads_propositions_and_variables() {
     let source = Source::new("formula", "a && x < y && (x < 3 || !a)");
     let compiled = compile::formula(&source, Budget::default()).unwrap();
-    let mut evaluator = Evaluator::new(&compiled.module, &compiled.module.tasks[0]).unwrap();
+    let evaluator = Evaluator::new(&compiled.module, &compiled.module.tasks[0]).unwrap();
     let names: Vec<_> = evaluator.inputs().iter().map(|input| input.name.as_str()).collect();
     assert_eq!(names, ["x", "y", "a"]);
-    let read = evaluator.read(&[1.0, 1.0, 0.0]).unwrap();
-    assert_eq!(read.robustness, [0.0, 0.0, 2.0]);
-    assert_eq!(read.holds, [false, false, true]);
+    let columns = Columns::of_rows(1, 3, &[1.0, 1.0, 0.0]).unwrap();
+    let (mut rho, mut labels, mut scratch) = ([0.0; 3], [true; 3], Scratch::default());
+    evaluator.rho(&columns, &mut scratch, &mut rho).unwrap();
+    assert_eq!(rho, [0.0, 0.0, 2.0]);
+    evaluator.labels(&columns, &mut scratch, &mut labels).unwrap();
+    assert_eq!(labels, [false, false, true]);
     let phi = tltl! { |s: &[f64; 3]| F (s[0] < s[1]) };
     assert_eq!(phi.robustness(&[[1.0, 1.0, 0.0]]).unwrap(), 0.0);
 }

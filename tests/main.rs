@@ -1,5 +1,6 @@
 //! The tests of the whole line, from source text to verdicts and learned policies.
 
+mod columns;
 mod corpus;
 mod evaluate;
 mod factored;
@@ -15,6 +16,7 @@ mod policies;
 mod possible;
 mod properties;
 mod random;
+mod rowwise;
 mod semantics;
 #[rustfmt::skip]
 mod static_corpus;

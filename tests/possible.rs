@@ -11,7 +11,7 @@ use proptest::prelude::*;
 use tltl_compiler::arithmetic;
 use tltl_compiler::check;
 use tltl_compiler::source::Source;
-use tltlc::evaluate::Evaluator;
+use tltlc::evaluate::{Columns, Evaluator, Scratch};
 
 /// A condition of some comparisons, as text.
 fn condition(comparison: impl Strategy<Value = String> + 'static) -> impl Strategy<Value = String> {
@@ -76,18 +76,20 @@ fn letters(
     let literals = |letter: &[bool]| (0..).zip(letter.iter().copied()).collect::<Vec<_>>();
     let claimed = all.filter(|letter| !possible.excludes(&literals(letter))).collect();
 
-    let mut evaluator = Evaluator::new(&module, task).unwrap();
+    let evaluator = Evaluator::new(&module, task).unwrap();
     let ranges: Vec<_> = evaluator.inputs().iter().map(|input| values(&input.name)).collect();
-    let mut shown = BTreeSet::new();
     let count: usize = ranges.iter().map(Vec::len).product();
+    let mut numbers = Vec::new();
     for mut place in 0..count {
-        let mut inputs = Vec::new();
         for range in &ranges {
-            inputs.push(range[place % range.len()]);
+            numbers.push(range[place % range.len()]);
             place /= range.len();
         }
-        shown.insert(evaluator.read(&inputs).unwrap().holds);
     }
+    let columns = Columns::of_rows(count, ranges.len(), &numbers).unwrap();
+    let mut labels = vec![false; count * conditions.len()];
+    evaluator.labels(&columns, &mut Scratch::default(), &mut labels).unwrap();
+    let shown = labels.chunks(conditions.len()).map(<[bool]>::to_vec).collect();
     [claimed, shown]
 }
 

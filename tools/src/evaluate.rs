@@ -1,19 +1,28 @@
-//! Predicates at a given state, without a Rust compiler: what reads recorded trajectories.
+//! Predicates and robustness of recorded states, without a Rust compiler: whole columns at a time.
 //!
-//! The interpreter does, operation by operation, what the generated code of
-//! [`emit::predicates`](tltl_compiler::emit) does, so both give the same bits: `x < c` has robustness
-//! `c - x` and holds iff that is positive, whatever the rounding. It knows declared states and bare
-//! formulas; a predicate that is Rust code is refused. One pass over the arenas a state, operands
-//! first, without recursion.
+//! An [`Evaluator`] is compiled once from the predicates of a task, and reads arrays where they lie:
+//! columns of any number type, with strides. It does, operation by operation, what the generated
+//! code of [`emit::predicates`](tltl_compiler::emit) does, so both give the same bits: `x < c` has
+//! robustness `c - x` and holds iff that is positive, whatever the rounding. It knows declared
+//! states and bare formulas; a predicate that is Rust code is refused. Nothing is allocated for a
+//! row or a block of rows, and an evaluator is never written to: threads share it, each with a
+//! [`Scratch`] of its own.
+
+mod column;
+mod compile;
+mod program;
 
 use std::fmt;
 
-use tltl_compiler::ast::Comparison;
 use tltl_compiler::dfa::{Dfa, Guards, State};
 use tltl_compiler::guard::Cube;
-use tltl_compiler::predicate::{
-    Condition, ConditionId, Function, Module, Number, Scalar, Task, Term, TermId,
-};
+use tltl_compiler::predicate::{ConditionId, Module, PredicateId, Scalar, Task};
+
+pub use column::{Column, Columns, Numbers, WrongLength};
+pub use program::Scratch;
+
+use compile::{Inputs, Reading};
+use program::Program;
 
 /// One number that the predicates of a task read from a state.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -34,7 +43,8 @@ pub enum InputKind {
     Place(Scalar),
     /// A variable of a bare formula: any real number.
     Variable,
-    /// A free proposition of a bare formula, by its robustness: it holds iff that is positive.
+    /// A free proposition of a bare formula, by its robustness: it holds iff that is positive. A
+    /// truth value is 1 or -1.
     Proposition,
 }
 
@@ -48,10 +58,6 @@ pub enum Unreadable {
     /// It is an element of an array whose index depends on the state.
     Element(String),
 }
-
-/// A predicate whose value is not a number: its proposition.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct NotANumber(pub u32);
 
 impl fmt::Display for Unreadable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -69,241 +75,206 @@ impl fmt::Display for Unreadable {
 
 impl std::error::Error for Unreadable {}
 
-/// What the predicates of a task say of one state, by proposition.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Reading {
-    /// The robustness of each.
-    pub robustness: Vec<f64>,
-    /// Whether each holds.
-    pub holds: Vec<bool>,
+/// A predicate whose value is not a number, in the first row in which there is one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct NotANumber {
+    /// The row, from 0.
+    pub row: usize,
+    /// The predicate: the number of its proposition.
+    pub predicate: u32,
 }
 
-impl Reading {
-    /// The robustness of a guard: max over its cubes, min over their literals.
-    #[must_use]
-    pub fn guard(&self, cubes: &[Cube]) -> f64 {
-        let literal = |&(proposition, value): &(u32, bool)| {
-            let rho = self.robustness[proposition as usize];
-            if value { rho } else { -rho }
-        };
-        let cube = |cube: &Cube| cube.iter().map(literal).fold(f64::INFINITY, f64::min);
-        cubes.iter().map(cube).fold(f64::NEG_INFINITY, f64::max)
+impl fmt::Display for NotANumber {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "predicate {} is not a number (NaN) in row {}", self.predicate, self.row)
     }
 }
 
-/// The predicates of a task, ready to read states.
-pub struct Evaluator<'a> {
-    module: &'a Module,
-    /// The condition of each proposition.
-    roots: Vec<ConditionId>,
-    /// What the roots need, operands first.
-    conditions: Vec<ConditionId>,
-    terms: Vec<TermId>,
+impl std::error::Error for NotANumber {}
+
+/// The predicates of a task and its formula, ready to read states.
+///
+/// ```
+/// use tltl_compiler::{compile, source::Source, translate::Budget};
+/// use tltlc::evaluate::{Column, Columns, Evaluator, Scratch};
+///
+/// let source = Source::new("formula", "(x < 1) T (y > 2)");
+/// let compiled = compile::formula(&source, Budget::SHOWN)?;
+/// let evaluator = Evaluator::new(&compiled.module, &compiled.module.tasks[0])?;
+///
+/// let (x, y) = ([0.0, 1.0, 2.0], [1_i32, 2, 3]);
+/// let columns = [Column::from(&x[..]), Column::from(&y[..])];
+/// let columns = Columns::new(3, &columns)?;
+/// let mut scratch = Scratch::default();
+/// let mut letters = [0; 3];
+/// evaluator.letters(&columns, &mut scratch, &mut letters)?;
+/// assert_eq!(letters, [0b01, 0b00, 0b10]);
+/// assert_eq!(evaluator.robustness(&columns, &mut scratch)?, 1.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Evaluator {
     inputs: Vec<Input>,
-    /// The input that a term is, and that a free proposition is.
-    read_terms: Vec<(TermId, usize)>,
-    read_conditions: Vec<(ConditionId, usize)>,
-    /// The value of each term, the robustness and truth of each condition, by number.
-    numbers: Vec<f64>,
-    values: Vec<(f64, bool)>,
+    propositions: usize,
+    truth: Program,
+    rho: Program,
+    formula: Program,
 }
 
-impl<'a> Evaluator<'a> {
-    /// The predicates of `task`, which is one of `module`.
+impl Evaluator {
+    /// The predicates and the formula of `task`, which is one of `module`.
     ///
     /// # Errors
-    /// If one of them is Rust code.
-    pub fn new(module: &'a Module, task: &Task) -> Result<Self, Unreadable> {
-        let root =
-            |id: &tltl_compiler::predicate::PredicateId| module.predicates[id.0 as usize].condition;
-        let mut evaluator = Self {
-            module,
-            roots: task.predicates.iter().map(root).collect(),
-            conditions: Vec::new(),
-            terms: Vec::new(),
-            inputs: Vec::new(),
-            read_terms: Vec::new(),
-            read_conditions: Vec::new(),
-            numbers: vec![0.0; module.arena.terms().len()],
-            values: vec![(0.0, false); module.arena.conditions().len()],
-        };
-        evaluator.collect();
-        evaluator.find_inputs()?;
-        Ok(evaluator)
+    /// If a predicate is Rust code.
+    pub fn new(module: &Module, task: &Task) -> Result<Self, Unreadable> {
+        let root = |id: &PredicateId| module.predicates[id.0 as usize].condition;
+        let roots: Vec<ConditionId> = task.predicates.iter().map(root).collect();
+        let inputs = Inputs::find(module, &roots)?;
+        Ok(Self {
+            propositions: roots.len(),
+            truth: compile::predicates(module, &inputs, &roots, Reading::Truth),
+            rho: compile::predicates(module, &inputs, &roots, Reading::Robustness),
+            formula: compile::formula(module, &inputs, &roots, task),
+            inputs: inputs.inputs,
+        })
     }
 
-    /// What a state must give, in the order in which [`read`](Self::read) takes it.
+    /// What a row must give, in the order of the columns.
     #[must_use]
     pub fn inputs(&self) -> &[Input] {
         &self.inputs
     }
 
-    fn collect(&mut self) {
-        self.conditions = self.module.conditions_of(self.roots.clone());
-        self.terms = self.module.terms_of(&self.conditions);
+    /// The number of predicates.
+    #[must_use]
+    pub fn propositions(&self) -> usize {
+        self.propositions
     }
 
-    fn find_inputs(&mut self) -> Result<(), Unreadable> {
-        for at in 0..self.terms.len() {
-            let id = self.terms[at];
-            let (name, kind) = match self.module.arena.term(id) {
-                Term::Place { scalar, .. } if self.is_fixed(id) => {
-                    (self.module.display_term(id).to_string(), InputKind::Place(*scalar))
-                }
-                Term::Place { .. } => {
-                    let text = self.module.display_term(id).to_string();
-                    return Err(Unreadable::Element(text));
-                }
-                Term::Variable(name) => (name.clone(), InputKind::Variable),
-                Term::Host { text, .. } => return Err(Unreadable::Rust(text.clone())),
-                Term::Parameter { name, .. } => return Err(Unreadable::Parameter(name.clone())),
-                _ => continue,
-            };
-            let values = self.values_of(kind);
-            let input = self.input(Input { name, kind, values });
-            self.read_terms.push((id, input));
-        }
-        for at in 0..self.conditions.len() {
-            let id = self.conditions[at];
-            match self.module.arena.condition(id) {
-                Condition::Free(name) => {
-                    let name = name.clone();
-                    let input = self.input(Input {
-                        name,
-                        kind: InputKind::Proposition,
-                        values: Vec::new(),
-                    });
-                    self.read_conditions.push((id, input));
-                }
-                Condition::Value { text, .. } => return Err(Unreadable::Rust(text.clone())),
-                _ => {}
-            }
-        }
-        Ok(())
-    }
-
-    /// Whether no index on the way to a place depends on the state.
-    fn is_fixed(&self, place: TermId) -> bool {
-        let arena = &self.module.arena;
-        let varies = |id: &TermId| matches!(arena.term(*id), Term::Place { .. });
-        !arena.term(place).operands().iter().any(varies)
-    }
-
-    fn values_of(&self, kind: InputKind) -> Vec<String> {
-        match kind {
-            InputKind::Place(Scalar::Enum { of, .. }) => {
-                self.module.enums[of as usize].variants.clone()
-            }
-            _ => Vec::new(),
-        }
-    }
-
-    fn input(&mut self, input: Input) -> usize {
-        let known = self.inputs.iter().position(|other| *other == input);
-        known.unwrap_or_else(|| {
-            self.inputs.push(input);
-            self.inputs.len() - 1
+    /// Which predicates hold in each row: `labels` has, row after row, a truth value for each
+    /// predicate.
+    ///
+    /// # Errors
+    /// The first predicate that is not a number, in the first row in which there is one; `labels`
+    /// then say nothing.
+    ///
+    /// # Panics
+    /// If the columns are not as many as the inputs, or `labels` is not of that size.
+    #[track_caller]
+    pub fn labels(
+        &self,
+        columns: &Columns<'_>,
+        scratch: &mut Scratch,
+        labels: &mut [bool],
+    ) -> Result<(), NotANumber> {
+        let width = self.propositions;
+        assert_eq!(labels.len(), columns.rows() * width, "a label for each row and predicate");
+        self.run(&self.truth, columns, scratch, &mut |first, predicate, truths| {
+            let rows = labels[first * width..].chunks_exact_mut(width);
+            rows.zip(truths).for_each(|(row, &truth)| row[predicate as usize] = truth > 0.0);
         })
     }
 
-    /// What the predicates say of the state with these [`inputs`](Self::inputs).
+    /// Which predicates hold in each row, as bits: bit i is predicate i.
     ///
     /// # Errors
-    /// The first predicate that is not a number there.
+    /// As for [`labels`](Self::labels).
     ///
     /// # Panics
-    /// If there are fewer values than inputs.
-    pub fn read(&mut self, inputs: &[f64]) -> Result<Reading, NotANumber> {
-        for &(id, input) in &self.read_terms {
-            self.numbers[id.0 as usize] = inputs[input];
-        }
-        for &(id, input) in &self.read_conditions {
-            self.values[id.0 as usize] = (inputs[input], inputs[input] > 0.0);
-        }
-        for &id in &self.terms {
-            self.numbers[id.0 as usize] = self.number(id);
-        }
-        for &id in &self.conditions {
-            self.values[id.0 as usize] = self.value(id);
-        }
-        let mut reading = Reading::default();
-        for (proposition, root) in (0..).zip(&self.roots) {
-            let (rho, holds) = self.values[root.0 as usize];
-            if rho.is_nan() {
-                return Err(NotANumber(proposition));
+    /// If the columns are not as many as the inputs, there is not a letter for each row, or there
+    /// are more than 64 predicates.
+    #[track_caller]
+    pub fn letters(
+        &self,
+        columns: &Columns<'_>,
+        scratch: &mut Scratch,
+        letters: &mut [u64],
+    ) -> Result<(), NotANumber> {
+        assert!(self.propositions <= 64, "a letter has at most 64 propositions");
+        assert_eq!(letters.len(), columns.rows(), "a letter for each row");
+        letters.fill(0);
+        self.run(&self.truth, columns, scratch, &mut |first, predicate, truths| {
+            for (letter, &truth) in letters[first..].iter_mut().zip(truths) {
+                *letter |= u64::from(truth > 0.0) << predicate;
             }
-            reading.robustness.push(rho);
-            reading.holds.push(holds);
-        }
-        Ok(reading)
+        })
     }
 
-    fn number(&self, id: TermId) -> f64 {
-        let of = |id: TermId| self.numbers[id.0 as usize];
-        match *self.module.arena.term(id) {
-            Term::Number(Number(value)) => value,
-            Term::Variant { number, .. } => f64::from(number),
-            Term::Absent => -1.0,
-            Term::Truth(value) => f64::from(u8::from(value)),
-            Term::Place { .. } | Term::Variable(_) | Term::Host { .. } | Term::Parameter { .. } => {
-                of(id)
-            }
-            Term::Negate(a) => -of(a),
-            Term::Calculate(operator, a, b) => operator.value(of(a), of(b)),
-            Term::Call(Function::Min, a, Some(b)) => least(of(a), of(b)),
-            Term::Call(Function::Max, a, Some(b)) => greatest(of(a), of(b)),
-            Term::Call(function, a, b) => function.value(of(a), b.map_or(0.0, of)),
-        }
+    /// The robustness ρ(s, p) of each predicate in each row: `rho` has, row after row, a number for
+    /// each predicate.
+    ///
+    /// # Errors
+    /// As for [`labels`](Self::labels).
+    ///
+    /// # Panics
+    /// If the columns are not as many as the inputs, or `rho` is not of that size.
+    #[track_caller]
+    pub fn rho(
+        &self,
+        columns: &Columns<'_>,
+        scratch: &mut Scratch,
+        rho: &mut [f64],
+    ) -> Result<(), NotANumber> {
+        let width = self.propositions;
+        assert_eq!(rho.len(), columns.rows() * width, "a number for each row and predicate");
+        self.run(&self.rho, columns, scratch, &mut |first, predicate, numbers| {
+            let rows = rho[first * width..].chunks_exact_mut(width);
+            rows.zip(numbers).for_each(|(row, &number)| row[predicate as usize] = number);
+        })
     }
 
-    fn value(&self, id: ConditionId) -> (f64, bool) {
-        let of = |id: ConditionId| self.values[id.0 as usize];
-        let number = |id: TermId| self.numbers[id.0 as usize];
-        match *self.module.arena.condition(id) {
-            Condition::Truth(true) => (f64::INFINITY, true),
-            Condition::Truth(false) => (f64::NEG_INFINITY, false),
-            Condition::Not(a) => (-of(a).0, !of(a).1),
-            Condition::And(a, b) => (least(of(a).0, of(b).0), of(a).1 & of(b).1),
-            Condition::Or(a, b) => (greatest(of(a).0, of(b).0), of(a).1 | of(b).1),
-            Condition::Compare(comparison, a, b) if self.module.arena.is_value(a) => {
-                let holds = comparison.holds(number(a), number(b));
-                (if holds { 1.0 } else { -1.0 }, holds)
+    /// The robustness of the formula on the trajectory that the rows are, in one pass from its end;
+    /// -∞ for an empty one.
+    ///
+    /// # Errors
+    /// As for [`labels`](Self::labels).
+    ///
+    /// # Panics
+    /// If the columns are not as many as the inputs.
+    #[track_caller]
+    pub fn robustness(
+        &self,
+        columns: &Columns<'_>,
+        scratch: &mut Scratch,
+    ) -> Result<f64, NotANumber> {
+        let mut whole = f64::NEG_INFINITY;
+        self.run(&self.formula, columns, scratch, &mut |first, output, numbers| {
+            if first == 0 && output as usize == self.propositions {
+                whole = numbers[0];
             }
-            Condition::Compare(comparison, a, b) => compare(comparison, number(a), number(b)),
-            Condition::Apply { meaning, .. } => of(meaning),
-            Condition::Bool(place) => {
-                let holds = number(place) != 0.0;
-                (if holds { 1.0 } else { -1.0 }, holds)
+        })?;
+        Ok(whole)
+    }
+
+    #[track_caller]
+    fn run(
+        &self,
+        program: &Program,
+        columns: &Columns<'_>,
+        scratch: &mut Scratch,
+        emit: &mut dyn FnMut(usize, u32, &[f64]),
+    ) -> Result<(), NotANumber> {
+        assert_eq!(columns.width(), self.inputs.len(), "a column for each input");
+        let mut first: Option<NotANumber> = None;
+        program.run(columns, scratch, &mut |start, output, numbers| {
+            // The formula is not a number only where a predicate is not.
+            if (output as usize) < self.propositions
+                && let Some(at) = not_a_number(numbers)
+            {
+                let found = NotANumber { row: start + at, predicate: output };
+                first = Some(first.map_or(found, |first| first.min(found)));
             }
-            Condition::Is(predicate) => of(self.module.predicates[predicate.0 as usize].condition),
-            Condition::Free(_) | Condition::Value { .. } => of(id),
-        }
+            emit(start, output, numbers);
+        });
+        first.map_or(Ok(()), Err)
     }
 }
 
-/// The lesser of two numbers; not a number if one of them is none.
-fn least(a: f64, b: f64) -> f64 {
-    if a < b || a.is_nan() { a } else { b }
-}
-
-/// The greater of two numbers; not a number if one of them is none.
-fn greatest(a: f64, b: f64) -> f64 {
-    if a > b || a.is_nan() { a } else { b }
-}
-
-/// Robustness and truth; the truth is that of the difference, as generated code has it.
-fn compare(comparison: Comparison, a: f64, b: f64) -> (f64, bool) {
-    let rho = match comparison {
-        Comparison::Less | Comparison::AtMost => b - a,
-        Comparison::Greater | Comparison::AtLeast => a - b,
-        Comparison::Equal => -(a - b).abs(),
-        Comparison::Unequal => (a - b).abs(),
-    };
-    let holds = match comparison {
-        Comparison::Less | Comparison::Greater | Comparison::Unequal => rho > 0.0,
-        Comparison::AtMost | Comparison::AtLeast | Comparison::Equal => rho >= 0.0,
-    };
-    (rho, holds)
+/// The place of the first NaN. To look for its place only if there is one is faster: that loop is
+/// vectorised.
+fn not_a_number(numbers: &[f64]) -> Option<usize> {
+    let any = numbers.iter().fold(false, |any, number| any | number.is_nan());
+    any.then(|| numbers.iter().position(|number| number.is_nan()))?
 }
 
 /// One row of a trajectory, read by a task's automaton.
@@ -313,21 +284,31 @@ pub struct Row {
     pub state: State,
     /// ρ(s, D_φ^q), q being the state before: by how much the row moves the automaton on.
     pub progress: f64,
-    /// What the predicates say of the row.
-    pub reading: Reading,
 }
 
-/// Runs the automaton of a task over the readings of a trajectory.
+/// Runs the automaton of a task over a trajectory, given the labels and the robustness of its
+/// predicates, row after row.
 #[must_use]
-pub fn run(dfa: &Dfa, readings: Vec<Reading>) -> Vec<Row> {
+pub fn run(dfa: &Dfa, rows: usize, labels: &[bool], rho: &[f64]) -> Vec<Row> {
     let mut guards = Guards::new(dfa);
     let mut progress: Vec<Option<Vec<Cube>>> = vec![None; dfa.len()];
-    let mut q = 0;
-    let row = |reading: Reading| {
+    let (mut q, width) = (0, dfa.propositions.len());
+    let row = |row: usize| {
+        let at = |proposition: u32| row * width + proposition as usize;
         let cubes = progress[q as usize].get_or_insert_with(|| guards.progress(q));
-        let progress = reading.guard(cubes);
-        q = dfa.next(q, |p| reading.holds[p as usize]);
-        Row { state: q, progress, reading }
+        let progress = guard(cubes, |proposition| rho[at(proposition)]);
+        q = dfa.next(q, |proposition| labels[at(proposition)]);
+        Row { state: q, progress }
     };
-    readings.into_iter().map(row).collect()
+    (0..rows).map(row).collect()
+}
+
+/// The robustness of a guard: max over its cubes, min over their literals.
+fn guard(cubes: &[Cube], rho: impl Fn(u32) -> f64) -> f64 {
+    let literal = |&(proposition, value): &(u32, bool)| {
+        let rho = rho(proposition);
+        if value { rho } else { -rho }
+    };
+    let cube = |cube: &Cube| cube.iter().map(literal).fold(f64::INFINITY, f64::min);
+    cubes.iter().map(cube).fold(f64::NEG_INFINITY, f64::max)
 }

@@ -2,8 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::evaluate::{Evaluator, Reading, Row, run as run_automaton};
-use crate::semantics;
+use crate::evaluate::{Columns, Evaluator, Row, Scratch, run as run_automaton};
 use serde::Serialize;
 use tltl_compiler::dfa::{Automata, Dfa, State};
 use tltl_compiler::predicate::{Module, Task};
@@ -82,19 +81,25 @@ fn judge(
     automata: &Automata,
     (name, recorded): (&str, &str),
 ) -> Result<Judged, String> {
-    let mut evaluator = Evaluator::new(module, task).map_err(|rust| rust.to_string())?;
+    let evaluator = Evaluator::new(module, task).map_err(|rust| rust.to_string())?;
     let record = record::read(name, recorded, evaluator.inputs())?;
-    let mut readings: Vec<Reading> = Vec::with_capacity(record.len());
-    for row in &record {
-        let reading = evaluator.read(&row.values).map_err(|nan| {
-            let predicate = &task.spec.propositions()[nan.0 as usize];
-            format!("{name}:{}: the predicate `{predicate}` is not a number (NaN) there", row.line)
-        })?;
-        readings.push(reading);
-    }
-    let rho = |p: u32, t: usize| readings[t].robustness[p as usize];
-    let robustness = semantics::robustness(&task.spec, readings.len(), rho);
-    let rows = run_automaton(&automata.dfa, readings);
+    let rows = record.len();
+    let numbers: Vec<f64> = record.iter().flat_map(|state| state.values.iter().copied()).collect();
+    let columns = Columns::of_rows(rows, evaluator.inputs().len(), &numbers)
+        .map_err(|error| error.to_string())?;
+    let mut scratch = Scratch::default();
+    let width = evaluator.propositions();
+    let (mut labels, mut rho) = (vec![false; rows * width], vec![0.0; rows * width]);
+    let robustness = evaluator.labels(&columns, &mut scratch, &mut labels).and_then(|()| {
+        evaluator.rho(&columns, &mut scratch, &mut rho)?;
+        evaluator.robustness(&columns, &mut scratch)
+    });
+    let robustness = robustness.map_err(|nan| {
+        let predicate = &task.spec.propositions()[nan.predicate as usize];
+        let line = record[nan.row].line;
+        format!("{name}:{line}: the predicate `{predicate}` is not a number (NaN) there")
+    })?;
+    let rows = run_automaton(&automata.dfa, rows, &labels, &rho);
     let verdicts = rows.iter().map(|row| verdict(&automata.dfa, row.state)).collect();
     Ok(Judged { rows, verdicts, robustness })
 }

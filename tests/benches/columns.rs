@@ -1,0 +1,146 @@
+//! Predicates column by column against the same predicates row by row, and the automaton's moves
+//! many at a time against one by one.
+//!
+//! `cargo bench -p tltl-tests --bench columns`: nanoseconds a row, the least of some repetitions,
+//! and how many times faster the columns are. All results are compared with the row-wise ones, bit
+//! for bit, before any time is printed.
+
+#[path = "../rowwise.rs"]
+mod rowwise;
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use rowwise::Rowwise;
+use tltl_compiler::compile::{self, Compiled};
+use tltl_compiler::source::Source;
+use tltl_compiler::translate::Budget;
+use tltlc::evaluate::{Column, Columns, Evaluator, Scratch};
+use tltlc::semantics;
+
+/// Five comparisons of two columns.
+const PLAIN: &str = "state Plane { x: f64, y: f64 }
+    predicate east = x > 0.5
+    predicate band = -0.25 <= y <= 0.25
+    predicate apart = abs(x - y) > 0.3
+    predicate low = 2 * x + y < 0.7 || y < -0.5
+    predicate on = x - y != 0
+    task t = F east && ((apart || low || on) U band)";
+
+/// Five predicates that call functions.
+const CALLS: &str = "state Plane { x: f64, y: f64 }
+    predicate near = hypot(x - 1, y) < 0.5
+    predicate circle = sqrt(x * x + y * y) <= 0.8
+    predicate wave = sin(3 * x) > y
+    predicate ahead = atan2(y, x) < 0.7
+    predicate both = near && !wave
+    task t = F near && ((wave || ahead || both) U circle)";
+
+fn main() {
+    println!(
+        "{:<8}{:>9}{:>11}{:>22}{:>22}{:>24}{:>22}",
+        "file", "rows", "row by row", "labels", "rho", "labels, f32 strided", "robustness"
+    );
+    for (name, text) in [("plain", PLAIN), ("calls", CALLS)] {
+        let source = Source::new(name, text);
+        let compiled = compile::file(&source, Budget::default()).expect("it is a file");
+        for rows in [1_000, 100_000, 1_000_000] {
+            Case::new(&compiled, rows).measure(name);
+        }
+    }
+}
+
+struct Case<'a> {
+    compiled: &'a Compiled,
+    evaluator: Evaluator,
+    rows: usize,
+    /// The state of each row, all representable as `f32`.
+    states: Vec<[f32; 2]>,
+    x: Vec<f64>,
+    y: Vec<f64>,
+}
+
+impl<'a> Case<'a> {
+    fn new(compiled: &'a Compiled, rows: usize) -> Self {
+        let task = &compiled.module.tasks[0];
+        let evaluator = Evaluator::new(&compiled.module, task).expect("it can be read");
+        let at = |t: usize, speed: f64| ((t as f64 * speed).sin() * 1.5) as f32;
+        let states: Vec<_> = (0..rows).map(|t| [at(t, 0.7), at(t, 1.1)]).collect();
+        let column = |i: usize| states.iter().map(|state| f64::from(state[i])).collect();
+        Self { compiled, evaluator, rows, x: column(0), y: column(1), states }
+    }
+
+    fn measure(&self, name: &str) {
+        let (labels, rho) = self.by_rows();
+        let columns = [Column::from(&self.x[..]), Column::from(&self.y[..])];
+        let columns = Columns::new(self.rows, &columns).expect("equal columns");
+        let flat = self.states.as_flattened();
+        let strided = [0, 1].map(|i| Column::strided(flat, i, 2, self.rows).expect("inside"));
+        let strided = Columns::new(self.rows, &strided).expect("equal columns");
+        let mut scratch = Scratch::default();
+
+        let by_rows = self.nanoseconds(|| self.by_rows());
+        let mut found = vec![false; labels.len()];
+        let [by_labels, by_strided] = [columns, strided].map(|columns| {
+            let time = self.nanoseconds(|| {
+                self.evaluator.labels(&columns, &mut scratch, &mut found).expect("numbers");
+            });
+            assert_eq!(found, labels, "labels");
+            time
+        });
+        let mut found = vec![0.0; rho.len()];
+        let by_rho = self.nanoseconds(|| {
+            self.evaluator.rho(&columns, &mut scratch, &mut found).expect("numbers");
+        });
+        let bits = |numbers: &[f64]| numbers.iter().map(|rho| rho.to_bits()).collect::<Vec<_>>();
+        assert!(bits(&found) == bits(&rho), "rho");
+
+        let width = self.evaluator.propositions();
+        let spec = &self.compiled.module.tasks[0].spec;
+        let semantics = || {
+            let (_, rho) = self.by_rows();
+            semantics::robustness(spec, self.rows, |p, t| rho[t * width + p as usize])
+        };
+        let mut whole = 0.0;
+        let robustness = self.nanoseconds(|| {
+            whole = self.evaluator.robustness(&columns, &mut scratch).expect("numbers");
+        });
+        assert_eq!(whole, semantics(), "robustness");
+        let by_semantics = self.nanoseconds(semantics);
+
+        let times = |time: f64, before: f64| format!("{time:.2}: {:.1} x", before / time);
+        println!(
+            "{name:<8}{:>9}{by_rows:>11.1}{:>22}{:>22}{:>24}{:>22}",
+            self.rows,
+            times(by_labels, by_rows),
+            times(by_rho, by_rows),
+            times(by_strided, by_rows),
+            times(robustness, by_semantics)
+        );
+    }
+
+    /// Labels and robustness of all rows, row by row.
+    fn by_rows(&self) -> (Vec<bool>, Vec<f64>) {
+        let task = &self.compiled.module.tasks[0];
+        let mut rowwise = Rowwise::new(&self.compiled.module, task, self.evaluator.inputs());
+        let (mut labels, mut rho) = (Vec::new(), Vec::new());
+        for (&x, &y) in self.x.iter().zip(&self.y) {
+            let reading = rowwise.read(&[x, y]).expect("numbers");
+            labels.extend(reading.holds);
+            rho.extend(reading.robustness);
+        }
+        (labels, rho)
+    }
+
+    /// The least nanoseconds a row of some repetitions.
+    fn nanoseconds<T>(&self, mut run: impl FnMut() -> T) -> f64 {
+        let start = Instant::now();
+        let mut least = f64::INFINITY;
+        while start.elapsed().as_secs_f64() < 0.3 || least == f64::INFINITY {
+            let start = Instant::now();
+            black_box(run());
+            least = least.min(start.elapsed().as_secs_f64());
+        }
+        least * 1e9 / self.rows as f64
+    }
+}

@@ -1,0 +1,385 @@
+//! The predicates of a task, and its formula, as straight-line programs.
+//!
+//! Operations are those of the generated code, one by one (`emit::predicates` of the compiler), so
+//! both give the same bits.
+
+use rustc_hash::FxHashMap;
+use tltl_compiler::ast::{Arithmetic, Comparison};
+use tltl_compiler::predicate::{
+    Condition, ConditionId, Function, Module, Number, Scalar, Task, Term, TermId,
+};
+use tltl_compiler::spec::{Formula, Spec};
+
+use super::program::{Carry, Operand, Operation, Program, Step};
+use super::{Input, InputKind, Unreadable};
+
+/// Which reading of a predicate is computed.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Reading {
+    Robustness,
+    Truth,
+}
+
+/// What the predicates of a task read, and where.
+pub(super) struct Inputs {
+    pub(super) inputs: Vec<Input>,
+    of_terms: FxHashMap<TermId, usize>,
+    of_conditions: FxHashMap<ConditionId, usize>,
+}
+
+impl Inputs {
+    /// Those of some conditions.
+    ///
+    /// # Errors
+    /// If one of them is Rust code.
+    pub(super) fn find(module: &Module, roots: &[ConditionId]) -> Result<Self, Unreadable> {
+        let mut found = Self {
+            inputs: Vec::new(),
+            of_terms: FxHashMap::default(),
+            of_conditions: FxHashMap::default(),
+        };
+        let conditions = module.conditions_of(roots.to_vec());
+        for id in module.terms_of(&conditions) {
+            if let Some(input) = term_input(module, id)? {
+                let place = found.place(input);
+                found.of_terms.insert(id, place);
+            }
+        }
+        for id in conditions {
+            match module.arena.condition(id) {
+                Condition::Free(name) => {
+                    let (name, kind) = (name.clone(), InputKind::Proposition);
+                    let place = found.place(Input { name, kind, values: Vec::new() });
+                    found.of_conditions.insert(id, place);
+                }
+                Condition::Value { text, .. } => return Err(Unreadable::Rust(text.clone())),
+                _ => {}
+            }
+        }
+        Ok(found)
+    }
+
+    fn place(&mut self, input: Input) -> usize {
+        let known = self.inputs.iter().position(|other| *other == input);
+        known.unwrap_or_else(|| {
+            self.inputs.push(input);
+            self.inputs.len() - 1
+        })
+    }
+}
+
+/// The input that a term is, if it is one.
+fn term_input(module: &Module, id: TermId) -> Result<Option<Input>, Unreadable> {
+    let (name, kind) = match module.arena.term(id) {
+        Term::Place { scalar, .. } => {
+            let text = module.display_term(id).to_string();
+            if !is_fixed(module, id) {
+                return Err(Unreadable::Element(text));
+            }
+            (text, InputKind::Place(*scalar))
+        }
+        Term::Variable(name) => (name.clone(), InputKind::Variable),
+        Term::Host { text, .. } => return Err(Unreadable::Rust(text.clone())),
+        Term::Parameter { name, .. } => return Err(Unreadable::Parameter(name.clone())),
+        _ => return Ok(None),
+    };
+    let values = match kind {
+        InputKind::Place(Scalar::Enum { of, .. }) => module.enums[of as usize].variants.clone(),
+        _ => Vec::new(),
+    };
+    Ok(Some(Input { name, kind, values }))
+}
+
+/// Whether no index on the way to a place depends on the state.
+fn is_fixed(module: &Module, place: TermId) -> bool {
+    let varies = |id: &TermId| matches!(module.arena.term(*id), Term::Place { .. });
+    !module.arena.term(place).operands().iter().any(varies)
+}
+
+/// The program that emits each predicate of `roots` as the output of its number.
+pub(super) fn predicates(
+    module: &Module,
+    inputs: &Inputs,
+    roots: &[ConditionId],
+    reading: Reading,
+) -> Program {
+    let mut compiler = Compiler::new(module, inputs, reading);
+    compiler.predicates(roots);
+    Program::new(compiler.steps, 0)
+}
+
+/// The program that emits the robustness of each predicate, and after these the robustness of the
+/// task's formula on the trajectory from each row on.
+pub(super) fn formula(
+    module: &Module,
+    inputs: &Inputs,
+    roots: &[ConditionId],
+    task: &Task,
+) -> Program {
+    let mut compiler = Compiler::new(module, inputs, Reading::Robustness);
+    let predicates = compiler.predicates(roots);
+    let carries = compiler.formula(&task.spec, &predicates);
+    Program::new(compiler.steps, carries)
+}
+
+struct Compiler<'a> {
+    module: &'a Module,
+    inputs: &'a Inputs,
+    reading: Reading,
+    steps: Vec<Step>,
+    terms: FxHashMap<TermId, Operand>,
+    conditions: FxHashMap<ConditionId, Operand>,
+}
+
+impl<'a> Compiler<'a> {
+    fn new(module: &'a Module, inputs: &'a Inputs, reading: Reading) -> Self {
+        Self {
+            module,
+            inputs,
+            reading,
+            steps: Vec::new(),
+            terms: FxHashMap::default(),
+            conditions: FxHashMap::default(),
+        }
+    }
+
+    fn step(&mut self, operation: Operation, a: Operand, b: Operand) -> Operand {
+        self.steps.push(Step::new(operation, a, b));
+        Operand::Register(self.steps.len() as u32 - 1)
+    }
+
+    fn unary(&mut self, operation: Operation, a: Operand) -> Operand {
+        self.step(operation, a, Operand::Constant(0.0))
+    }
+
+    /// An operand as the result of a step.
+    fn result(&mut self, operand: Operand) -> Operand {
+        match operand {
+            Operand::Register(_) => operand,
+            Operand::Constant(_) => self.unary(Operation::Copy, operand),
+        }
+    }
+
+    /// Emits every predicate as soon as it is known, so that its register is free again.
+    fn predicates(&mut self, roots: &[ConditionId]) -> Vec<Operand> {
+        let mut known = Vec::with_capacity(roots.len());
+        for (output, &root) in (0..).zip(roots) {
+            let operand = self.condition(root);
+            let operand = self.result(operand);
+            self.unary(Operation::Emit(output), operand);
+            known.push(operand);
+        }
+        known
+    }
+
+    /// A condition, and first what it needs and is not known yet.
+    fn condition(&mut self, root: ConditionId) -> Operand {
+        let mut open = vec![root];
+        while let Some(&id) = open.last() {
+            let before = open.len();
+            if !self.conditions.contains_key(&id) {
+                let operands = self.operands(id);
+                open.extend(operands.into_iter().filter(|id| !self.conditions.contains_key(id)));
+            }
+            if open.len() == before {
+                open.pop();
+                if !self.conditions.contains_key(&id) {
+                    let operand = self.one_condition(id);
+                    self.conditions.insert(id, operand);
+                }
+            }
+        }
+        self.conditions[&root]
+    }
+
+    fn operands(&self, id: ConditionId) -> Vec<ConditionId> {
+        match self.module.arena.condition(id) {
+            Condition::Is(predicate) => {
+                vec![self.module.predicates[predicate.0 as usize].condition]
+            }
+            condition => condition.operands(),
+        }
+    }
+
+    fn one_condition(&mut self, id: ConditionId) -> Operand {
+        let of = |id: ConditionId| self.conditions[&id];
+        match *self.module.arena.condition(id) {
+            Condition::Truth(value) => self.truth(value),
+            Condition::Not(a) => self.unary(Operation::Negate, of(a)),
+            Condition::And(a, b) => self.step(Operation::Least, of(a), of(b)),
+            Condition::Or(a, b) => self.step(Operation::Greatest, of(a), of(b)),
+            Condition::Compare(comparison, a, b) => {
+                let operands = (self.term(a), self.term(b));
+                if self.module.arena.is_value(a) {
+                    self.values(comparison, operands)
+                } else {
+                    self.compare(comparison, operands)
+                }
+            }
+            Condition::Apply { meaning, .. } => of(meaning),
+            Condition::Bool(place) => {
+                let place = self.term(place);
+                self.values(Comparison::Unequal, (place, Operand::Constant(0.0)))
+            }
+            Condition::Is(predicate) => of(self.module.predicates[predicate.0 as usize].condition),
+            Condition::Free(_) | Condition::Value { .. } => {
+                let rho = self.input(self.inputs.of_conditions[&id]);
+                self.compare(Comparison::Greater, (rho, Operand::Constant(0.0)))
+            }
+        }
+    }
+
+    fn truth(&self, value: bool) -> Operand {
+        let size = if self.reading == Reading::Robustness { f64::INFINITY } else { 1.0 };
+        Operand::Constant(if value { size } else { -size })
+    }
+
+    /// Whether two values are the same.
+    fn values(&mut self, comparison: Comparison, (a, b): (Operand, Operand)) -> Operand {
+        let same = self.step(Operation::Same, a, b);
+        match comparison {
+            Comparison::Unequal => self.unary(Operation::Negate, same),
+            _ => same,
+        }
+    }
+
+    /// The comparison of two numbers; its truth is that of the difference.
+    fn compare(&mut self, comparison: Comparison, (a, b): (Operand, Operand)) -> Operand {
+        let rho = match comparison {
+            Comparison::Less | Comparison::AtMost => self.step(Operation::Subtract, b, a),
+            Comparison::Greater | Comparison::AtLeast => self.step(Operation::Subtract, a, b),
+            Comparison::Equal | Comparison::Unequal => {
+                let difference = self.step(Operation::Subtract, a, b);
+                self.unary(Operation::Absolute, difference)
+            }
+        };
+        let rho = match comparison {
+            Comparison::Equal => self.unary(Operation::Negate, rho),
+            _ => rho,
+        };
+        match (self.reading, comparison) {
+            (Reading::Robustness, _) => rho,
+            (_, Comparison::Less | Comparison::Greater | Comparison::Unequal) => {
+                self.unary(Operation::Positive, rho)
+            }
+            (_, Comparison::AtMost | Comparison::AtLeast | Comparison::Equal) => {
+                self.unary(Operation::NotNegative, rho)
+            }
+        }
+    }
+
+    /// A term, and first what it needs and is not known yet.
+    fn term(&mut self, root: TermId) -> Operand {
+        let mut open = vec![root];
+        while let Some(&id) = open.last() {
+            let before = open.len();
+            if !self.terms.contains_key(&id) {
+                let operands = self.module.arena.term(id).operands();
+                open.extend(operands.into_iter().filter(|id| !self.terms.contains_key(id)));
+            }
+            if open.len() == before {
+                open.pop();
+                if !self.terms.contains_key(&id) {
+                    let operand = self.one_term(id);
+                    self.terms.insert(id, operand);
+                }
+            }
+        }
+        self.terms[&root]
+    }
+
+    fn one_term(&mut self, id: TermId) -> Operand {
+        let of = |id: TermId| self.terms[&id];
+        match *self.module.arena.term(id) {
+            Term::Number(Number(value)) => Operand::Constant(value),
+            Term::Variant { number, .. } => Operand::Constant(number.into()),
+            Term::Absent => Operand::Constant(-1.0),
+            Term::Truth(value) => Operand::Constant(f64::from(u8::from(value))),
+            Term::Place { .. } | Term::Variable(_) | Term::Host { .. } | Term::Parameter { .. } => {
+                self.input(self.inputs.of_terms[&id])
+            }
+            Term::Negate(a) => self.unary(Operation::Negate, of(a)),
+            Term::Calculate(operator, a, b) => self.step(arithmetic(operator), of(a), of(b)),
+            Term::Call(Function::Abs, a, _) => self.unary(Operation::Absolute, of(a)),
+            Term::Call(Function::Min, a, Some(b)) => self.step(Operation::Least, of(a), of(b)),
+            Term::Call(Function::Max, a, Some(b)) => self.step(Operation::Greatest, of(a), of(b)),
+            Term::Call(function, a, b) => {
+                let b = b.map_or(Operand::Constant(0.0), of);
+                self.step(Operation::Call(function), of(a), b)
+            }
+        }
+    }
+
+    fn input(&mut self, place: usize) -> Operand {
+        // A proposition without a scale has robustness ±1.
+        let free = self.inputs.inputs[place].kind == InputKind::Proposition;
+        let (input, low) = (place as u32, if free { -1.0 } else { 0.0 });
+        self.unary(Operation::Input { input, low }, Operand::Constant(0.0))
+    }
+
+    /// The operators of a formula over its predicates, and the output of the whole; the number of
+    /// carries.
+    fn formula(&mut self, spec: &Spec, predicates: &[Operand]) -> u32 {
+        let mut carries = 0;
+        let reachable = spec.reachable();
+        let mut known = vec![Operand::Constant(f64::NEG_INFINITY); reachable.len()];
+        for (id, formula) in spec.formulas().filter(|(id, _)| reachable[id.0 as usize]) {
+            let operands: Vec<Operand> =
+                formula.operands().map(|operand| known[operand.0 as usize]).collect();
+            known[id.0 as usize] = self.operator(formula, &operands, predicates, &mut carries);
+        }
+        let whole = self.result(known[spec.root().0 as usize]);
+        self.unary(Operation::Emit(predicates.len() as u32), whole);
+        carries
+    }
+
+    fn operator(
+        &mut self,
+        formula: Formula,
+        operands: &[Operand],
+        predicates: &[Operand],
+        carries: &mut u32,
+    ) -> Operand {
+        let mut carry = || {
+            *carries += 1;
+            Carry(*carries - 1)
+        };
+        match (formula, operands) {
+            (Formula::Literal { proposition, negated }, _) => {
+                let rho = predicates[proposition as usize];
+                if negated { self.unary(Operation::Negate, rho) } else { rho }
+            }
+            (Formula::And(..), &[a, b]) => self.step(Operation::Least, a, b),
+            (Formula::Or(..), &[a, b]) => self.step(Operation::Greatest, a, b),
+            (Formula::Next(_), &[a]) => {
+                let a = self.result(a);
+                self.unary(Operation::Next(carry()), a)
+            }
+            (Formula::Eventually(_), &[a]) => {
+                let a = self.result(a);
+                self.unary(Operation::Eventually(carry()), a)
+            }
+            (Formula::Until(..), &[a, b]) => {
+                let (a, b) = (self.result(a), self.result(b));
+                self.step(Operation::Until(carry()), a, b)
+            }
+            // φ now and ψ, which is an `F`, from the next row on: now or later.
+            (Formula::Then(..), &[a, b]) => {
+                let b = self.result(b);
+                let later = self.unary(Operation::Next(carry()), b);
+                let both = self.step(Operation::Least, a, later);
+                self.unary(Operation::Eventually(carry()), both)
+            }
+            (truth, _) => self.truth(truth == Formula::True),
+        }
+    }
+}
+
+fn arithmetic(operator: Arithmetic) -> Operation {
+    match operator {
+        Arithmetic::Add => Operation::Add,
+        Arithmetic::Subtract => Operation::Subtract,
+        Arithmetic::Multiply => Operation::Multiply,
+        Arithmetic::Divide => Operation::Divide,
+    }
+}

@@ -1,0 +1,289 @@
+//! Straight-line programs over blocks of rows.
+//!
+//! A [`Program`] does each of its steps for a whole block before it does the next one: what to do is
+//! decided once a block and not once a row, and each step is a plain loop, which is vectorised. The
+//! steps write numbers only. A truth value is 1 or -1, so that `min`, `max` and negation are
+//! conjunction, disjunction and negation of truth values as they are of robustness, and NaN goes
+//! through all of them in the same way.
+
+use tltl_compiler::predicate::Function;
+
+use super::column::Columns;
+
+/// The rows of a block. Registers of 2 KiB: 16 of them fit into the smallest L1 caches, and the
+/// choice of a step costs less than 0.1 ns a row.
+pub(super) const BLOCK: usize = 256;
+
+/// What a step reads.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Operand {
+    /// The result of an earlier step; once registers are [allocated](Program::new), a register.
+    Register(u32),
+    /// The same number in all rows.
+    Constant(f64),
+}
+
+/// What a step does with its operands a and b; what takes one only reads a.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Operation {
+    /// An input; a truth value is 1 or `low`.
+    Input { input: u32, low: f64 },
+    /// a
+    Copy,
+    /// a + b
+    Add,
+    /// a - b
+    Subtract,
+    /// a · b
+    Multiply,
+    /// a / b
+    Divide,
+    /// -a
+    Negate,
+    /// |a|
+    Absolute,
+    /// The lesser; NaN if one of them is.
+    Least,
+    /// The greater; NaN if one of them is.
+    Greatest,
+    /// f(a), or f(a, b).
+    Call(Function),
+    /// Whether a = b; never NaN.
+    Same,
+    /// Whether a > 0; NaN if a is.
+    Positive,
+    /// Whether a ≥ 0; NaN if a is.
+    NotNegative,
+    /// a in the next row.
+    Next(Carry),
+    /// The greatest a from this row on.
+    Eventually(Carry),
+    /// The greatest, over the rows from this one on, of b there and a in all rows before it.
+    Until(Carry),
+    /// Gives a away as this output.
+    Emit(u32),
+}
+
+/// A number that a block leaves for the one that precedes it in time: blocks run backwards.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Carry(pub(super) u32);
+
+/// One step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Step {
+    pub(super) operation: Operation,
+    pub(super) operands: [Operand; 2],
+    /// The register of the result.
+    to: u32,
+}
+
+impl Step {
+    /// A step whose result has no register yet. What relates rows or gives numbers away does not
+    /// take constants: they are [copied](Operation::Copy) first.
+    pub(super) fn new(operation: Operation, a: Operand, b: Operand) -> Self {
+        Self { operation, operands: [a, b], to: 0 }
+    }
+}
+
+/// A straight-line program; its registers are reused.
+#[derive(Clone, Debug)]
+pub(super) struct Program {
+    steps: Vec<Step>,
+    registers: usize,
+    carries: usize,
+}
+
+/// Space for programs to work in, of whichever task: one for each thread.
+#[derive(Clone, Debug, Default)]
+pub struct Scratch {
+    registers: Vec<f64>,
+    carries: Vec<f64>,
+}
+
+impl Program {
+    /// A program of these steps, whose operands are numbers of earlier steps, with as many carries.
+    pub(super) fn new(mut steps: Vec<Step>, carries: u32) -> Self {
+        let registers = allocate(&mut steps);
+        Self { steps, registers, carries: carries as usize }
+    }
+
+    /// Runs over all rows, the last block first, and calls `emit` with the first row of a block, an
+    /// output, and its numbers in the block.
+    pub(super) fn run(
+        &self,
+        columns: &Columns<'_>,
+        scratch: &mut Scratch,
+        emit: &mut dyn FnMut(usize, u32, &[f64]),
+    ) {
+        let rows = columns.rows();
+        let needed = self.registers * BLOCK.min(rows);
+        if scratch.registers.len() < needed {
+            scratch.registers.resize(needed, 0.0);
+        }
+        scratch.carries.clear();
+        scratch.carries.resize(self.carries, f64::NEG_INFINITY);
+        let Scratch { registers, carries } = scratch;
+        for first in (0..rows).step_by(BLOCK).rev() {
+            let length = BLOCK.min(rows - first);
+            self.block(columns, first, length, registers, carries, emit);
+        }
+    }
+
+    fn block(
+        &self,
+        columns: &Columns<'_>,
+        first: usize,
+        length: usize,
+        registers: &mut [f64],
+        carries: &mut [f64],
+        emit: &mut dyn FnMut(usize, u32, &[f64]),
+    ) {
+        for step in &self.steps {
+            let to = step.to as usize;
+            let (before, rest) = registers.split_at_mut(to * length);
+            let (out, after) = rest.split_at_mut(length);
+            let [a, b] = step.operands.map(|operand| match operand {
+                Operand::Constant(number) => Lanes::Same(number),
+                Operand::Register(register) => {
+                    let register = register as usize;
+                    let (from, place) = if register < to {
+                        (&*before, register)
+                    } else {
+                        (&*after, register - to - 1)
+                    };
+                    Lanes::Each(&from[place * length..][..length])
+                }
+            });
+            match step.operation {
+                Operation::Input { input, low } => columns.read(input as usize, first, low, out),
+                Operation::Emit(output) => emit(first, output, a.each()),
+                Operation::Next(Carry(carry)) => next(a.each(), &mut carries[carry as usize], out),
+                Operation::Eventually(Carry(carry)) => {
+                    eventually(a.each(), &mut carries[carry as usize], out);
+                }
+                Operation::Until(Carry(carry)) => {
+                    until(a.each(), b.each(), &mut carries[carry as usize], out);
+                }
+                operation => row_by_row(operation, a, b, out),
+            }
+        }
+    }
+}
+
+/// Gives each result a register that is free again after its last use; the number of registers.
+fn allocate(steps: &mut [Step]) -> usize {
+    let mut last = vec![0; steps.len()];
+    for (at, step) in steps.iter().enumerate() {
+        for operand in step.operands {
+            if let Operand::Register(result) = operand {
+                last[result as usize] = at;
+            }
+        }
+    }
+    let (mut free, mut count) = (Vec::new(), 0);
+    for at in 0..steps.len() {
+        // Taken before the operands are freed: no step writes where it reads.
+        let to = free.pop().unwrap_or_else(|| {
+            count += 1;
+            count - 1
+        });
+        let mut freed = Vec::new();
+        for operand in 0..2 {
+            if let Operand::Register(result) = steps[at].operands[operand] {
+                let register = steps[result as usize].to;
+                steps[at].operands[operand] = Operand::Register(register);
+                freed.extend((last[result as usize] == at).then_some(register));
+            }
+        }
+        steps[at].to = to;
+        freed.extend((last[at] <= at).then_some(to));
+        freed.dedup();
+        free.append(&mut freed);
+    }
+    count as usize
+}
+
+/// The numbers of an operand in a block.
+#[derive(Clone, Copy)]
+enum Lanes<'a> {
+    Each(&'a [f64]),
+    Same(f64),
+}
+
+impl<'a> Lanes<'a> {
+    fn each(self) -> &'a [f64] {
+        let Self::Each(lanes) = self else { unreachable!("a constant is copied before that") };
+        lanes
+    }
+}
+
+fn row_by_row(operation: Operation, a: Lanes<'_>, b: Lanes<'_>, out: &mut [f64]) {
+    let truth = |holds: bool| if holds { 1.0 } else { -1.0 };
+    match operation {
+        Operation::Add => zip(a, b, out, |a, b| a + b),
+        Operation::Subtract => zip(a, b, out, |a, b| a - b),
+        Operation::Multiply => zip(a, b, out, |a, b| a * b),
+        Operation::Divide => zip(a, b, out, |a, b| a / b),
+        Operation::Negate => map(a, out, |a| -a),
+        Operation::Absolute => map(a, out, f64::abs),
+        Operation::Least => zip(a, b, out, least),
+        Operation::Greatest => zip(a, b, out, greatest),
+        Operation::Same => zip(a, b, out, |a, b| truth(a == b)),
+        Operation::Positive => map(a, out, |a| if a.is_nan() { a } else { truth(a > 0.0) }),
+        Operation::NotNegative => map(a, out, |a| if a.is_nan() { a } else { truth(a >= 0.0) }),
+        // The others are calls, which cost more than the choice among them.
+        Operation::Call(Function::Sqrt) => map(a, out, f64::sqrt),
+        Operation::Call(function) => zip(a, b, out, |a, b| function.value(a, b)),
+        _ => map(a, out, |a| a),
+    }
+}
+
+fn map(a: Lanes<'_>, out: &mut [f64], f: impl Fn(f64) -> f64) {
+    match a {
+        Lanes::Each(a) => out.iter_mut().zip(a).for_each(|(out, &a)| *out = f(a)),
+        Lanes::Same(a) => out.fill(f(a)),
+    }
+}
+
+fn zip(a: Lanes<'_>, b: Lanes<'_>, out: &mut [f64], f: impl Fn(f64, f64) -> f64) {
+    match (a, b) {
+        (Lanes::Each(a), Lanes::Each(b)) => {
+            let operands = a.iter().zip(b);
+            out.iter_mut().zip(operands).for_each(|(out, (&a, &b))| *out = f(a, b));
+        }
+        (a, Lanes::Same(b)) => map(a, out, |a| f(a, b)),
+        (Lanes::Same(a), b) => map(b, out, |b| f(a, b)),
+    }
+}
+
+fn next(a: &[f64], carry: &mut f64, out: &mut [f64]) {
+    if let ([first, later @ ..], Some((last, before))) = (a, out.split_last_mut()) {
+        before.copy_from_slice(later);
+        *last = *carry;
+        *carry = *first;
+    }
+}
+
+fn eventually(a: &[f64], carry: &mut f64, out: &mut [f64]) {
+    for (out, &a) in out.iter_mut().zip(a).rev() {
+        *carry = greatest(a, *carry);
+        *out = *carry;
+    }
+}
+
+fn until(a: &[f64], b: &[f64], carry: &mut f64, out: &mut [f64]) {
+    for (out, (&a, &b)) in out.iter_mut().zip(a.iter().zip(b)).rev() {
+        *carry = greatest(b, least(a, *carry));
+        *out = *carry;
+    }
+}
+
+/// The lesser of two numbers; NaN if one of them is.
+fn least(a: f64, b: f64) -> f64 {
+    if a < b || a.is_nan() { a } else { b }
+}
+
+/// The greater of two numbers; NaN if one of them is.
+fn greatest(a: f64, b: f64) -> f64 {
+    if a > b || a.is_nan() { a } else { b }
+}
