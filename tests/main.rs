@@ -9,6 +9,7 @@ mod forms;
 mod front;
 mod grammar;
 mod hoa;
+mod house;
 mod language;
 mod leak;
 mod network;

@@ -1,0 +1,135 @@
+//! The rooms of the house and the order of what stands in them: who may depend on whom, by what
+//! cargo and the sources say.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use serde_json::Value;
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// A package of the workspace: what it depends on, by the kind of dependency, and its features.
+struct Package {
+    needs: BTreeMap<String, BTreeSet<String>>,
+    features: BTreeSet<String>,
+}
+
+impl Package {
+    fn needs(&self, kinds: &[&str]) -> BTreeSet<&str> {
+        kinds.iter().flat_map(|kind| self.needs.get(*kind)).flatten().map(String::as_str).collect()
+    }
+}
+
+/// All packages of the workspace by name, as `cargo metadata` has them.
+fn packages() -> BTreeMap<String, Package> {
+    let cargo = std::env::var_os("CARGO").unwrap_or("cargo".into());
+    let arguments = ["metadata", "--no-deps", "--offline", "--format-version", "1"];
+    let run = Command::new(cargo).args(arguments).current_dir(root()).output().unwrap();
+    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+    let metadata: Value = serde_json::from_slice(&run.stdout).unwrap();
+    let text = |value: &Value| value.as_str().unwrap().to_owned();
+    let package = |package: &Value| {
+        let mut needs: BTreeMap<_, BTreeSet<_>> = BTreeMap::new();
+        for need in package["dependencies"].as_array().unwrap() {
+            let kind = need["kind"].as_str().unwrap_or("normal").to_owned();
+            needs.entry(kind).or_default().insert(text(&need["name"]));
+        }
+        let features = package["features"].as_object().unwrap().keys().cloned().collect();
+        (text(&package["name"]), Package { needs, features })
+    };
+    metadata["packages"].as_array().unwrap().iter().map(package).collect()
+}
+
+#[test]
+fn rooms_know_only_what_they_may() {
+    let packages = packages();
+    let ours = |name: &str, kinds: &[&str]| -> BTreeSet<&str> {
+        let needs = packages[name].needs(kinds);
+        needs.into_iter().filter(|need| packages.contains_key(*need)).collect()
+    };
+    let all = ["normal", "build", "dev"];
+    assert_eq!(ours("tltl-compiler", &all), [].into(), "the compiler knows nobody");
+    assert_eq!(ours("tltl-macros", &all), ["tltl-compiler"].into());
+    assert_eq!(ours("tltl", &["normal", "build"]), ["tltl-macros"].into());
+    assert_eq!(ours("tltl", &["dev"]), ["tltl"].into(), "its tests turn its features on");
+    assert_eq!(ours("tltlc", &all), ["tltl", "tltl-compiler"].into());
+    let last = ["tltl-examples", "tltl-kitchen", "tltl-tests"];
+    for (name, package) in &packages {
+        let is_last = last.contains(&name.as_str());
+        assert!(is_last || !package.needs(&all).contains("tltlc"), "{name} depends on the tools");
+        assert!(!package.features.contains("cli"), "{name}");
+    }
+}
+
+/// Every user of the macros builds these: each one more costs all of them.
+#[test]
+fn what_users_build_is_counted() {
+    let packages = packages();
+    let normal = |name: &str| packages[name].needs(&["normal", "build"]);
+    let compiler = ["pest", "proc-macro2", "quote", "rustc-hash"];
+    assert_eq!(normal("tltl-compiler"), compiler.into());
+    assert_eq!(normal("tltl-macros"), ["proc-macro2", "quote", "tltl-compiler"].into());
+    assert_eq!(normal("tltl"), ["burn", "libm", "rand", "serde", "tltl-macros"].into());
+}
+
+/// The modules of each crate, from those that know none of the others to those that know most.
+const ORDER: [(&str, &str); 3] = [
+    (
+        "compiler",
+        "source error arena token reserved ast unit guard dfa grammar parse spec predicate linear \
+         arithmetic check translate minimize factor judge compile hoa emit",
+    ),
+    ("macros", "tokens expand"),
+    ("tools", "semantics format evaluate vacuity product trace diff emit explain cli"),
+];
+
+/// The source files under `folder` with the module of the crate that each belongs to.
+fn sources(folder: &Path) -> Vec<(String, PathBuf)> {
+    let mut files = Vec::new();
+    let mut open = vec![folder.to_owned()];
+    while let Some(path) = open.pop() {
+        if path.is_dir() {
+            open.extend(std::fs::read_dir(path).unwrap().map(|entry| entry.unwrap().path()));
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            let first = path.strip_prefix(folder).unwrap().components().next().unwrap();
+            let module = first.as_os_str().to_str().unwrap().trim_end_matches(".rs").to_owned();
+            files.push((module, path));
+        }
+    }
+    files.retain(|(module, _)| module != "lib" && module != "main");
+    files
+}
+
+/// The modules of the crate that a text names, its tests apart: `crate::name`.
+fn named<'a>(text: &'a str) -> BTreeSet<&'a str> {
+    let code = text.split("\n#[cfg(test)]").next().unwrap_or_default();
+    let lines = code.lines().filter(|line| !line.trim_start().starts_with("//"));
+    let paths = lines.flat_map(|line| line.split("crate::").skip(1));
+    let word = |path: &'a str| path.split(|c: char| !c.is_alphanumeric() && c != '_').next();
+    paths.filter_map(word).collect()
+}
+
+#[test]
+fn no_module_knows_a_later_one() {
+    for (room, order) in ORDER {
+        let order: Vec<&str> = order.split(' ').collect();
+        let place = |module: &str| {
+            let place = order.iter().position(|known| *known == module);
+            place.unwrap_or_else(|| panic!("{room}: where does `{module}` stand?"))
+        };
+        let mut found = BTreeSet::new();
+        for (module, path) in sources(&root().join(room).join("src")) {
+            let text = std::fs::read_to_string(&path).unwrap();
+            for other in named(&text) {
+                let path = path.display();
+                assert!(!other.is_empty(), "{path}: name one module after `crate::`");
+                assert!(place(other) <= place(&module), "{path}: `{module}` knows `{other}`");
+            }
+            found.insert(module);
+        }
+        assert!(order.iter().all(|module| found.contains(*module)), "{room}: {found:?}");
+    }
+}
