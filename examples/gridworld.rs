@@ -17,7 +17,7 @@ use tltl::policy::{Policy, Training};
 use tltl::product::Product;
 use tltl::q::QTable;
 use tltl::solve::{Certificate, Problem};
-use tltl::{Monitor, include_tltl};
+use tltl::{Acceptor, Monitor, include_tltl};
 use tltl_compiler::compile::{self, Compiled};
 use tltl_compiler::dfa::{Automata, Dfa, State};
 use tltl_compiler::source::Source;
@@ -71,7 +71,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let policy = Policy::new(
         "visit_all",
-        gridworld::visit_all().formula().text,
+        gridworld::visit_all().formula().text(),
         &tasks[2],
         refined.policy(),
         (0..world.grid.actions()).map(|a| world.grid.action_name(a)).collect(),

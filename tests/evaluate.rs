@@ -1,9 +1,9 @@
 //! Predicates read without Rust agree with the generated code, bit for bit.
 
 use proptest::prelude::*;
-use tltl::Task;
 use tltl::robustness::Predicates;
 use tltl::tltl;
+use tltl::{Acceptor, Task};
 use tltl_compiler::compile::{self, Compiled};
 use tltl_compiler::source::Source;
 use tltl_compiler::translate::Budget;
@@ -64,13 +64,13 @@ fn field(arm: &Arm, name: &str) -> f64 {
 
 /// The robustness of each predicate as generated code has it; nothing if one is not a number.
 fn generated<P: Predicates<Arm>>(task: &Task<P>, arm: &Arm) -> Option<Vec<u64>> {
-    for q in 0..task.automaton().states {
-        let numbers = (0..task.automaton().propositions.len())
+    for q in 0..task.states() {
+        let numbers = (0..task.automaton().propositions().len())
             .all(|i| task.predicate_robustness(i, arm).is_ok());
         assert_eq!(task.next(q, arm).is_ok(), numbers, "{arm:?}");
     }
     let rho = |i| task.predicate_robustness(i, arm).ok().map(f64::to_bits);
-    (0..task.automaton().propositions.len()).map(rho).collect()
+    (0..task.automaton().propositions().len()).map(rho).collect()
 }
 
 fn agree<P: Predicates<Arm>>(compiled: &Compiled, task: &Task<P>, trajectory: &[Arm]) {

@@ -7,7 +7,7 @@ use tltl::learn::{Learner, Settings};
 use tltl::model::FiniteModel;
 use tltl::product::Product;
 use tltl::solve::Problem;
-use tltl::tltl;
+use tltl::{Acceptor, tltl};
 
 /// Which of 40 propositions hold.
 #[derive(Clone, Copy, Debug)]
@@ -52,8 +52,8 @@ fn parts_side_by_side_agree_with_the_whole() {
         for letter in &trace {
             q = whole.next(q, letter).unwrap();
             apart.next(&mut parts, letter).unwrap();
-            assert_eq!(whole.automaton().is_accepting(q), apart.is_accepting(&parts), "{trace:?}");
-            assert_eq!(whole.automaton().is_trap(q), apart.is_lost(&parts), "{trace:?}");
+            assert_eq!(whole.is_accepting(q), apart.is_accepting(&parts), "{trace:?}");
+            assert_eq!(whole.is_trap(q), apart.is_lost(&parts), "{trace:?}");
         }
     }
 }
@@ -65,7 +65,7 @@ fn parts_multiply_to_the_whole() {
     let operands: Vec<&(dyn tltl::Monitor<Letter> + Sync)> =
         parts.iter().map(|part| part as _).collect();
     let product = Product::conjunction(&operands);
-    assert_eq!(product.live_or_accepting() + 1, tasks::whole().automaton().states as usize);
+    assert_eq!(product.live_or_accepting() + 1, tasks::whole().states() as usize);
 }
 
 #[test]
@@ -85,7 +85,7 @@ fn thirty_goals_are_sixty_states() {
             && F b0 && F b1 && F b2 && F b3 && F b4 && F b5 && F b6 && F b7 && F b8 && F b9
             && F c0 && F c1 && F c2 && F c3 && F c4 && F c5 && F c6 && F c7 && F c8 && F c9
     };
-    let states: u32 = (0..tour.len()).map(|i| tour.part(i).automaton().states).sum();
+    let states: u32 = (0..tour.len()).map(|i| tour.part(i).states()).sum();
     assert_eq!((tour.len(), states), (30, 60));
     let one_by_one: Vec<Letter> = (0..30).map(|bit| Letter(1 << bit)).collect();
     assert_eq!(tour.satisfied(&one_by_one), Ok(true));

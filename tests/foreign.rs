@@ -1,6 +1,6 @@
 //! Automata of other tools in the place of a formula.
 
-use tltl::{include_tltl, tltl};
+use tltl::{Acceptor, include_tltl, tltl};
 
 include_tltl!("data/avoid.hoa");
 
@@ -11,7 +11,7 @@ fn an_automaton_file_is_a_task() {
     let read = avoid::task(hazard, goal);
     let written = tltl! { !hazard U goal };
     assert_eq!(read.name(), "until");
-    assert_eq!(read.automaton().states, written.automaton().states);
+    assert_eq!(read.states(), written.states());
     let values = [-2.0, -0.5, 0.0, 1.0, 3.0];
     for i in 0..625 {
         let value = |k: u32| values[i / 5_usize.pow(k) % 5];

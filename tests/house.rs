@@ -80,10 +80,10 @@ const ORDER: [(&str, &str); 3] = [
     (
         "compiler",
         "source error arena token reserved ast unit guard dfa grammar parse spec predicate linear \
-         arithmetic check translate minimize factor judge compile hoa emit",
+         arithmetic check translate minimize factor judge compile hoa tables emit",
     ),
     ("macros", "tokens expand"),
-    ("tools", "semantics format evaluate vacuity product trace diff emit explain cli"),
+    ("tools", "semantics tables format evaluate vacuity product trace diff emit explain cli"),
 ];
 
 /// The source files under `folder` with the module of the crate that each belongs to.

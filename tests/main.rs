@@ -2,6 +2,7 @@
 
 mod columns;
 mod corpus;
+mod emitted;
 mod evaluate;
 mod factored;
 mod foreign;
@@ -11,7 +12,6 @@ mod grammar;
 mod hoa;
 mod house;
 mod language;
-mod leak;
 mod network;
 mod policies;
 mod possible;

@@ -3,18 +3,21 @@
 use std::collections::BTreeSet;
 
 use proptest::prelude::*;
+use tltl::Acceptor;
 use tltl_compiler::check;
 use tltl_compiler::dfa::{Dfa, Guards, State};
 use tltl_compiler::guard::Cube;
 use tltl_compiler::minimize::minimize;
 use tltl_compiler::source::Source;
 use tltl_compiler::spec::Spec;
+use tltl_compiler::tables::tables;
 use tltl_compiler::translate::{Budget, translate};
 use tltlc::emit::text;
 use tltlc::product::{Operator, product};
 use tltlc::semantics;
+use tltlc::tables::automaton;
 
-use crate::leak::leaked;
+use crate::emitted::emitted;
 use crate::random::{self, Bytes, Choices, NAMES};
 
 fn spec(formula: &str) -> Spec {
@@ -209,27 +212,23 @@ proptest! {
     fn emitted_tables_are_the_automaton(bytes in bytes()) {
         let minimal = minimize(&raw(&chosen(&bytes, 8)));
         prop_assume!(minimal.len() <= 64);
-        let tables = leaked(&minimal);
-        prop_assert_eq!(tables.propositions.to_vec(), minimal.propositions.clone());
-        prop_assert_eq!((tables.states as usize, tables.accepting, tables.trap), (minimal.len(), minimal.accepting, minimal.trap));
+        prop_assert_eq!(emitted(&minimal), tables(&minimal));
+        let automaton = automaton(&minimal).unwrap();
+        let names: Vec<&str> = automaton.propositions().iter().map(|name| &**name).collect();
+        prop_assert_eq!(&names, &minimal.propositions);
+        prop_assert_eq!((automaton.states() as usize, automaton.accepting(), automaton.trap()), (minimal.len(), minimal.accepting, minimal.trap));
         let distances = minimal.distances();
         for q in minimal.states() {
             for v in 0..1_u32 << minimal.propositions.len() {
-                let next = tables.next(q, |p| Ok::<_, ()>(v >> p & 1 == 1)).unwrap();
+                let next = automaton.next(q, |p| Ok::<_, ()>(v >> p & 1 == 1)).unwrap();
                 prop_assert_eq!(next, minimal.next(q, |p| v >> p & 1 == 1));
-                let edges = tables.edges_from(q).iter();
-                let taken: Vec<_> = edges.filter(|edge| holds(edge.guard, v)).map(|edge| edge.to).collect();
+                let edges = automaton.edges_from(q);
+                let taken: Vec<_> = edges.filter(|edge| edge.guard.holds(|p| v >> p & 1 == 1)).map(|edge| edge.to).collect();
                 prop_assert_eq!(taken, vec![next]);
                 let on = next != q && minimal.trap != Some(next);
-                prop_assert_eq!(holds(tables.progress[q as usize], v), on);
+                prop_assert_eq!(automaton.progress(q).holds(|p| v >> p & 1 == 1), on);
             }
-            prop_assert_eq!(tables.distance[q as usize], distances[q as usize].unwrap_or(u32::MAX));
+            prop_assert_eq!(automaton.distance(q), distances[q as usize]);
         }
     }
-}
-
-/// Whether a guard in DIMACS style holds.
-fn holds(guard: tltl::automaton::Guard, v: u32) -> bool {
-    let literal = |&literal: &i32| (v >> (literal.unsigned_abs() - 1) & 1 == 1) == (literal > 0);
-    guard.iter().any(|cube| cube.iter().all(literal))
 }

@@ -4,6 +4,8 @@
 use std::collections::HashMap;
 
 use sha2::{Digest, Sha256};
+use tltl::robustness::{NotANumber, Predicates};
+use tltl::{Acceptor, Task};
 use tltl_compiler::compile::{self, Compiled};
 use tltl_compiler::dfa::Dfa;
 use tltl_compiler::hoa;
@@ -11,7 +13,7 @@ use tltl_compiler::source::Source;
 use tltl_compiler::spec::Spec;
 use tltl_compiler::translate::{Budget, translate};
 use tltlc::emit::hoa as emit_hoa;
-use tltlc::semantics;
+use tltlc::{semantics, tables};
 
 use crate::corpus::{Row, Trace, rejects, rows};
 use crate::static_corpus::{self, Letter};
@@ -108,12 +110,39 @@ fn every_engine_gives_the_verdicts_of_the_corpus() {
     }
 }
 
+/// The propositions of an owned task, by name.
+#[derive(Clone)]
+struct Named(Vec<String>);
+
+impl Predicates<Letter> for Named {
+    fn robustness(&self, i: usize, letter: &Letter) -> f64 {
+        let place = letter.aps.iter().position(|ap| *ap == self.0[i]).unwrap();
+        if letter.bits >> place & 1 == 1 { 1.0 } else { -1.0 }
+    }
+
+    fn holds(&self, i: usize, letter: &Letter) -> Result<bool, NotANumber> {
+        Ok(self.robustness(i, letter) > 0.0)
+    }
+}
+
+/// The task that a program owns which compiles the formula while it runs.
+fn owned(compiled: &Compiled) -> Task<Named> {
+    let task = &compiled.module.tasks[0];
+    let automaton = tables::automaton(&compiled.automata[0].dfa).unwrap();
+    let formula = tables::formula(&task.spec, &task.text).unwrap();
+    let names = Named(task.spec.propositions().to_vec());
+    Task::new(task.text.clone(), formula, automaton, names).unwrap()
+}
+
+/// The macro's static tables and those of a program that compiles while it runs are the same, and say
+/// the same.
 #[test]
-fn static_tables_give_the_verdicts_of_the_corpus() {
+fn static_and_owned_tables_give_the_verdicts_of_the_corpus() {
     for row in rows() {
         let compiled = compiled(&row.formula);
         let spec = &compiled.module.tasks[0].spec;
         let places = places(&row, spec.propositions());
+        let owned = owned(&compiled);
         for Trace { letters, accept, .. } in &row.traces {
             let about = format!("{}: {} on {letters:?}", row.id, row.formula);
             let trace: Vec<Letter> =
@@ -125,7 +154,8 @@ fn static_tables_give_the_verdicts_of_the_corpus() {
             };
             let expected = semantics::robustness(spec, letters.len(), rho);
             assert_eq!(verdict.robustness, expected, "robustness, {about}");
-            assert_eq!(verdict.states, row.states, "{about}");
+            assert_eq!(verdict.automaton.states() as usize, row.states, "{about}");
+            assert_eq!(static_corpus::judge(owned.clone(), &trace), verdict, "{about}");
         }
     }
 }

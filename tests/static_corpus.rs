@@ -9,18 +9,24 @@ pub(crate) struct Letter {
     pub(crate) bits: u64,
 }
 
-/// What a compiled task says of a trace.
+/// A compiled task, and what it says of a trace.
+#[derive(Debug, PartialEq)]
 pub(crate) struct Verdict {
     pub(crate) satisfied: bool,
     pub(crate) robustness: f64,
-    pub(crate) states: usize,
+    pub(crate) formula: tltl::Formula,
+    pub(crate) automaton: tltl::Automaton,
 }
 
-fn judge<P: tltl::robustness::Predicates<Letter>>(task: tltl::Task<P>, trace: &[Letter]) -> Verdict {
+pub(crate) fn judge<P>(task: tltl::Task<P>, trace: &[Letter]) -> Verdict
+where
+    P: tltl::robustness::Predicates<Letter>,
+{
     Verdict {
         satisfied: task.satisfied(trace).unwrap(),
         robustness: task.robustness(trace).unwrap(),
-        states: task.automaton().states as usize,
+        formula: tltl::Acceptor::formula(&task).clone(),
+        automaton: task.automaton().clone(),
     }
 }
 

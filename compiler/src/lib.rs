@@ -9,7 +9,7 @@
 //!                                     │                      │
 //!                     Module ─ arithmetic ─> possible ─ restrict, minimize ─> Dfa
 //!                                                                            │
-//!                                                              emit::rust <──┘
+//!                                              emit::rust <── Tables <─ tables
 //! ```
 //!
 //! [`compile`] runs it from end to end. A stage is a module, a function and a type; a later stage
@@ -58,6 +58,7 @@ mod reserved;
 mod grammar;
 pub mod source;
 pub mod spec;
+pub mod tables;
 mod token;
 pub mod translate;
 pub mod unit;

@@ -32,7 +32,8 @@ use crate::env::{Env, FiniteEnv, Step};
 use crate::interner::Interner;
 use crate::learn::episode::{Move, World};
 use crate::model::FiniteModel;
-use crate::task::{Error, Monitor};
+use crate::monitor::Monitor;
+use crate::task::Error;
 
 /// Any environment beside any task: an environment over (s, q).
 ///

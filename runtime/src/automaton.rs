@@ -1,79 +1,35 @@
-//! Automata as data: the static tables that generated code holds.
+//! Automata as data: tables that generated code holds in statics, and run-time tasks own.
 //!
 //! An [`Automaton`] is the minimal complete DFA of a task over the valuations of its propositions
 //! (the FSA of the paper's Definition 2). It reads *every* state of a trajectory, `s_0` included,
-//! has at most one accepting state, absorbing, and at most one trap. Nothing here allocates or
-//! parses: a `static Automaton` is written by the compiler and only read at run time.
+//! has at most one accepting state, absorbing, and at most one trap.
+//!
+//! All data of an automaton is in [`Tables`]: flat arrays of integers, in which one table holds
+//! offsets into the next. [`Edge`], [`Guard`] and [`Cube`] are views of them. The compiler writes
+//! tables that are right by construction; tables from anywhere else pass through
+//! `Automaton::new`, which checks them once. Reading an automaton neither allocates nor parses.
 
-/// A conjunction of literals in DIMACS style: `3` is proposition number 2 true, `-3` the same one
-/// false. The empty cube is true.
-pub type Cube = &'static [i32];
+#[cfg(feature = "alloc")]
+mod check;
 
-/// A Boolean function of the propositions as an irredundant sum of products: a disjunction of
-/// cubes. The empty guard is false.
-pub type Guard = &'static [Cube];
+use core::fmt;
 
-/// One edge of an automaton: the guard ψ_{q,q'} under which it moves (paper, Definition 2).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Edge {
-    /// The state that the edge leaves.
-    pub from: u32,
-    /// The state that the edge enters; equal to `from` for a self-loop.
-    pub to: u32,
-    /// The valuations that take this edge.
-    pub guard: Guard,
-}
+#[cfg(feature = "alloc")]
+pub use check::TableError;
+#[cfg(feature = "alloc")]
+pub(crate) use check::{length as check_length, operators as check_operators};
 
-/// A node of a shared decision diagram: it asks one proposition.
+use crate::monitor::Acceptor;
+use crate::shared::Shared;
+
+/// The data of an [`Automaton`], not checked yet.
 ///
-/// `low` and `high` are references: below [`Node::LEAF`] the index of another node, from there on
-/// an automaton state plus [`Node::LEAF`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Node {
-    /// The proposition that is asked.
-    pub proposition: u32,
-    /// Where to go if it is false.
-    pub low: u32,
-    /// Where to go if it is true.
-    pub high: u32,
-}
-
-impl Node {
-    /// References from here on are automaton states: `LEAF + q`.
-    pub const LEAF: u32 = 1 << 31;
-}
-
-/// How an automaton finds the next state.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Transitions {
-    /// For few propositions: valuations collapse to classes that no state tells apart.
-    Table {
-        /// The class of each valuation, `1 << propositions` of them; bit i is proposition i.
-        class: &'static [u16],
-        /// The number of classes.
-        width: u32,
-        /// The next state, indexed `q * width + class`.
-        next: &'static [u32],
-    },
-    /// For many propositions: a decision diagram that all states share.
-    Diagram {
-        /// The nodes; children stand before their parents.
-        nodes: &'static [Node],
-        /// Where each state starts, a reference as in [`Node`].
-        roots: &'static [u32],
-    },
-}
-
-/// A minimal complete DFA over the valuations of named propositions.
-///
-/// Invariants, kept by the compiler that writes it: states are numbered breadth-first from the
-/// initial state 0; `edges` is sorted by `(from, to)`, and the guards that leave one state are
-/// disjoint and cover all valuations that can occur; the accepting state and the trap have a
-/// self-loop only.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Automaton {
-    /// The propositions, in order of first appearance in the source.
-    pub propositions: &'static [&'static str],
+/// `edges` and `guards` are offsets into the table after them: entry `i` is where item `i` begins,
+/// one last entry is where the last item ends.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Tables {
+    /// The names of the propositions, in order of first appearance in the source.
+    pub propositions: Shared<[Shared<str>]>,
     /// The number of states, the trap included.
     pub states: u32,
     /// The accepting state, absorbing. `None`: no trajectory satisfies the task.
@@ -82,19 +38,228 @@ pub struct Automaton {
     pub trap: Option<u32>,
     /// The transition function δ.
     pub transitions: Transitions,
-    /// All edges with their guards, self-loops included.
-    pub edges: &'static [Edge],
-    /// For each state the guard D_φ^q of leaving it for another state that is not the trap
-    /// (paper, Eq. 3A3).
-    pub progress: &'static [Guard],
-    /// For each state the least number of moves to the accepting state; `u32::MAX` where there is
-    /// no way.
-    pub distance: &'static [u32],
+    /// For each state where its edges begin in `targets`.
+    pub edges: Shared<[u32]>,
+    /// The state that each edge enters; ascending among the edges of one state.
+    pub targets: Shared<[u32]>,
+    /// For each guard where it begins in `literals`: first for each state q the guard D_φ^q of
+    /// progress, then the guards ψ_{q,q'} of all edges, in their order.
+    pub guards: Shared<[u32]>,
+    /// All guards in DIMACS style: `3` is "proposition number 2 is true", `-3` "it is false", `0`
+    /// ends a cube.
+    pub literals: Shared<[i32]>,
+    /// For each state the least number of moves to the accepting state; `u32::MAX` if there is no
+    /// way.
+    pub distance: Shared<[u32]>,
+}
+
+/// How an automaton finds the next state.
+///
+/// A table answers with one look-up, but needs all propositions and an entry for each of their
+/// valuations. A diagram asks only those that decide the move, one after the other, and is small
+/// for many propositions.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Transitions {
+    /// For few propositions: no state tells apart two valuations of one class.
+    Table {
+        /// The class of each valuation, `1 << propositions` of them; bit i is proposition i.
+        class: Shared<[u16]>,
+        /// The number of classes.
+        width: u32,
+        /// The next state, indexed `q * width + class`.
+        next: Shared<[u32]>,
+    },
+    /// For many propositions: a decision diagram that all states share.
+    Diagram {
+        /// The nodes, children before parents: `[proposition, low, high]`. The next reference is
+        /// `low` if the proposition is false, otherwise `high`. A reference below
+        /// [`LEAF`](Self::LEAF) is the index of a node; any other is `LEAF + q` for a state q.
+        nodes: Shared<[[u32; 3]]>,
+        /// The reference at which each state starts.
+        roots: Shared<[u32]>,
+    },
+}
+
+impl Transitions {
+    /// The least reference that is an automaton state: `LEAF + q`.
+    pub const LEAF: u32 = 1 << 31;
+}
+
+/// A conjunction of literals in DIMACS style: `3` is "proposition number 2 is true", `-3` "it is
+/// false". The empty cube is true.
+pub type Cube<'a> = &'a [i32];
+
+/// A Boolean function of the propositions as an irredundant sum of products: a disjunction of
+/// [cubes](Cube).
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub struct Guard<'a> {
+    /// The cubes, each with a 0 after it: one pass over one slice, which is nearly twice as fast as
+    /// slices of slices.
+    pub(crate) literals: &'a [i32],
+}
+
+impl<'a> Guard<'a> {
+    /// The guard that no valuation satisfies: it has no cubes.
+    pub const FALSE: Guard<'static> = Guard { literals: &[] };
+
+    /// The cubes; the guard holds where one of them does.
+    ///
+    /// ```
+    /// # #[cfg(feature = "macros")] {
+    /// let task = tltl::tltl! { |s: &(bool, bool)| F (s.0 || !s.1) };
+    /// let progress = task.automaton().progress(0);
+    /// assert!(progress.cubes().eq([&[1], &[-2]]));
+    /// # }
+    /// ```
+    #[inline]
+    pub fn cubes(self) -> impl Iterator<Item = Cube<'a>> {
+        let cubes = self.literals.split_inclusive(|&literal| literal == 0);
+        cubes.map(|cube| &cube[..cube.len() - 1])
+    }
+
+    /// Whether the guard holds where proposition `i` is `value(i)`.
+    ///
+    /// ```
+    /// # #[cfg(feature = "macros")] {
+    /// let task = tltl::tltl! { |s: &(bool, bool)| F (s.0 || !s.1) };
+    /// let progress = task.automaton().progress(0);
+    /// assert!(progress.holds(|i| [false, false][i]));
+    /// assert!(!progress.holds(|i| [false, true][i]));
+    /// # }
+    /// ```
+    pub fn holds(self, mut value: impl FnMut(usize) -> bool) -> bool {
+        self.cubes()
+            .any(|cube| cube.iter().all(|&literal| value(proposition(literal)) == (literal > 0)))
+    }
+}
+
+/// The number of the proposition that a literal is about.
+#[inline]
+pub(crate) const fn proposition(literal: i32) -> usize {
+    literal.unsigned_abs() as usize - 1
+}
+
+impl fmt::Debug for Guard<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list().entries(self.cubes()).finish()
+    }
+}
+
+/// One edge of an automaton.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Edge<'a> {
+    /// The state that the edge leaves.
+    pub from: u32,
+    /// The state that the edge enters; equal to `from` for a self-loop.
+    pub to: u32,
+    /// The valuations under which the automaton takes the edge: ψ_{q,q'} of the paper's
+    /// Definition 2.
+    pub guard: Guard<'a>,
+}
+
+/// A minimal complete DFA over the valuations of named propositions.
+///
+/// Invariants: δ is total; the edges of a state lead to exactly the states that δ does, by rising
+/// number; the accepting state and the trap have a self-loop only; `distance` is the distance. The
+/// compiler numbers the states breadth-first from the initial state 0, and its guards of one state
+/// are disjoint and cover all valuations that can occur.
+///
+/// ```
+/// # #[cfg(feature = "macros")] {
+/// use tltl::{Acceptor, tltl};
+///
+/// // Dock, then the shelf.
+/// let task = tltl! { |s: &(bool, bool)| s.0 T s.1 };
+/// let automaton = task.automaton();
+/// assert_eq!((automaton.states(), automaton.accepting(), automaton.trap()), (3, Some(2), None));
+/// // Both at once is not one after the other.
+/// assert_eq!(automaton.next(0, |_| Ok::<_, ()>(true)), Ok(1));
+/// assert_eq!(automaton.distance(0), Some(2));
+/// # }
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Automaton {
+    tables: Tables,
 }
 
 impl Automaton {
     /// The state before the first state of the trajectory is read.
     pub const INITIAL: u32 = 0;
+
+    /// The automaton of tables from anywhere, checked once: every index is in range, δ is total,
+    /// edges and distances are those of δ, and the two ends are absorbing. Whether the guards agree
+    /// with δ is *not* checked, which takes time exponential in the propositions.
+    ///
+    /// Costs O(states × (nodes + classes)) time.
+    ///
+    /// # Errors
+    /// The first table that is wrong, and where.
+    ///
+    /// ```
+    /// use tltl::automaton::{Automaton, Tables, Transitions};
+    ///
+    /// // `F a`: wait in 0 for a.
+    /// let tables = Tables {
+    ///     propositions: vec!["a".into()].into(),
+    ///     states: 2,
+    ///     accepting: Some(1),
+    ///     trap: None,
+    ///     transitions: Transitions::Table {
+    ///         class: vec![0, 1].into(),
+    ///         width: 2,
+    ///         next: vec![0, 1, 1, 1].into(),
+    ///     },
+    ///     // State 0 has edges 0 and 1, state 1 has edge 2.
+    ///     edges: vec![0, 2, 3].into(),
+    ///     targets: vec![0, 1, 1].into(),
+    ///     // Two guards of progress, of which the second has no cube, and three of edges.
+    ///     guards: vec![0, 2, 2, 4, 6, 7].into(),
+    ///     literals: vec![1, 0, -1, 0, 1, 0, 0].into(),
+    ///     distance: vec![1, 0].into(),
+    /// };
+    /// let automaton = Automaton::new(tables.clone())?;
+    /// assert_eq!(automaton.next(0, |_| Ok::<_, ()>(true)), Ok(1));
+    ///
+    /// let error = Automaton::new(Tables { distance: vec![2, 0].into(), ..tables }).unwrap_err();
+    /// assert_eq!(error.to_string(), "`distance`, entry 0: not the distance to the accepting state");
+    /// # Ok::<(), tltl::automaton::TableError>(())
+    /// ```
+    #[cfg(feature = "alloc")]
+    pub fn new(tables: Tables) -> Result<Self, TableError> {
+        check::automaton(&tables)?;
+        Ok(Self { tables })
+    }
+
+    /// For generated code, whose tables are right by construction.
+    #[doc(hidden)]
+    #[must_use]
+    pub const fn trusted(tables: Tables) -> Self {
+        Self { tables }
+    }
+
+    /// All data of the automaton.
+    #[must_use]
+    pub const fn tables(&self) -> &Tables {
+        &self.tables
+    }
+
+    /// The names of the propositions, in order of first appearance in the source.
+    #[must_use]
+    pub fn propositions(&self) -> &[Shared<str>] {
+        &self.tables.propositions
+    }
+
+    /// The accepting state, if a trajectory can satisfy the task.
+    #[must_use]
+    pub const fn accepting(&self) -> Option<u32> {
+        self.tables.accepting
+    }
+
+    /// The trap, if the task can be lost.
+    #[must_use]
+    pub const fn trap(&self) -> Option<u32> {
+        self.tables.trap
+    }
 
     /// The next state from `q` under the valuation that `holds` answers, one proposition at a time.
     ///
@@ -110,44 +275,103 @@ impl Automaton {
         q: u32,
         mut holds: impl FnMut(usize) -> Result<bool, E>,
     ) -> Result<u32, E> {
-        match self.transitions {
+        match &self.tables.transitions {
             Transitions::Table { class, width, next } => {
                 let mut valuation = 0;
-                for i in 0..self.propositions.len() {
+                for i in 0..self.tables.propositions.len() {
                     valuation |= usize::from(holds(i)?) << i;
                 }
-                Ok(next[(q * width) as usize + usize::from(class[valuation])])
+                Ok(next[q as usize * *width as usize + usize::from(class[valuation])])
             }
             Transitions::Diagram { nodes, roots } => {
+                let nodes: &[[u32; 3]] = nodes;
                 let mut at = roots[q as usize];
-                while at < Node::LEAF {
-                    let node = &nodes[at as usize];
-                    at = if holds(node.proposition as usize)? { node.high } else { node.low };
+                while at < Transitions::LEAF {
+                    let [proposition, low, high] = nodes[at as usize];
+                    at = if holds(proposition as usize)? { high } else { low };
                 }
-                Ok(at - Node::LEAF)
+                Ok(at - Transitions::LEAF)
             }
         }
     }
 
-    /// The edges that leave `q`, self-loop included, sorted by target.
-    #[must_use]
-    pub fn edges_from(&self, q: u32) -> &'static [Edge] {
-        let start = self.edges.partition_point(|edge| edge.from < q);
-        let end = self.edges.partition_point(|edge| edge.from <= q);
-        &self.edges[start..end]
+    /// All edges, sorted by the states that they leave and enter.
+    pub fn edges(&self) -> impl Iterator<Item = Edge<'_>> {
+        (0..self.tables.states).flat_map(|q| self.edges_from(q))
     }
 
-    /// Whether `q` is the accepting state.
-    #[inline]
-    #[must_use]
-    pub fn is_accepting(&self, q: u32) -> bool {
-        self.accepting == Some(q)
+    /// The edges that leave `q`, self-loop included, sorted by the state that they enter.
+    ///
+    /// # Panics
+    /// If `q` is not a state of this automaton.
+    pub fn edges_from(&self, q: u32) -> impl Iterator<Item = Edge<'_>> {
+        let (start, targets) = self.targets(q);
+        let edge = move |(i, &to)| Edge { from: q, to, guard: self.of_edge(start + i) };
+        targets.iter().enumerate().map(edge)
     }
 
-    /// Whether `q` is the trap.
+    /// ψ_{q,to}, the guard of the edge from `q` to `to`; [`Guard::FALSE`] if there is no such edge.
+    ///
+    /// # Panics
+    /// If `q` is not a state of this automaton.
     #[inline]
     #[must_use]
-    pub fn is_trap(&self, q: u32) -> bool {
-        self.trap == Some(q)
+    pub fn edge_guard(&self, q: u32, to: u32) -> Guard<'_> {
+        let (start, targets) = self.targets(q);
+        targets.binary_search(&to).map_or(Guard::FALSE, |i| self.of_edge(start + i))
+    }
+
+    /// D_φ^q, the guard of leaving `q` for another state that is not the trap (paper, Eq. 3A3).
+    ///
+    /// # Panics
+    /// If `q` is not a state of this automaton.
+    #[inline]
+    #[must_use]
+    pub fn progress(&self, q: u32) -> Guard<'_> {
+        self.guard(q as usize)
+    }
+
+    /// The number of the first edge of `q`, and what all its edges enter.
+    #[inline]
+    fn targets(&self, q: u32) -> (usize, &[u32]) {
+        let q = q as usize;
+        let (start, end) = (self.tables.edges[q] as usize, self.tables.edges[q + 1] as usize);
+        (start, &self.tables.targets[start..end])
+    }
+
+    #[inline]
+    fn of_edge(&self, edge: usize) -> Guard<'_> {
+        self.guard(self.tables.states as usize + edge)
+    }
+
+    #[inline]
+    fn guard(&self, index: usize) -> Guard<'_> {
+        let Tables { guards, literals, .. } = &self.tables;
+        let ends = &guards[index..index + 2];
+        Guard { literals: &literals[ends[0] as usize..ends[1] as usize] }
+    }
+}
+
+impl Acceptor for Automaton {
+    fn states(&self) -> u32 {
+        self.tables.states
+    }
+
+    #[inline]
+    fn is_accepting(&self, q: u32) -> bool {
+        self.tables.accepting == Some(q)
+    }
+
+    #[inline]
+    fn is_trap(&self, q: u32) -> bool {
+        self.tables.trap == Some(q)
+    }
+
+    fn distance(&self, q: u32) -> Option<u32> {
+        Some(self.tables.distance[q as usize]).filter(|&distance| distance < u32::MAX)
+    }
+
+    fn successors(&self, q: u32, visit: &mut dyn FnMut(u32)) {
+        self.targets(q).1.iter().for_each(|&to| visit(to));
     }
 }

@@ -6,9 +6,11 @@
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
+use core::fmt;
 
 use crate::augmented::End;
-use crate::task::{Error, Monitor};
+use crate::monitor::Monitor;
+use crate::task::Error;
 
 /// A low-level controller: an action for a state.
 pub type Controller<'a, S> = Box<dyn FnMut(&S) -> usize + 'a>;
@@ -16,35 +18,36 @@ pub type Controller<'a, S> = Box<dyn FnMut(&S) -> usize + 'a>;
 /// Low-level controllers under an automaton.
 ///
 /// ```
-/// # use tltl::{automaton::*, controller::Hierarchy, robustness::*, Formula, Task};
-/// # static A: Automaton = Automaton {
-/// #     propositions: &["a"], states: 2, accepting: Some(1), trap: None,
-/// #     transitions: Transitions::Table { class: &[0, 1], width: 2, next: &[0, 1, 1, 1] },
-/// #     edges: &[], progress: &[&[&[1]], &[]], distance: &[1, 0],
-/// # };
-/// # static F: Formula = Formula { text: "F a", ops: &[Op::Is(0), Op::Eventually(0)] };
-/// # struct At3;
-/// # impl Predicates<i32> for At3 {
-/// #     fn robustness(&self, _: usize, s: &i32) -> f64 { if *s == 3 { 1.0 } else { -1.0 } }
-/// #     fn holds(&self, _: usize, s: &i32) -> Result<bool, NotANumber> { Ok(*s == 3) }
-/// #     fn with_scratch<R>(&self, f: impl FnOnce(&mut [f64], &mut [f64]) -> R) -> R {
-/// #         f(&mut [0.0; 2], &mut [0.0; 2])
-/// #     }
-/// # }
-/// # let task = Task::from_parts("reach", &F, &A, At3);
-/// // `task` is `F a`, where a holds at 3; action 1 goes right.
+/// # #[cfg(feature = "macros")] {
+/// use tltl::{controller::Hierarchy, tltl};
+///
+/// // Action 1 goes right.
+/// let task = tltl! { |x: &i32| F ({ *x } == 3) };
 /// let mut hierarchy = Hierarchy::new(&task, |_: &i32| 0).with(0, |_: &i32| 1);
-/// let mut s = 1;
-/// while hierarchy.observe(&s).unwrap().is_none() {
-///     s += hierarchy.act(&s) as i32;
+/// let mut x = 1;
+/// while hierarchy.observe(&x)?.is_none() {
+///     x += hierarchy.act(&x) as i32;
 /// }
-/// assert_eq!(s, 3);
+/// assert_eq!(x, 3);
+/// # }
+/// # Ok::<(), tltl::task::Error>(())
 /// ```
 pub struct Hierarchy<'a, S, M> {
     monitor: M,
     controllers: Vec<Option<Controller<'a, S>>>,
     otherwise: Controller<'a, S>,
     q: Option<u32>,
+}
+
+impl<S, M: fmt::Debug> fmt::Debug for Hierarchy<'_, S, M> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let own = self.controllers.iter().enumerate().filter(|(_, known)| known.is_some());
+        f.debug_struct("Hierarchy")
+            .field("monitor", &self.monitor)
+            .field("q", &self.q)
+            .field("states_with_a_controller", &own.map(|(q, _)| q).collect::<Vec<_>>())
+            .finish_non_exhaustive()
+    }
 }
 
 impl<'a, S, M: Monitor<S>> Hierarchy<'a, S, M> {

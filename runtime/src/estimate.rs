@@ -12,7 +12,8 @@ use serde::{Deserialize, Serialize};
 use rand::Rng;
 
 use crate::env::Env;
-use crate::task::{Error, Monitor};
+use crate::monitor::Monitor;
+use crate::task::Error;
 
 /// An estimated number and its confidence interval.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,26 +4,34 @@
 //! [`Factored`] task keeps the parts of a conjunction apart: its state is one automaton state for
 //! each part, it is accepted when all parts are and lost when one is. Parts that share a
 //! proposition can also be lost *together* while each could still go on alone (`!b U a` and
-//! `!a U b`). The compiler joins such parts into one where their product is small enough, and then
-//! nothing is missed; where it is not, [`Factored::joint_dead_ends`] says so.
+//! `!a U b`). The compiler joins such parts into one if their product is small enough, and then
+//! nothing is missed; otherwise [`Factored::joint_dead_ends`] says so.
 //!
-//! For learning in a finite world, `Labelled::of_factored` (module `augmented`, feature `alloc`)
-//! numbers the joint states that the world reaches. [`Factored::part`] gives each part as a
-//! [`Task`], of which a `Product` (module `product`) can be made where its size allows.
+//! A factored task becomes a [`Monitor`](crate::Monitor) as [`Numbered`], which numbers the tuples of
+//! states. For learning in a finite world, `Labelled::of_factored` (module `augmented`, feature
+//! `alloc`) numbers only the tuples that the world reaches.
+
+mod numbered;
+
+pub use numbered::{Numbered, TooManyStates};
 
 use crate::automaton::Automaton;
+#[cfg(feature = "alloc")]
+use crate::automaton::TableError;
+use crate::monitor::Acceptor;
 use crate::robustness::{NotANumber, Predicates};
-use crate::task::{Error, Formula, Task};
+use crate::shared::Shared;
+use crate::task::{Error, Formula, Reader, Task};
 
 /// One part of a factored task.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Part {
     /// Its formula; propositions are numbered as in `automaton`.
-    pub formula: &'static Formula,
+    pub formula: Formula,
     /// Its minimal automaton.
-    pub automaton: &'static Automaton,
-    /// The task's predicate that each proposition of the automaton is.
-    pub predicates: &'static [u32],
+    pub automaton: Automaton,
+    /// For each proposition of the automaton the number of the task's predicate.
+    pub predicates: Shared<[u32]>,
 }
 
 /// Whether all dead ends of a factored task are traps of its parts.
@@ -31,55 +39,90 @@ pub struct Part {
 pub enum JointDeadEnds {
     /// They are: parts that share propositions have been joined.
     None,
-    /// Some parts share propositions and their product is too large: states in which each part
-    /// could go on but not all together are not recognised as lost.
+    /// Some parts share propositions and their product is too large: a state in which each part
+    /// could go on but not all together is not recognised as lost.
     NotSearched,
 }
 
 /// A conjunction whose parts run side by side, over the predicates `P`.
-#[derive(Clone, Copy, Debug)]
+///
+/// ```
+/// # #[cfg(feature = "macros")] {
+/// let goals = tltl::tltl! { #[factored] |s: &[bool; 3]| F s[0] && F s[1] && F s[2] };
+/// let mut q = [0; 3]; // one automaton state for each part
+/// for s in [[true, false, false], [false, true, true]] {
+///     goals.next(&mut q, &s)?;
+/// }
+/// assert!(goals.is_accepting(&q));
+/// # }
+/// # Ok::<(), tltl::task::Error>(())
+/// ```
+#[derive(Clone, Debug)]
 pub struct Factored<P> {
-    name: &'static str,
-    text: &'static str,
-    parts: &'static [Part],
+    name: Shared<str>,
+    formula: Formula,
+    parts: Shared<[Part]>,
     joint: JointDeadEnds,
     predicates: P,
 }
 
 impl<P> Factored<P> {
-    /// For generated code: the parts of a factored task.
+    /// The factored task of parts that a program made at run time; `text` is the whole formula.
+    ///
+    /// # Errors
+    /// If a part does not have a predicate for each proposition of its automaton, or its formula is
+    /// about a proposition that its automaton does not have.
+    #[cfg(feature = "alloc")]
+    pub fn new(
+        name: impl Into<Shared<str>>,
+        text: impl Into<Shared<str>>,
+        parts: impl Into<Shared<[Part]>>,
+        joint: JointDeadEnds,
+        predicates: P,
+    ) -> Result<Self, TableError> {
+        let parts = parts.into();
+        for Part { formula, automaton, predicates } in &*parts {
+            let propositions = automaton.propositions().len();
+            crate::automaton::check_length("predicates", predicates.len(), propositions)?;
+            crate::automaton::check_operators(formula.operators(), propositions)?;
+        }
+        Ok(Self::trusted(name.into(), text.into(), parts, joint, predicates))
+    }
+
+    /// For generated code, whose parts are right by construction.
     #[doc(hidden)]
-    pub const fn from_parts(
-        name: &'static str,
-        text: &'static str,
-        parts: &'static [Part],
+    pub const fn trusted(
+        name: Shared<str>,
+        text: Shared<str>,
+        parts: Shared<[Part]>,
         joint: JointDeadEnds,
         predicates: P,
     ) -> Self {
-        Self { name, text, parts, joint, predicates }
+        let formula = Formula::trusted(text, Shared::from_static(&[]));
+        Self { name, formula, parts, joint, predicates }
     }
 
-    /// The task's name.
+    /// The task's name; its formula if it has none.
     #[must_use]
-    pub const fn name(&self) -> &'static str {
-        self.name
+    pub fn name(&self) -> &str {
+        &self.name
     }
 
-    /// The formula as its author wrote it.
+    /// The formula; its operators are those of the [parts](Self::part).
     #[must_use]
-    pub const fn text(&self) -> &'static str {
-        self.text
+    pub const fn formula(&self) -> &Formula {
+        &self.formula
     }
 
     /// The number of parts, which is the length of a state.
     #[must_use]
-    pub const fn len(&self) -> usize {
+    pub fn len(&self) -> usize {
         self.parts.len()
     }
 
     /// Whether there are no parts; never so for a compiled task.
     #[must_use]
-    pub const fn is_empty(&self) -> bool {
+    pub fn is_empty(&self) -> bool {
         self.parts.is_empty()
     }
 
@@ -93,11 +136,24 @@ impl<P> Factored<P> {
     ///
     /// # Panics
     /// If there is no part `i`.
+    ///
+    /// ```
+    /// # #[cfg(feature = "macros")] {
+    /// use tltl::{Acceptor, tltl};
+    ///
+    /// let goals = tltl! { #[factored] |s: &[bool; 3]| F s[0] && F s[1] && F s[2] };
+    /// assert_eq!(goals.part(1).formula().text(), "F s[1]");
+    /// # }
+    /// ```
     #[must_use]
     pub fn part(&self, i: usize) -> Task<Select<'_, P>> {
-        let Part { formula, automaton, predicates } = self.parts[i];
-        let predicates = Select { predicates: &self.predicates, chosen: predicates };
-        Task::from_parts(formula.text, formula, automaton, predicates)
+        let part = &self.parts[i];
+        Task::trusted(
+            part.formula.text.clone(),
+            self.parts.project(|parts| &parts[i].formula),
+            self.parts.project(|parts| &parts[i].automaton),
+            self.reader(part).predicates,
+        )
     }
 
     /// Moves every part on `s`: `q[i] = δ_i(q[i], s)`. A state starts as all 0.
@@ -112,8 +168,8 @@ impl<P> Factored<P> {
         P: Predicates<S>,
     {
         assert_eq!(q.len(), self.parts.len(), "one automaton state for each part");
-        for (i, q) in q.iter_mut().enumerate() {
-            *q = self.part(i).next(*q, s)?;
+        for (part, q) in self.readers().zip(q) {
+            *q = part.next(*q, s)?;
         }
         Ok(())
     }
@@ -130,10 +186,6 @@ impl<P> Factored<P> {
         self.automata().zip(q).any(|(automaton, &q)| automaton.is_trap(q))
     }
 
-    fn automata(&self) -> impl Iterator<Item = &'static Automaton> {
-        self.parts.iter().map(|part| part.automaton)
-    }
-
     /// Robustness of a whole trajectory: the least of the parts'; -∞ for an empty one.
     ///
     /// # Errors
@@ -142,8 +194,8 @@ impl<P> Factored<P> {
     where
         P: Predicates<S>,
     {
-        let parts = (0..self.parts.len()).map(|i| self.part(i).robustness(trajectory));
-        parts.into_iter().try_fold(f64::INFINITY, |least, rho| Ok(least.min(rho?)))
+        let mut parts = self.readers().map(|part| part.robustness(trajectory));
+        parts.try_fold(f64::INFINITY, |least, rho| Ok(least.min(rho?)))
     }
 
     /// Whether a trajectory satisfies the task: whether it satisfies every part.
@@ -154,12 +206,27 @@ impl<P> Factored<P> {
     where
         P: Predicates<S>,
     {
-        for i in 0..self.parts.len() {
-            if !self.part(i).satisfied(trajectory)? {
+        for part in self.readers() {
+            if !part.satisfied(trajectory)? {
                 return Ok(false);
             }
         }
         Ok(true)
+    }
+
+    fn automata(&self) -> impl Iterator<Item = &Automaton> {
+        self.parts.iter().map(|part| &part.automaton)
+    }
+
+    fn readers(&self) -> impl Iterator<Item = Reader<'_, Select<'_, P>>> {
+        self.parts.iter().map(|part| self.reader(part))
+    }
+
+    #[inline]
+    fn reader<'a>(&'a self, part: &'a Part) -> Reader<'a, Select<'a, P>> {
+        let Part { formula, automaton, predicates } = part;
+        let predicates = Select { predicates: &self.predicates, chosen: predicates };
+        Reader { formula, automaton, predicates }
     }
 }
 
@@ -167,7 +234,7 @@ impl<P> Factored<P> {
 #[derive(Debug)]
 pub struct Select<'a, P> {
     predicates: &'a P,
-    chosen: &'static [u32],
+    chosen: &'a [u32],
 }
 
 impl<P> Clone for Select<'_, P> {
@@ -190,7 +257,7 @@ impl<S: ?Sized, P: Predicates<S>> Predicates<S> for Select<'_, P> {
     }
 
     // The whole formula has at least as many operators as a part of it.
-    fn with_scratch<R>(&self, f: impl FnOnce(&mut [f64], &mut [f64]) -> R) -> R {
-        self.predicates.with_scratch(f)
+    fn with_scratch<R>(&self, cells: usize, f: impl FnOnce(&mut [f64], &mut [f64]) -> R) -> R {
+        self.predicates.with_scratch(cells, f)
     }
 }

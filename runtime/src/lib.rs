@@ -8,6 +8,7 @@
 //! | module | what it turns into what |
 //! | --- | --- |
 //! | [`automaton`], [`robustness`], [`task`], [`factored`] | states into automaton moves and robustness; no allocation |
+//! | [`monitor`] | what all the rest needs of a task: [`Acceptor`], and [`Monitor`] over states of a type |
 //! | `env`, `model` | a world of yours into an environment, and into exact tables |
 //! | `augmented` | world × task into the FSA-augmented MDP (Definition 3), with rewards by mode |
 //! | `learn`, `q` | experience into action values |
@@ -93,6 +94,7 @@ mod interner;
 pub mod learn;
 #[cfg(feature = "alloc")]
 pub mod model;
+pub mod monitor;
 #[cfg(feature = "alloc")]
 pub mod network;
 #[cfg(feature = "alloc")]
@@ -104,6 +106,7 @@ pub mod product;
 #[cfg(feature = "alloc")]
 pub mod q;
 pub mod robustness;
+mod shared;
 #[cfg(feature = "alloc")]
 pub mod shield;
 #[cfg(feature = "alloc")]
@@ -116,8 +119,10 @@ pub use rand;
 
 pub use automaton::Automaton;
 pub use factored::Factored;
+pub use monitor::{Acceptor, Monitor};
 pub use robustness::{Boolean, Predicate};
-pub use task::{Formula, Monitor, Task};
+pub use shared::Shared;
+pub use task::{Formula, Task};
 #[cfg(feature = "macros")]
 pub use tltl_macros::{include_tltl, tltl};
 

@@ -1,8 +1,10 @@
 //! What generated code calls. Not part of the public interface: it changes with the compiler, and
 //! the two are released together.
 
+use crate::automaton::{Automaton, Tables, Transitions};
 use crate::robustness::{NotANumber, Predicate, Predicates};
-use crate::task::{Formula, Task};
+use crate::shared::Shared;
+use crate::task::{EMPTY, Task};
 
 /// A predicate as two closures: its robustness, and whether it holds.
 #[derive(Clone, Copy)]
@@ -43,7 +45,7 @@ impl<S: ?Sized> Predicates<S> for Invalid {
         no_predicate(i)
     }
 
-    fn with_scratch<R>(&self, f: impl FnOnce(&mut [f64], &mut [f64]) -> R) -> R {
+    fn with_scratch<R>(&self, _: usize, f: impl FnOnce(&mut [f64], &mut [f64]) -> R) -> R {
         f(&mut [], &mut [])
     }
 }
@@ -51,19 +53,28 @@ impl<S: ?Sized> Predicates<S> for Invalid {
 /// Stands in for a task that did not compile, so that one mistake is one message.
 #[must_use]
 pub const fn invalid() -> Task<Invalid> {
-    use crate::automaton::{Automaton, Transitions};
-    static FORMULA: Formula = Formula { text: "", ops: &[] };
-    static AUTOMATON: Automaton = Automaton {
-        propositions: &[],
+    static AUTOMATON: Automaton = Automaton::trusted(Tables {
+        propositions: Shared::from_static(&[]),
         states: 1,
         accepting: None,
         trap: Some(0),
-        transitions: Transitions::Table { class: &[0], width: 1, next: &[0] },
-        edges: &[],
-        progress: &[&[]],
-        distance: &[u32::MAX],
-    };
-    Task::from_parts("", &FORMULA, &AUTOMATON, Invalid)
+        transitions: Transitions::Table {
+            class: Shared::from_static(&[0]),
+            width: 1,
+            next: Shared::from_static(&[0]),
+        },
+        edges: Shared::from_static(&[0, 1]),
+        targets: Shared::from_static(&[0]),
+        guards: Shared::from_static(&[0, 0, 1]),
+        literals: Shared::from_static(&[0]),
+        distance: Shared::from_static(&[u32::MAX]),
+    });
+    Task::trusted(
+        Shared::from_static(""),
+        Shared::from_static(&EMPTY),
+        Shared::from_static(&AUTOMATON),
+        Invalid,
+    )
 }
 
 /// `a < b`.

@@ -7,9 +7,15 @@
 //! formulas is the minimal one.
 
 use alloc::collections::BTreeMap;
+use alloc::format;
+use alloc::string::String;
 use alloc::vec::Vec;
+use core::fmt;
 
-use crate::task::{Error, Monitor};
+use crate::monitor::{Acceptor, Monitor};
+use crate::robustness;
+use crate::shared::Shared;
+use crate::task::{Error, Formula};
 
 /// An operand of a product.
 pub type Operand<'a, S> = &'a (dyn Monitor<S> + Sync + 'a);
@@ -26,6 +32,17 @@ pub enum Operator {
     /// `(F a) T (F b)`, which lets a come after b: `T` asks when a formula *holds*, this when it is
     /// *done*.) What running one skill until it is done, then the next, amounts to.
     Sequence,
+}
+
+impl Operator {
+    /// What stands between two operands; `;` is what programs write between two steps.
+    const fn symbol(self) -> &'static str {
+        match self {
+            Self::Conjunction => " && ",
+            Self::Disjunction => " || ",
+            Self::Sequence => "; ",
+        }
+    }
 }
 
 /// A state of the product: the operands' states, and for a sequence which of them is running.
@@ -47,6 +64,8 @@ enum Move {
 /// States are numbered breadth-first from the initial one, 0.
 pub struct Product<'a, S: ?Sized> {
     operator: Operator,
+    name: String,
+    formula: Formula,
     operands: Vec<Operand<'a, S>>,
     strides: Vec<u128>,
     index: BTreeMap<Key, u32>,
@@ -54,9 +73,17 @@ pub struct Product<'a, S: ?Sized> {
     components: Vec<u32>,
     first: Vec<u32>,
     successors: Vec<u32>,
-    distance: Vec<u32>,
+    distance: Vec<Option<u32>>,
     accepting: Option<u32>,
     trap: Option<u32>,
+}
+
+impl<S: ?Sized> fmt::Debug for Product<'_, S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut product = f.debug_struct("Product");
+        product.field("operator", &self.operator).field("name", &self.name);
+        product.field("states", &self.keys.len()).finish_non_exhaustive()
+    }
 }
 
 impl<'a, S: ?Sized> Product<'a, S> {
@@ -94,8 +121,13 @@ impl<'a, S: ?Sized> Product<'a, S> {
     #[must_use]
     pub fn new(operator: Operator, operands: &[Operand<'a, S>]) -> Self {
         assert!(!operands.is_empty(), "a product needs operands");
+        let names: Vec<_> = operands.iter().map(|operand| operand.name()).collect();
+        let texts = operands.iter().map(|operand| format!("({})", operand.formula().text()));
+        let text = texts.collect::<Vec<_>>().join(operator.symbol());
         let mut product = Self {
             operator,
+            name: names.join(operator.symbol()),
+            formula: Formula::trusted(text.into(), Shared::from_static(&[])),
             operands: operands.to_vec(),
             strides: strides(operands),
             index: BTreeMap::new(),
@@ -262,18 +294,19 @@ impl<'a, S: ?Sized> Product<'a, S> {
     }
 
     /// The least number of moves to the accepting state, for all states.
-    fn distances(&self) -> Vec<u32> {
-        let mut distance = alloc::vec![u32::MAX; self.keys.len()];
+    fn distances(&self) -> Vec<Option<u32>> {
+        let mut distance = alloc::vec![None; self.keys.len()];
         let Some(accepting) = self.accepting else { return distance };
-        distance[accepting as usize] = 0;
+        distance[accepting as usize] = Some(0);
         let mut changed = true;
         while changed {
             changed = false;
             for q in (0..self.keys.len()).rev() {
-                let best = self.edges(q as u32).iter().map(|&to| distance[to as usize]).min();
-                let through = best.unwrap_or(u32::MAX).saturating_add(1);
-                changed |= through < distance[q];
-                distance[q] = distance[q].min(through);
+                let next = self.edges(q as u32).iter().filter_map(|&to| distance[to as usize]);
+                let through = next.min().map(|nearest| nearest + 1);
+                if through.is_some() && distance[q].is_none_or(|known| through < Some(known)) {
+                    (distance[q], changed) = (through, true);
+                }
             }
         }
         distance
@@ -286,40 +319,35 @@ impl<'a, S: ?Sized> Product<'a, S> {
         if operand.is_trap(at) { Ok(f64::INFINITY) } else { operand.trap_robustness(at, s) }
     }
 
-    /// Least of −ρ(s, τ_j) over the operands other than `i`: none of them is lost.
-    fn others_safe(&self, i: usize, q: u32, s: &S) -> Result<f64, Error> {
-        let mut least = f64::INFINITY;
-        for j in (0..self.operands.len()).filter(|&j| j != i) {
-            least = least.min(-self.losing(j, q, s)?);
+    /// Robustness of losing each operand.
+    fn losses(&self, q: u32, s: &S) -> impl Iterator<Item = Result<f64, Error>> {
+        (0..self.operands.len()).map(move |i| self.losing(i, q, s))
+    }
+
+    /// Robustness of progress of each operand.
+    fn progresses(&self, q: u32, s: &S) -> impl Iterator<Item = Result<f64, Error>> {
+        let operands = self.operands.iter().zip(self.components(q));
+        operands.map(move |(operand, &at)| operand.progress_robustness(at, s))
+    }
+
+    /// Robustness of progress of a disjunction: an operand moves on, or it is lost while another is
+    /// not.
+    fn progress_of_any(&self, q: u32, s: &S) -> Result<f64, Error> {
+        let mut best = f64::NEG_INFINITY;
+        for (i, progress) in self.progresses(q, s).enumerate() {
+            // To be lost already is not a move.
+            if !self.operands[i].is_trap(self.components(q)[i]) {
+                let lost = self.losing(i, q, s)?.min(self.other_alive(i, q, s)?);
+                best = best.max(progress?.max(lost));
+            }
         }
-        Ok(least)
+        Ok(best)
     }
 
     /// Greatest of −ρ(s, τ_j) over the operands other than `i`: one of them is not lost.
     fn other_alive(&self, i: usize, q: u32, s: &S) -> Result<f64, Error> {
-        let mut greatest = f64::NEG_INFINITY;
-        for j in (0..self.operands.len()).filter(|&j| j != i) {
-            greatest = greatest.max(-self.losing(j, q, s)?);
-        }
-        Ok(greatest)
-    }
-
-    /// Robustness of progress through operand `i`.
-    fn progress_of(&self, i: usize, q: u32, s: &S) -> Result<f64, Error> {
-        let progress = self.operands[i].progress_robustness(self.components(q)[i], s)?;
-        match self.operator {
-            Operator::Conjunction => Ok(progress.min(self.others_safe(i, q, s)?)),
-            Operator::Sequence => Ok(progress),
-            Operator::Disjunction => {
-                let at = self.components(q)[i];
-                if self.operands[i].is_trap(at) {
-                    // Lost already: being so is no further move.
-                    return Ok(f64::NEG_INFINITY);
-                }
-                let lost = self.operands[i].trap_robustness(at, s)?;
-                Ok(progress.max(lost.min(self.other_alive(i, q, s)?)))
-            }
-        }
+        let mut losses = self.losses(q, s).enumerate().filter(|(j, _)| *j != i);
+        losses.try_fold(f64::NEG_INFINITY, |greatest, (_, lost)| Ok(greatest.max(-lost?)))
     }
 }
 
@@ -347,11 +375,37 @@ fn strides<S: ?Sized>(operands: &[Operand<'_, S>]) -> Vec<u128> {
     operands.iter().map(&mut next).collect()
 }
 
-impl<S: ?Sized> Monitor<S> for Product<'_, S> {
+impl<S: ?Sized> Acceptor for Product<'_, S> {
     fn states(&self) -> u32 {
         self.keys.len() as u32
     }
 
+    fn is_accepting(&self, q: u32) -> bool {
+        self.accepting == Some(q)
+    }
+
+    fn is_trap(&self, q: u32) -> bool {
+        self.trap == Some(q)
+    }
+
+    fn distance(&self, q: u32) -> Option<u32> {
+        self.distance[q as usize]
+    }
+
+    fn successors(&self, q: u32, visit: &mut dyn FnMut(u32)) {
+        self.edges(q).iter().for_each(|&to| visit(to));
+    }
+
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn formula(&self) -> &Formula {
+        &self.formula
+    }
+}
+
+impl<S: ?Sized> Monitor<S> for Product<'_, S> {
     fn next(&self, q: u32, s: &S) -> Result<u32, Error> {
         if self.is_end(q) {
             return Ok(q);
@@ -370,46 +424,38 @@ impl<S: ?Sized> Monitor<S> for Product<'_, S> {
         })
     }
 
-    fn is_accepting(&self, q: u32) -> bool {
-        self.accepting == Some(q)
-    }
-
-    fn is_trap(&self, q: u32) -> bool {
-        self.trap == Some(q)
-    }
-
     /// For a conjunction (D₁ ∧ ¬τ₂) ∨ (D₂ ∧ ¬τ₁), where τᵢ is the guard into trap i: progress of
     /// one operand that loses none of the others.
     fn progress_robustness(&self, q: u32, s: &S) -> Result<f64, Error> {
-        let mut best = f64::NEG_INFINITY;
-        let running = self.keys[q as usize].running;
-        for i in 0..self.operands.len() {
-            if !self.is_end(q) && self.moves(i, running) {
-                best = best.max(self.progress_of(i, q, s)?);
-            }
-        }
-        Ok(best)
-    }
-
-    fn trap_robustness(&self, q: u32, s: &S) -> Result<f64, Error> {
-        let running = self.keys[q as usize].running;
         if self.is_end(q) {
             return Ok(f64::NEG_INFINITY);
         }
         match self.operator {
-            Operator::Sequence => self.losing(running, q, s),
-            // No operand has this index: all of them count.
-            Operator::Conjunction => self.others_safe(usize::MAX, q, s).map(|safe| -safe),
-            Operator::Disjunction => self.other_alive(usize::MAX, q, s).map(|alive| -alive),
+            Operator::Conjunction => {
+                robustness::progress_of_all(self.losses(q, s), self.progresses(q, s))
+            }
+            Operator::Disjunction => self.progress_of_any(q, s),
+            Operator::Sequence => {
+                let running = self.running(q);
+                self.operands[running].progress_robustness(self.components(q)[running], s)
+            }
         }
     }
 
-    fn distance(&self, q: u32) -> u32 {
-        self.distance[q as usize]
-    }
-
-    fn successors(&self, q: u32, visit: &mut dyn FnMut(u32)) {
-        self.edges(q).iter().for_each(|&to| visit(to));
+    fn trap_robustness(&self, q: u32, s: &S) -> Result<f64, Error> {
+        if self.is_end(q) {
+            return Ok(f64::NEG_INFINITY);
+        }
+        let mut losses = self.losses(q, s);
+        match self.operator {
+            Operator::Conjunction => {
+                losses.try_fold(f64::NEG_INFINITY, |most, lost| Ok(most.max(lost?)))
+            }
+            Operator::Disjunction => {
+                losses.try_fold(f64::INFINITY, |least, lost| Ok(least.min(lost?)))
+            }
+            Operator::Sequence => self.losing(self.running(q), q, s),
+        }
     }
 
     /// Min over the operands of a conjunction, max over those of a disjunction. In a sequence each

@@ -5,7 +5,7 @@
 //! automaton always moves on Booleans. NaN is an error of the caller and is reported, never taken
 //! as false.
 
-use crate::automaton::{Automaton, Guard};
+use crate::automaton::{Automaton, Guard, proposition};
 
 /// A predicate met a value that is not a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,9 +78,31 @@ impl<S: ?Sized, F: Fn(&S) -> bool> Predicate<S> for Boolean<F> {
     }
 }
 
-/// The predicates of a task, numbered like its propositions. Implemented by generated code.
+/// The predicates of a task, numbered like its propositions. Generated code implements it.
+///
+/// ```
+/// use tltl::robustness::{NotANumber, Predicates};
+///
+/// /// Two sensors; predicate `i` is "sensor `i` is above 0.5".
+/// struct Above;
+///
+/// impl Predicates<[f64; 2]> for Above {
+///     fn robustness(&self, i: usize, s: &[f64; 2]) -> f64 {
+///         s[i] - 0.5
+///     }
+///     fn holds(&self, i: usize, s: &[f64; 2]) -> Result<bool, NotANumber> {
+///         let rho = self.robustness(i, s);
+///         if rho.is_nan() { Err(NotANumber) } else { Ok(rho > 0.0) }
+///     }
+/// #   #[cfg(not(feature = "alloc"))]
+/// #   fn with_scratch<R>(&self, _: usize, f: impl FnOnce(&mut [f64], &mut [f64]) -> R) -> R {
+/// #       f(&mut [], &mut [])
+/// #   }
+/// }
+/// assert_eq!(Above.holds(1, &[0.0, 0.75]), Ok(true));
+/// ```
 pub trait Predicates<S: ?Sized> {
-    /// Robustness of predicate `i` at `s`.
+    /// Robustness of predicate `i` at `s`; NaN if `s` holds one.
     ///
     /// # Panics
     /// If there is no predicate `i`.
@@ -89,31 +111,93 @@ pub trait Predicates<S: ?Sized> {
     /// Whether predicate `i` holds at `s`.
     ///
     /// # Errors
-    /// [`NotANumber`] if the answer hangs on a value that is not a number.
+    /// [`NotANumber`] if the answer depends on a value that is not a number.
     ///
     /// # Panics
     /// If there is no predicate `i`.
     fn holds(&self, i: usize, s: &S) -> Result<bool, NotANumber>;
 
-    /// Calls `f` with two scratch buffers, one cell for each operator of the formula.
+    /// Calls `f` with two buffers of at least `cells` numbers each. Generated code knows the number
+    /// and gives two arrays, so that the robustness of a trajectory allocates nothing.
+    #[cfg(feature = "alloc")]
     #[doc(hidden)]
-    fn with_scratch<R>(&self, f: impl FnOnce(&mut [f64], &mut [f64]) -> R) -> R;
+    fn with_scratch<R>(&self, cells: usize, f: impl FnOnce(&mut [f64], &mut [f64]) -> R) -> R {
+        f(&mut alloc::vec![0.0; cells], &mut alloc::vec![0.0; cells])
+    }
+
+    /// Calls `f` with two buffers of at least `cells` numbers each.
+    #[cfg(not(feature = "alloc"))]
+    #[doc(hidden)]
+    fn with_scratch<R>(&self, cells: usize, f: impl FnOnce(&mut [f64], &mut [f64]) -> R) -> R;
 }
 
-/// Robustness of a guard: max over its cubes, min over their literals, given the robustness of
-/// each proposition. The empty guard is -∞, the empty cube +∞.
+impl<S: ?Sized, P: Predicates<S>> Predicates<S> for &P {
+    #[inline]
+    fn robustness(&self, i: usize, s: &S) -> f64 {
+        (**self).robustness(i, s)
+    }
+
+    #[inline]
+    fn holds(&self, i: usize, s: &S) -> Result<bool, NotANumber> {
+        (**self).holds(i, s)
+    }
+
+    fn with_scratch<R>(&self, cells: usize, f: impl FnOnce(&mut [f64], &mut [f64]) -> R) -> R {
+        (**self).with_scratch(cells, f)
+    }
+}
+
+/// Robustness of a guard: max over its cubes, min over their literals, where `rho` gives the
+/// robustness of each proposition. A guard without cubes is -∞, a cube without literals +∞.
+///
+/// ```
+/// # #[cfg(feature = "macros")] {
+/// use tltl::robustness;
+///
+/// let task = tltl::tltl! { |s: &[f64; 2]| F (s[0] > 0 && s[1] < 4) };
+/// let progress = task.automaton().progress(0);
+/// assert_eq!(robustness::guard(progress, |i| [0.5, 3.0][i]), 0.5);
+/// # }
+/// ```
 #[inline]
-pub fn guard(guard: Guard, mut rho: impl FnMut(usize) -> f64) -> f64 {
-    let mut best = f64::NEG_INFINITY;
-    for cube in guard {
-        let mut least = f64::INFINITY;
-        for &literal in *cube {
-            let value = rho(literal.unsigned_abs() as usize - 1);
+pub fn guard(guard: Guard<'_>, mut rho: impl FnMut(usize) -> f64) -> f64 {
+    let (mut best, mut least) = (f64::NEG_INFINITY, f64::INFINITY);
+    for &literal in guard.literals {
+        if literal == 0 {
+            best = max(best, least);
+            least = f64::INFINITY;
+        } else {
+            let value = rho(proposition(literal));
             least = min(least, if literal > 0 { value } else { -value });
         }
-        best = max(best, least);
     }
     best
+}
+
+/// Robustness of progress of a conjunction, (D₁ ∧ ¬τ₂) ∨ (D₂ ∧ ¬τ₁) for two operands: one moves on
+/// and none of the others is lost. `losing` gives ρ(s, τ_i), `progress` ρ(s, D_i) of each operand.
+///
+/// What all operands but one leave is the least of all −ρ(s, τ_j), or the second least for the
+/// operand that has the least: two passes, not one for each operand.
+pub(crate) fn progress_of_all<E>(
+    losing: impl Iterator<Item = Result<f64, E>>,
+    progress: impl Iterator<Item = Result<f64, E>>,
+) -> Result<f64, E> {
+    let (mut first, mut second) = ((f64::INFINITY, usize::MAX), f64::INFINITY);
+    for (i, losing) in losing.enumerate() {
+        let safe = -losing?;
+        if safe < first.0 {
+            (first, second) = ((safe, i), first.0);
+        } else {
+            second = min(safe, second);
+        }
+    }
+    let mut best = f64::NEG_INFINITY;
+    for (i, progress) in progress.enumerate() {
+        let others = if i == first.1 { second } else { first.0 };
+        best = max(best, min(progress?, others));
+    }
+    Ok(best)
 }
 
 /// One operator of a formula; operands are indices of earlier operators.
@@ -124,21 +208,21 @@ pub enum Op {
     /// ⊥, robustness -∞.
     False,
     /// A proposition.
-    Is(u16),
+    Is(u32),
     /// A negated proposition.
-    Not(u16),
+    Not(u32),
     /// φ ∧ ψ.
-    And(u16, u16),
+    And(u32, u32),
     /// φ ∨ ψ.
-    Or(u16, u16),
+    Or(u32, u32),
     /// ○φ, strong: there must be a next state.
-    Next(u16),
+    Next(u32),
     /// ◇φ.
-    Eventually(u16),
+    Eventually(u32),
     /// φ U ψ, strong.
-    Until(u16, u16),
+    Until(u32, u32),
     /// φ T ψ: φ at some instant, ψ at a strictly later one. The operands are φ and ◇ψ.
-    Then(u16, u16),
+    Then(u32, u32),
 }
 
 /// Robustness of `formula` (its last operator) on a whole trajectory of `length` states, by one
@@ -160,14 +244,14 @@ pub fn trajectory<E>(
             now[k] = match *op {
                 Op::True => f64::INFINITY,
                 Op::False => f64::NEG_INFINITY,
-                Op::Is(i) => rho(usize::from(i), t)?,
-                Op::Not(i) => -rho(usize::from(i), t)?,
-                Op::And(a, b) => min(now[usize::from(a)], now[usize::from(b)]),
-                Op::Or(a, b) => max(now[usize::from(a)], now[usize::from(b)]),
-                Op::Next(a) => next[usize::from(a)],
-                Op::Eventually(a) => max(now[usize::from(a)], next[k]),
-                Op::Until(a, b) => max(now[usize::from(b)], min(now[usize::from(a)], next[k])),
-                Op::Then(a, b) => max(min(now[usize::from(a)], next[usize::from(b)]), next[k]),
+                Op::Is(i) => rho(i as usize, t)?,
+                Op::Not(i) => -rho(i as usize, t)?,
+                Op::And(a, b) => min(now[a as usize], now[b as usize]),
+                Op::Or(a, b) => max(now[a as usize], now[b as usize]),
+                Op::Next(a) => next[a as usize],
+                Op::Eventually(a) => max(now[a as usize], next[k]),
+                Op::Until(a, b) => max(now[b as usize], min(now[a as usize], next[k])),
+                Op::Then(a, b) => max(min(now[a as usize], next[b as usize]), next[k]),
             };
         }
         next.copy_from_slice(now);
@@ -175,10 +259,10 @@ pub fn trajectory<E>(
     Ok(formula.len().checked_sub(1).map_or(f64::NEG_INFINITY, |last| now[last]))
 }
 
-/// Robustness of a whole trajectory of `length` states by an automaton of which there is no
-/// formula: the best run's worst guard, max over the runs into the accepting state, min over the
-/// guards on the way. Positive only for trajectories that are accepted, negative only for others.
-/// O(length × edges) time; `now` and `next` are scratch space, one cell a state.
+/// Robustness of a whole trajectory of `length` states by an automaton that came without a formula:
+/// the best run's worst guard, max over the runs into the accepting state, min over the guards on
+/// the way. Positive only for trajectories that are accepted, negative only for others.
+/// O(length × edges) time; `now` and `next` are scratch space of one cell for each state.
 ///
 /// # Errors
 /// The first error of `rho`.
@@ -193,7 +277,7 @@ pub fn best_run<E>(
     now[Automaton::INITIAL as usize] = f64::INFINITY;
     for t in 0..length {
         next.fill(f64::NEG_INFINITY);
-        for edge in automaton.edges {
+        for edge in automaton.edges() {
             let mut error = None;
             let taken = guard(edge.guard, |i| {
                 rho(i, t).unwrap_or_else(|e| {
@@ -209,7 +293,7 @@ pub fn best_run<E>(
         }
         now.copy_from_slice(next);
     }
-    let accepting = automaton.accepting.filter(|_| length > 0);
+    let accepting = automaton.accepting().filter(|_| length > 0);
     Ok(accepting.map_or(f64::NEG_INFINITY, |q| now[q as usize]))
 }
 

@@ -1,37 +1,131 @@
-//! A task: a compiled formula together with the predicates that it speaks of.
+//! A task: a compiled formula together with the predicates that it is about.
+//!
+//! `tltl!` and `include_tltl!` make tasks in constants, over static tables; a task that is compiled
+//! at run time owns its tables. Both are [`Task`]. A task holds no automaton state: the state `q`
+//! is the caller's, one `u32`, and one task serves any number of trajectories at once.
+
+mod parametric;
 
 use core::fmt;
 
-use crate::automaton::Automaton;
+pub use parametric::Parametric;
+
+#[cfg(feature = "alloc")]
+use crate::automaton::TableError;
+use crate::automaton::{Automaton, Guard};
+use crate::monitor::{Acceptor, Monitor};
 use crate::robustness::{self, NotANumber, Op, Predicates};
+use crate::shared::Shared;
 
 /// A formula as data: its text and its operators, children before parents.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+///
+/// ```
+/// # #[cfg(feature = "macros")] {
+/// use tltl::{Acceptor, robustness::Op, tltl};
+///
+/// let task = tltl! { |s: &(bool, bool)| F s.0 && F s.1 };
+/// assert_eq!(task.formula().text(), "F s.0 && F s.1");
+/// assert_eq!(task.formula().operators().last(), Some(&Op::And(1, 3)));
+/// # }
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Formula {
-    /// The formula as its author wrote it.
-    pub text: &'static str,
-    /// Its operators in negation normal form; the last one is the formula itself. None: the
-    /// automaton came without a formula.
-    pub ops: &'static [Op],
+    pub(crate) text: Shared<str>,
+    operators: Shared<[Op]>,
 }
 
-/// A compiled task over states of any type that its predicates `P` accept.
+/// The formula of an automaton on its own.
+pub(crate) static EMPTY: Formula =
+    Formula::trusted(Shared::from_static(""), Shared::from_static(&[]));
+
+impl Formula {
+    /// The formula whose last operator is the whole, in negation normal form. Without operators it
+    /// is only a text: that of a task whose automaton came without a formula.
+    ///
+    /// # Errors
+    /// If an operand is not an earlier operator.
+    ///
+    /// ```
+    /// use tltl::{Formula, robustness::Op};
+    ///
+    /// let eventually = Formula::new("F a", vec![Op::Is(0), Op::Eventually(0)])?;
+    /// assert_eq!(eventually.text(), "F a");
+    /// let error = Formula::new("F a", vec![Op::Eventually(0), Op::Is(0)]).unwrap_err();
+    /// assert_eq!(error.to_string(), "`operators`, entry 0: 0 is not less than 0");
+    /// # Ok::<(), tltl::automaton::TableError>(())
+    /// ```
+    #[cfg(feature = "alloc")]
+    pub fn new(
+        text: impl Into<Shared<str>>,
+        operators: impl Into<Shared<[Op]>>,
+    ) -> Result<Self, TableError> {
+        let operators = operators.into();
+        // A task checks the propositions, of which the automaton has the number.
+        crate::automaton::check_operators(&operators, usize::MAX)?;
+        Ok(Self { text: text.into(), operators })
+    }
+
+    /// For generated code, whose operators are in order by construction.
+    #[doc(hidden)]
+    #[must_use]
+    pub const fn trusted(text: Shared<str>, operators: Shared<[Op]>) -> Self {
+        Self { text, operators }
+    }
+
+    /// The formula as its author wrote it.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The operators in negation normal form; the last one is the whole formula. None: the
+    /// automaton came without a formula.
+    #[must_use]
+    pub fn operators(&self) -> &[Op] {
+        &self.operators
+    }
+}
+
+/// A compiled task over states of any type that its predicates `P` read.
 ///
-/// Made by `tltl!` and `include_tltl!`. It holds no state of its own: the automaton state `q` is
-/// the caller's.
-#[derive(Clone, Copy, Debug)]
+/// ```
+/// # #[cfg(feature = "macros")] {
+/// use tltl::{Acceptor, tltl};
+///
+/// let warm = |celsius: &f64| celsius - 60.0;
+/// let hot = |celsius: &f64| celsius - 90.0;
+/// // Warm up, and do not become hot before that.
+/// let task = tltl! { !hot U warm };
+/// let mut q = 0;
+/// for celsius in [20.0, 45.0, 65.0] {
+///     q = task.next(q, &celsius)?;
+/// }
+/// assert!(task.is_accepting(q));
+/// assert_eq!(task.robustness(&[20.0, 45.0, 65.0])?, 5.0);
+/// # }
+/// # Ok::<(), tltl::task::Error>(())
+/// ```
+#[derive(Clone, Debug)]
 pub struct Task<P> {
-    name: &'static str,
-    formula: &'static Formula,
-    automaton: &'static Automaton,
+    name: Shared<str>,
+    formula: Shared<Formula>,
+    automaton: Shared<Automaton>,
     predicates: P,
 }
 
 /// A predicate was not a number at some state.
+///
+/// ```
+/// # #[cfg(feature = "macros")] {
+/// let task = tltl::tltl! { |x: &f64| F ({ *x } < 3) };
+/// let error = task.satisfied(&[4.0, f64::NAN]).unwrap_err();
+/// assert_eq!((&*error.predicate, error.instant), ("{*x} < 3", Some(1)));
+/// # }
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Error {
     /// The predicate, as its author named it.
-    pub predicate: &'static str,
+    pub predicate: Shared<str>,
     /// The instant of the trajectory, if the caller gave a whole one.
     pub instant: Option<usize>,
 }
@@ -49,132 +143,58 @@ impl fmt::Display for Error {
 impl core::error::Error for Error {}
 
 impl<P> Task<P> {
-    /// For generated code: the parts of a task.
+    /// The task of tables that a program made at run time: predicate `i` is proposition `i` of the
+    /// automaton.
+    ///
+    /// # Errors
+    /// If the formula is about a proposition that the automaton does not have.
+    ///
+    /// ```
+    /// # #[cfg(feature = "macros")] {
+    /// use tltl::{Acceptor, Task, tltl};
+    /// # use tltl::robustness::{NotANumber, Predicates};
+    /// # struct Threshold(f64);
+    /// # impl Predicates<f64> for Threshold {
+    /// #     fn robustness(&self, _: usize, s: &f64) -> f64 { s - self.0 }
+    /// #     fn holds(&self, _: usize, s: &f64) -> Result<bool, NotANumber> { Ok(*s > self.0) }
+    /// # }
+    ///
+    /// // The same formula and automaton, over other predicates.
+    /// let positive = tltl! { |x: &f64| F ({ *x } > 0) };
+    /// let (formula, automaton) = (positive.formula().clone(), positive.automaton().clone());
+    /// let above_3 = Task::new("above 3", formula, automaton, Threshold(3.0))?;
+    /// assert_eq!(above_3.robustness(&[1.0, 5.0]), Ok(2.0));
+    /// # }
+    /// # Ok::<(), tltl::automaton::TableError>(())
+    /// ```
+    #[cfg(feature = "alloc")]
+    pub fn new(
+        name: impl Into<Shared<str>>,
+        formula: impl Into<Shared<Formula>>,
+        automaton: impl Into<Shared<Automaton>>,
+        predicates: P,
+    ) -> Result<Self, TableError> {
+        let (name, formula, automaton) = (name.into(), formula.into(), automaton.into());
+        let propositions = automaton.propositions().len();
+        crate::automaton::check_operators(formula.operators(), propositions)?;
+        Ok(Self { name, formula, automaton, predicates })
+    }
+
+    /// For generated code, whose tables are right by construction.
     #[doc(hidden)]
-    pub const fn from_parts(
-        name: &'static str,
-        formula: &'static Formula,
-        automaton: &'static Automaton,
+    pub const fn trusted(
+        name: Shared<str>,
+        formula: Shared<Formula>,
+        automaton: Shared<Automaton>,
         predicates: P,
     ) -> Self {
         Self { name, formula, automaton, predicates }
     }
 
-    /// The task's name; its formula if it has none.
-    #[must_use]
-    pub fn name(&self) -> &'static str {
-        self.name
-    }
-
-    /// The formula.
-    #[must_use]
-    pub fn formula(&self) -> &'static Formula {
-        self.formula
-    }
-
     /// The minimal automaton.
     #[must_use]
-    pub fn automaton(&self) -> &'static Automaton {
-        self.automaton
-    }
-
-    /// Robustness of one predicate at `s`, ρ(s, p_i).
-    ///
-    /// # Errors
-    /// If it is not a number.
-    ///
-    /// # Panics
-    /// If there is no predicate `i`.
-    pub fn predicate_robustness<S: ?Sized>(&self, i: usize, s: &S) -> Result<f64, Error>
-    where
-        P: Predicates<S>,
-    {
-        let rho = self.predicates.robustness(i, s);
-        if rho.is_nan() { Err(self.nan(i)) } else { Ok(rho) }
-    }
-
-    /// Robustness of moving from `q` to `to` at `s`, ρ(s, ψ_{q,to}); -∞ if there is no such edge.
-    ///
-    /// # Errors
-    /// If a predicate is not a number.
-    pub fn guard_robustness<S: ?Sized>(&self, q: u32, to: u32, s: &S) -> Result<f64, Error>
-    where
-        P: Predicates<S>,
-    {
-        let edge = self.automaton.edges_from(q).iter().find(|edge| edge.to == to);
-        self.robustness_of(edge.map_or(&[], |edge| edge.guard), s)
-    }
-
-    /// Robustness of progress from `q` at `s`, ρ(s, D_φ^q) of the paper's Eq. 3A3; -∞ at the
-    /// accepting state and at the trap.
-    ///
-    /// # Errors
-    /// If a predicate is not a number.
-    ///
-    /// # Panics
-    /// If `q` is not a state of the automaton.
-    pub fn progress_robustness<S: ?Sized>(&self, q: u32, s: &S) -> Result<f64, Error>
-    where
-        P: Predicates<S>,
-    {
-        self.robustness_of(self.automaton.progress[q as usize], s)
-    }
-
-    fn robustness_of<S: ?Sized>(&self, guard: crate::automaton::Guard, s: &S) -> Result<f64, Error>
-    where
-        P: Predicates<S>,
-    {
-        let mut nan = None;
-        let rho = robustness::guard(guard, |i| {
-            let rho = self.predicates.robustness(i, s);
-            if rho.is_nan() {
-                nan = Some(i);
-            }
-            rho
-        });
-        nan.map_or(Ok(rho), |i| Err(self.nan(i)))
-    }
-
-    /// Robustness of a whole trajectory, ρ(s_{0:T}, φ), in O(N) time; -∞ for an empty one. Of an
-    /// automaton that came without a formula it is that of the [best run](robustness::best_run).
-    ///
-    /// # Errors
-    /// If a predicate is not a number: which, and at which instant.
-    pub fn robustness<S>(&self, trajectory: &[S]) -> Result<f64, Error>
-    where
-        P: Predicates<S>,
-    {
-        let rho = |i: usize, t: usize| {
-            let rho = self.predicates.robustness(i, &trajectory[t]);
-            if rho.is_nan() { Err(Error { instant: Some(t), ..self.nan(i) }) } else { Ok(rho) }
-        };
-        let (ops, length) = (self.formula.ops, trajectory.len());
-        self.predicates.with_scratch(|now, next| {
-            if ops.is_empty() {
-                robustness::best_run(self.automaton, length, now, next, rho)
-            } else {
-                robustness::trajectory(ops, length, now, next, rho)
-            }
-        })
-    }
-
-    /// Whether a trajectory satisfies the task; an empty one does not.
-    ///
-    /// # Errors
-    /// If a predicate is not a number: which, and at which instant.
-    pub fn satisfied<S>(&self, trajectory: &[S]) -> Result<bool, Error>
-    where
-        P: Predicates<S>,
-    {
-        let mut q = Automaton::INITIAL;
-        for (t, s) in trajectory.iter().enumerate() {
-            q = self.next(q, s).map_err(|error| Error { instant: Some(t), ..error })?;
-        }
-        Ok(!trajectory.is_empty() && self.automaton.is_accepting(q))
-    }
-
-    fn nan(&self, i: usize) -> Error {
-        Error { predicate: self.automaton.propositions[i], instant: None }
+    pub fn automaton(&self) -> &Automaton {
+        &self.automaton
     }
 
     /// The automaton state after `q` has read `s`, δ(q, s).
@@ -189,226 +209,224 @@ impl<P> Task<P> {
     where
         P: Predicates<S>,
     {
-        self.automaton.next(q, |i| self.predicates.holds(i, s).map_err(|NotANumber| self.nan(i)))
+        self.reader().next(q, s)
     }
-}
 
-/// What a learner needs of a task: a deterministic automaton that reads states of type `S`.
-///
-/// A [`Task`] is one, and so is a [product](crate::product::Product) of them. The paper calls it
-/// the meta-controller.
-pub trait Monitor<S: ?Sized> {
-    /// The number of automaton states, the trap included; states are `0..states()` and the
-    /// initial one is 0.
-    fn states(&self) -> u32;
-
-    /// The state after `q` has read `s`.
+    /// Robustness of one predicate at `s`, ρ(s, p_i).
     ///
     /// # Errors
-    /// If a predicate that decides the move is not a number.
-    fn next(&self, q: u32, s: &S) -> Result<u32, Error>;
+    /// If it is not a number.
+    ///
+    /// # Panics
+    /// If there is no predicate `i`.
+    pub fn predicate_robustness<S: ?Sized>(&self, i: usize, s: &S) -> Result<f64, Error>
+    where
+        P: Predicates<S>,
+    {
+        self.reader().number(i, self.predicates.robustness(i, s))
+    }
 
-    /// Whether `q` is accepting (and so absorbing).
-    fn is_accepting(&self, q: u32) -> bool;
-
-    /// Whether `q` is the trap.
-    fn is_trap(&self, q: u32) -> bool;
-
-    /// Robustness of progress, ρ(s, D_φ^q).
+    /// Robustness of moving from `q` to `to` at `s`, ρ(s, ψ_{q,to}); -∞ if there is no such edge.
     ///
     /// # Errors
     /// If a predicate is not a number.
-    fn progress_robustness(&self, q: u32, s: &S) -> Result<f64, Error>;
+    ///
+    /// # Panics
+    /// If `q` is not a state of the automaton.
+    pub fn guard_robustness<S: ?Sized>(&self, q: u32, to: u32, s: &S) -> Result<f64, Error>
+    where
+        P: Predicates<S>,
+    {
+        self.reader().guard(self.automaton.edge_guard(q, to), s)
+    }
 
-    /// Robustness of being lost, ρ(s, ψ_{q,trap}); -∞ if no edge of `q` leads into the trap.
+    /// Robustness of progress from `q` at `s`, ρ(s, D_φ^q) of the paper's Eq. 3A3; -∞ at the
+    /// accepting state and at the trap.
     ///
     /// # Errors
     /// If a predicate is not a number.
-    fn trap_robustness(&self, q: u32, s: &S) -> Result<f64, Error>;
-
-    /// The least number of automaton moves from `q` to acceptance; `u32::MAX` if there is no way.
-    fn distance(&self, q: u32) -> u32;
-
-    /// Calls `visit` with the target of every edge that leaves `q`, self-loop included, in
-    /// ascending order.
-    fn successors(&self, q: u32, visit: &mut dyn FnMut(u32));
-
-    /// Whether an episode ends at `q`.
-    fn is_terminal(&self, q: u32) -> bool {
-        self.is_accepting(q) || self.is_trap(q)
+    ///
+    /// # Panics
+    /// If `q` is not a state of the automaton.
+    pub fn progress_robustness<S: ?Sized>(&self, q: u32, s: &S) -> Result<f64, Error>
+    where
+        P: Predicates<S>,
+    {
+        self.reader().progress(q, s)
     }
 
-    /// Robustness of a whole trajectory (the terminal reward of Li et al. 2016).
+    /// Robustness of a whole trajectory, ρ(s_{0:T}, φ), in O(N) time; -∞ for an empty one. If the
+    /// automaton came without a formula, it is that of the [best run](robustness::best_run).
     ///
     /// # Errors
     /// If a predicate is not a number: which, and at which instant.
-    fn trajectory_robustness(&self, trajectory: &[S]) -> Result<f64, Error>
+    pub fn robustness<S>(&self, trajectory: &[S]) -> Result<f64, Error>
     where
-        S: Sized;
-}
+        P: Predicates<S>,
+    {
+        self.reader().robustness(trajectory)
+    }
 
-impl<S: ?Sized, P: Predicates<S>> Monitor<S> for Task<P> {
-    fn states(&self) -> u32 {
-        self.automaton.states
+    /// Whether a trajectory satisfies the task; an empty one does not.
+    ///
+    /// # Errors
+    /// If a predicate is not a number: which, and at which instant.
+    pub fn satisfied<S>(&self, trajectory: &[S]) -> Result<bool, Error>
+    where
+        P: Predicates<S>,
+    {
+        self.reader().satisfied(trajectory)
     }
 
     #[inline]
-    fn next(&self, q: u32, s: &S) -> Result<u32, Error> {
-        Task::next(self, q, s)
+    fn reader(&self) -> Reader<'_, &P> {
+        Reader { formula: &self.formula, automaton: &self.automaton, predicates: &self.predicates }
+    }
+}
+
+impl<P> Acceptor for Task<P> {
+    fn states(&self) -> u32 {
+        self.automaton.states()
     }
 
+    #[inline]
     fn is_accepting(&self, q: u32) -> bool {
         self.automaton.is_accepting(q)
     }
 
+    #[inline]
     fn is_trap(&self, q: u32) -> bool {
         self.automaton.is_trap(q)
     }
 
-    fn progress_robustness(&self, q: u32, s: &S) -> Result<f64, Error> {
-        Task::progress_robustness(self, q, s)
-    }
-
-    fn trap_robustness(&self, q: u32, s: &S) -> Result<f64, Error> {
-        self.automaton.trap.map_or(Ok(f64::NEG_INFINITY), |trap| self.guard_robustness(q, trap, s))
-    }
-
-    fn distance(&self, q: u32) -> u32 {
-        self.automaton.distance[q as usize]
+    fn distance(&self, q: u32) -> Option<u32> {
+        self.automaton.distance(q)
     }
 
     fn successors(&self, q: u32, visit: &mut dyn FnMut(u32)) {
-        self.automaton.edges_from(q).iter().for_each(|edge| visit(edge.to));
+        self.automaton.successors(q, visit);
+    }
+
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn formula(&self) -> &Formula {
+        &self.formula
+    }
+}
+
+impl<S: ?Sized, P: Predicates<S>> Monitor<S> for Task<P> {
+    #[inline]
+    fn next(&self, q: u32, s: &S) -> Result<u32, Error> {
+        self.reader().next(q, s)
+    }
+
+    fn progress_robustness(&self, q: u32, s: &S) -> Result<f64, Error> {
+        self.reader().progress(q, s)
+    }
+
+    fn trap_robustness(&self, q: u32, s: &S) -> Result<f64, Error> {
+        self.reader().trap(q, s)
     }
 
     fn trajectory_robustness(&self, trajectory: &[S]) -> Result<f64, Error>
     where
         S: Sized,
     {
-        self.robustness(trajectory)
+        self.reader().robustness(trajectory)
     }
 }
 
-impl<S: ?Sized, M: Monitor<S> + ?Sized> Monitor<S> for &M {
-    fn states(&self) -> u32 {
-        (**self).states()
+/// Reads states for an automaton that someone else holds: a task, or one of the parts of a factored
+/// task, for which a [`Task`] would count references at every step.
+pub(crate) struct Reader<'a, P> {
+    pub(crate) formula: &'a Formula,
+    pub(crate) automaton: &'a Automaton,
+    pub(crate) predicates: P,
+}
+
+impl<P> Reader<'_, P> {
+    #[inline]
+    pub(crate) fn next<S: ?Sized>(&self, q: u32, s: &S) -> Result<u32, Error>
+    where
+        P: Predicates<S>,
+    {
+        let holds = |i| self.predicates.holds(i, s).map_err(|NotANumber| i);
+        self.automaton.next(q, holds).map_err(|i| self.not_a_number(i))
+    }
+
+    pub(crate) fn progress<S: ?Sized>(&self, q: u32, s: &S) -> Result<f64, Error>
+    where
+        P: Predicates<S>,
+    {
+        self.guard(self.automaton.progress(q), s)
+    }
+
+    /// Robustness of being lost; -∞ where the task cannot be.
+    pub(crate) fn trap<S: ?Sized>(&self, q: u32, s: &S) -> Result<f64, Error>
+    where
+        P: Predicates<S>,
+    {
+        let trap = self.automaton.trap();
+        self.guard(trap.map_or(Guard::FALSE, |trap| self.automaton.edge_guard(q, trap)), s)
     }
 
     #[inline]
-    fn next(&self, q: u32, s: &S) -> Result<u32, Error> {
-        (**self).next(q, s)
-    }
-
-    fn is_accepting(&self, q: u32) -> bool {
-        (**self).is_accepting(q)
-    }
-
-    fn is_trap(&self, q: u32) -> bool {
-        (**self).is_trap(q)
-    }
-
-    fn progress_robustness(&self, q: u32, s: &S) -> Result<f64, Error> {
-        (**self).progress_robustness(q, s)
-    }
-
-    fn trap_robustness(&self, q: u32, s: &S) -> Result<f64, Error> {
-        (**self).trap_robustness(q, s)
-    }
-
-    fn distance(&self, q: u32) -> u32 {
-        (**self).distance(q)
-    }
-
-    fn successors(&self, q: u32, visit: &mut dyn FnMut(u32)) {
-        (**self).successors(q, visit);
-    }
-
-    fn trajectory_robustness(&self, trajectory: &[S]) -> Result<f64, Error>
+    fn guard<S: ?Sized>(&self, guard: Guard<'_>, s: &S) -> Result<f64, Error>
     where
-        S: Sized,
+        P: Predicates<S>,
     {
-        (**self).trajectory_robustness(trajectory)
-    }
-}
-
-/// A task whose arguments are read from the state: `deliver(s.wanted, s.target)`, say, where each
-/// episode wants something else.
-///
-/// All arguments share one automaton, so an automaton state means the same for all of them.
-///
-/// ```
-/// # #[cfg(feature = "macros")] {
-/// use tltl::task::{Monitor, Parametric};
-///
-/// struct Shelf { wanted: u8, seen: u8 }
-/// tltl::tltl! {
-///     state s: Shelf;
-///     predicate see(o: u8) = { s.seen == o };
-///     task find(o: u8) = F see(o);
-/// }
-/// let find = Parametric::new(find(0), |s: &Shelf| find(s.wanted));
-/// let q = find.next(0, &Shelf { wanted: 7, seen: 7 }).unwrap();
-/// assert!(Monitor::<Shelf>::is_accepting(&find, q));
-/// # }
-/// ```
-#[derive(Clone, Copy, Debug)]
-pub struct Parametric<P, F> {
-    any: Task<P>,
-    of: F,
-}
-
-impl<P, F> Parametric<P, F> {
-    /// The task that is `of(s)` at state `s`; `any` is the same with whatever arguments.
-    pub fn new<S: ?Sized>(any: Task<P>, of: F) -> Self
-    where
-        F: Fn(&S) -> Task<P>,
-    {
-        Self { any, of }
-    }
-}
-
-impl<S: ?Sized, P: Predicates<S>, F: Fn(&S) -> Task<P>> Monitor<S> for Parametric<P, F> {
-    fn states(&self) -> u32 {
-        Monitor::<S>::states(&self.any)
-    }
-
-    #[inline]
-    fn next(&self, q: u32, s: &S) -> Result<u32, Error> {
-        (self.of)(s).next(q, s)
-    }
-
-    fn is_accepting(&self, q: u32) -> bool {
-        Monitor::<S>::is_accepting(&self.any, q)
-    }
-
-    fn is_trap(&self, q: u32) -> bool {
-        Monitor::<S>::is_trap(&self.any, q)
-    }
-
-    fn progress_robustness(&self, q: u32, s: &S) -> Result<f64, Error> {
-        (self.of)(s).progress_robustness(q, s)
-    }
-
-    fn trap_robustness(&self, q: u32, s: &S) -> Result<f64, Error> {
-        (self.of)(s).trap_robustness(q, s)
-    }
-
-    fn distance(&self, q: u32) -> u32 {
-        Monitor::<S>::distance(&self.any, q)
-    }
-
-    fn successors(&self, q: u32, visit: &mut dyn FnMut(u32)) {
-        Monitor::<S>::successors(&self.any, q, visit);
-    }
-
-    /// With the arguments of the first state.
-    fn trajectory_robustness(&self, trajectory: &[S]) -> Result<f64, Error>
-    where
-        S: Sized,
-    {
-        match trajectory.first() {
-            Some(s) => (self.of)(s).robustness(trajectory),
-            None => self.any.robustness(trajectory),
+        let mut nan = None;
+        let rho = robustness::guard(guard, |i| {
+            let rho = self.predicates.robustness(i, s);
+            if rho.is_nan() {
+                nan = Some(i);
+            }
+            rho
+        });
+        match nan {
+            None => Ok(rho),
+            Some(i) => Err(self.not_a_number(i)),
         }
+    }
+
+    pub(crate) fn robustness<S>(&self, trajectory: &[S]) -> Result<f64, Error>
+    where
+        P: Predicates<S>,
+    {
+        let rho = |i: usize, t: usize| {
+            let rho = self.number(i, self.predicates.robustness(i, &trajectory[t]));
+            rho.map_err(|error| Error { instant: Some(t), ..error })
+        };
+        let (operators, length) = (self.formula.operators(), trajectory.len());
+        // Of a run there is a cell for each state.
+        let cells =
+            if operators.is_empty() { self.automaton.states() as usize } else { operators.len() };
+        self.predicates.with_scratch(cells, |now, next| match operators {
+            [] => robustness::best_run(self.automaton, length, now, next, rho),
+            _ => robustness::trajectory(operators, length, now, next, rho),
+        })
+    }
+
+    pub(crate) fn satisfied<S>(&self, trajectory: &[S]) -> Result<bool, Error>
+    where
+        P: Predicates<S>,
+    {
+        let mut q = Automaton::INITIAL;
+        for (t, s) in trajectory.iter().enumerate() {
+            q = self.next(q, s).map_err(|error| Error { instant: Some(t), ..error })?;
+        }
+        Ok(!trajectory.is_empty() && self.automaton.is_accepting(q))
+    }
+
+    #[inline]
+    fn number(&self, i: usize, rho: f64) -> Result<f64, Error> {
+        if rho.is_nan() { Err(self.not_a_number(i)) } else { Ok(rho) }
+    }
+
+    #[cold]
+    fn not_a_number(&self, i: usize) -> Error {
+        Error { predicate: self.automaton.propositions()[i].clone(), instant: None }
     }
 }

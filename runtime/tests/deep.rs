@@ -16,8 +16,8 @@ use tltl::policy::States;
 use tltl::product::Product;
 use tltl::rand::{Rng, SeedableRng, rngs::Xoshiro256PlusPlus};
 use tltl::solve::Problem;
-use tltl::task::Monitor;
 use tltl::tltl;
+use tltl::{Acceptor, Monitor};
 
 const GAMMA: f64 = 0.9;
 
@@ -104,7 +104,7 @@ fn assert_optimal(
 fn a_chain_is_learned_to_its_exact_values() {
     let task = tltl! { |x: &i32| ({ *x } == 5) T ({ *x } == 0) };
     let mut env = ModelEnv::new(Row).unwrap();
-    let skill = Skill::new(task, OneHot);
+    let skill = Skill::new(&task, OneHot);
     let mut learner = Learner::new(skill, env.actions(), settings(6_000), &Device::flex(), 1);
     learner.train(&mut env, 6_000).unwrap();
     assert_optimal(&task, 1e-2, |q, s| learner.values(q, s).unwrap());
@@ -116,8 +116,8 @@ fn a_chain_is_learned_to_its_exact_values() {
     }
     // And so does the policy that is saved and emitted.
     let actions = vec!["left".into(), "right".into()];
-    let states = States::of::<i32>(&task);
-    let text = task.formula().text;
+    let states = States::of(&task);
+    let text = task.formula().text();
     let policy = NetworkPolicy::new("there_and_back", text, states, actions, network).unwrap();
     for (q, s) in (0..2).flat_map(|q| (0..6).map(move |s| (q, s))) {
         let mut inputs = [0.0; 6];
@@ -132,7 +132,7 @@ fn without_counterfactual_updates_or_normalisation_it_learns_the_same() {
     let mut env = ModelEnv::new(Row).unwrap();
     let plain =
         Settings { counterfactual: false, normalisation: 0.0, priority: 0.0, ..settings(8_000) };
-    let skill = Skill::new(task, OneHot);
+    let skill = Skill::new(&task, OneHot);
     let mut learner = Learner::new(skill, env.actions(), plain, &Device::flex(), 1);
     learner.train(&mut env, 8_000).unwrap();
     let mut right = 0;
@@ -146,7 +146,7 @@ fn without_counterfactual_updates_or_normalisation_it_learns_the_same() {
 #[test]
 fn a_learner_resumed_goes_on_bit_for_bit() {
     let task = tltl! { |x: &i32| ({ *x } == 5) T ({ *x } == 0) };
-    let skill = Skill::new(task, OneHot);
+    let skill = Skill::new(&task, OneHot);
     let mut env = ModelEnv::new(Row).unwrap();
     let device = Device::flex();
     let mut whole = Learner::new(skill, 2, settings(1_000), &device, 1);
@@ -162,7 +162,8 @@ fn a_learner_resumed_goes_on_bit_for_bit() {
     broken["moments"]["second"][0]["bias"].as_array_mut().unwrap().pop();
     let broken: Checkpoint<i32> = serde_json::from_value(broken).unwrap();
     assert!(Learner::resume(skill, broken, &device).is_err(), "moments of another network");
-    let other = Skill::new(tltl! { |x: &i32| F ({ *x } == 5) }, OneHot);
+    let other = tltl! { |x: &i32| F ({ *x } == 5) };
+    let other = Skill::new(&other, OneHot);
     assert!(Learner::resume(other, whole.checkpoint(), &device).is_err(), "another task's heads");
 }
 
@@ -178,8 +179,8 @@ fn a_composition_reaches_the_optimum_without_a_step() {
     let right = tltl! { |x: &i32| F ({ *x } == 5) };
     let device = Device::flex();
     let mut env = ModelEnv::new(Row).unwrap();
-    let mut first = Learner::new(Skill::new(left, OneHot), 2, settings(3_000), &device, 1);
-    let mut second = Learner::new(Skill::new(right, OneHot), 2, settings(3_000), &device, 2);
+    let mut first = Learner::new(Skill::new(&left, OneHot), 2, settings(3_000), &device, 1);
+    let mut second = Learner::new(Skill::new(&right, OneHot), 2, settings(3_000), &device, 2);
     first.train(&mut env, 3_000).unwrap();
     second.train(&mut env, 3_000).unwrap();
     let steps = env.steps();
@@ -349,16 +350,16 @@ fn what_is_not_finite_is_named_at_once() {
     let device = Device::flex();
     let mut settings = settings(1_000);
     let mut env = Broken { at: 200, steps: 0, reward: f64::NAN };
-    let mut learner = Learner::new(Skill::new(task, OneHot), 2, settings.clone(), &device, 1);
+    let mut learner = Learner::new(Skill::new(&task, OneHot), 2, settings.clone(), &device, 1);
     assert_eq!(learner.train(&mut env, 1_000), Err(Error::Reward(201)));
 
     let mut env = Broken { at: 200, steps: 0, reward: 0.0 };
-    let mut learner = Learner::new(Skill::new(task, Bad), 2, settings.clone(), &device, 1);
+    let mut learner = Learner::new(Skill::new(&task, Bad), 2, settings.clone(), &device, 1);
     assert_eq!(learner.train(&mut env, 1_000), Err(Error::Feature(1)));
 
     settings.learning_rate = Schedule::Constant(1e300);
     let mut env = ModelEnv::new(Row).unwrap();
-    let mut learner = Learner::new(Skill::new(task, OneHot), 2, settings, &device, 1);
+    let mut learner = Learner::new(Skill::new(&task, OneHot), 2, settings, &device, 1);
     let error = learner.train(&mut env, 2_000).unwrap_err();
     assert!(matches!(error, Error::Loss(_)), "{error}");
     assert!(learner.network().is_err(), "weights that are no numbers are no network");

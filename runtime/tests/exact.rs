@@ -2,13 +2,13 @@
 
 mod world;
 
-use tltl::Monitor;
 use tltl::augmented::{Labelled, Reward, Rewards};
 use tltl::compose::{Combine, Composition, Skill};
 use tltl::model::FiniteModel;
 use tltl::product::{Operand, Operator, Product};
 use tltl::q::QTable;
 use tltl::solve::Problem;
+use tltl::{Acceptor, Monitor};
 use world::{A, B, C, Cell, GAMMA, PAPER, avoid, both, dynamics, eventually, next, on_paper};
 
 const PROGRESS: Rewards = Rewards::of(Reward::Progress);

@@ -17,5 +17,6 @@ pub mod explain;
 pub mod format;
 pub mod product;
 pub mod semantics;
+pub mod tables;
 pub mod trace;
 pub mod vacuity;

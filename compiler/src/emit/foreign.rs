@@ -7,14 +7,15 @@ use crate::dfa::Dfa;
 use crate::emit::implementation::positional;
 use crate::emit::predicates::ident;
 use crate::emit::rust::{documentation, sizes};
-use crate::emit::tables;
+use crate::emit::tables as emit;
+use crate::tables::tables;
 
 /// The automaton as items: a function `task` that takes a predicate for each proposition, in
 /// order, and returns the task. `runtime` is the path of the runtime crate.
 #[must_use]
 pub fn automaton(name: &str, dfa: &Dfa, runtime: &TokenStream) -> TokenStream {
     let path = runtime.to_string().replace(' ', "");
-    let table = tables::automaton(dfa, &path);
+    let table = emit::automaton(&tables(dfa), &path);
     let numbered = |prefix: &str| -> Vec<Ident> {
         (0..dfa.propositions.len()).map(|i| format_ident!("{prefix}{i}")).collect()
     };
@@ -29,9 +30,17 @@ pub fn automaton(name: &str, dfa: &Dfa, runtime: &TokenStream) -> TokenStream {
         #docs
         #[must_use]
         pub fn task<#(#types),*>(#(#arguments: #types),*) -> #runtime::Task<Predicates<#(#types),*>> {
-            static FORMULA: #runtime::Formula = #runtime::Formula { text: #name, ops: &[] };
+            static FORMULA: #runtime::Formula = #runtime::Formula::trusted(
+                #runtime::Shared::from_static(#name),
+                #runtime::Shared::from_static(&[]),
+            );
             static AUTOMATON: #runtime::Automaton = #table;
-            #runtime::Task::from_parts(#name, &FORMULA, &AUTOMATON, Predicates(#(#arguments),*))
+            #runtime::Task::trusted(
+                #runtime::Shared::from_static(#name),
+                #runtime::Shared::from_static(&FORMULA),
+                #runtime::Shared::from_static(&AUTOMATON),
+                Predicates(#(#arguments),*),
+            )
         }
 
         /// One predicate for each proposition.

@@ -53,6 +53,7 @@ impl Implementation<'_> {
                 #[inline]
                 fn with_scratch<__R>(
                     &self,
+                    _: ::core::primitive::usize,
                     f: impl ::core::ops::FnOnce(
                         &mut [::core::primitive::f64],
                         &mut [::core::primitive::f64],

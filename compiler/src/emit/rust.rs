@@ -7,16 +7,17 @@
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use crate::compile::{Compiled, Factored};
+use crate::compile::{Compiled, Factored, Part};
 use crate::dfa::Dfa;
 use crate::emit::implementation::{Implementation, positional};
 pub use crate::emit::predicates::ident as identifier;
 use crate::emit::predicates::{Reading, Scope};
-use crate::emit::tables;
+use crate::emit::tables as emit;
 use crate::predicate::{
     Condition, Enum, Parameter, ParameterType, PredicateId, Scalar, State, Struct, Task, Type,
 };
 use crate::source::Span;
+use crate::tables::{operators, tables};
 use crate::unit::Unit;
 
 /// How the code is fitted to the place where it stands.
@@ -43,7 +44,7 @@ pub fn expression(compiled: &Compiled, options: &Options<'_>) -> TokenStream {
     let Made { kind, statics, result } = made;
     let values = task.predicates.iter().map(|&predicate| emitter.value(predicate));
     let types: Vec<Ident> = (0..task.predicates.len()).map(|i| format_ident!("P{}", i)).collect();
-    let operators = tables::operator_count(&task.spec);
+    let operators = operators(&task.spec).len();
     let implementation = positional(&types, &identifier("__TltlPredicates"), runtime, operators);
     quote! {{
         #[derive(Clone, Copy)]
@@ -136,7 +137,9 @@ impl<'a> Emitter<'a> {
         quote! {
             #runtime::private::Closures(
                 |#name: &#state| -> ::core::primitive::f64 { #robustness },
-                |#name: &#state| { ::core::result::Result::Ok({ #holds }) },
+                |#name: &#state| {
+                    ::core::result::Result::<_, #runtime::robustness::NotANumber>::Ok({ #holds })
+                },
             )
         }
     }
@@ -205,11 +208,21 @@ impl<'a> Emitter<'a> {
     fn made(&self, task: &Task, dfa: &Dfa, value: &TokenStream) -> Made {
         let runtime = self.runtime;
         let name = task.name.as_deref().unwrap_or(&task.text);
+        let formula = emit::formula(&task.spec, &task.text, &self.path);
+        let automaton = emit::automaton(&tables(dfa), &self.path);
         Made {
             kind: quote! { #runtime::Task },
-            statics: self.parts(task, dfa),
+            statics: quote! {
+                static __TLTL_FORMULA: #runtime::Formula = #formula;
+                static __TLTL_AUTOMATON: #runtime::Automaton = #automaton;
+            },
             result: quote! {
-                #runtime::Task::from_parts(#name, &__TLTL_FORMULA, &__TLTL_AUTOMATON, #value)
+                #runtime::Task::trusted(
+                    #runtime::Shared::from_static(#name),
+                    #runtime::Shared::from_static(&__TLTL_FORMULA),
+                    #runtime::Shared::from_static(&__TLTL_AUTOMATON),
+                    #value,
+                )
             },
         }
     }
@@ -218,18 +231,6 @@ impl<'a> Emitter<'a> {
     fn made_factored(&self, factored: &Factored, value: &TokenStream) -> Made {
         let (runtime, task) = (self.runtime, &factored.task);
         let (name, text) = (task.name.as_deref().unwrap_or(&task.text), &task.text);
-        let parts = factored.parts.iter().map(|part| {
-            let formula = tables::formula(&part.task.spec, &part.task.text, &self.path);
-            let automaton = tables::automaton(&part.automata.dfa, &self.path);
-            let predicates = part.propositions.iter().map(|&p| Literal::u32_unsuffixed(p));
-            quote! {
-                #runtime::factored::Part {
-                    formula: &#formula,
-                    automaton: &#automaton,
-                    predicates: &[#(#predicates),*],
-                }
-            }
-        });
         let joint = if factored.joint {
             quote! { None }
         } else {
@@ -237,18 +238,37 @@ impl<'a> Emitter<'a> {
         };
         Made {
             kind: quote! { #runtime::Factored },
-            statics: quote! {
-                static __TLTL_PARTS: &[#runtime::factored::Part] = &[#(#parts),*];
-            },
+            statics: self.parts(&factored.parts),
             result: quote! {
-                #runtime::Factored::from_parts(
-                    #name,
-                    #text,
-                    __TLTL_PARTS,
+                #runtime::Factored::trusted(
+                    #runtime::Shared::from_static(#name),
+                    #runtime::Shared::from_static(#text),
+                    #runtime::Shared::from_static(&__TLTL_PARTS),
                     #runtime::factored::JointDeadEnds::#joint,
                     #value,
                 )
             },
+        }
+    }
+
+    /// The statics of a factored task.
+    fn parts(&self, parts: &[Part]) -> TokenStream {
+        let runtime = self.runtime;
+        let count = Literal::usize_unsuffixed(parts.len());
+        let parts = parts.iter().map(|part| {
+            let formula = emit::formula(&part.task.spec, &part.task.text, &self.path);
+            let automaton = emit::automaton(&tables(&part.automata.dfa), &self.path);
+            let predicates = part.propositions.iter().map(|&p| Literal::u32_unsuffixed(p));
+            quote! {
+                #runtime::factored::Part {
+                    formula: #formula,
+                    automaton: #automaton,
+                    predicates: #runtime::Shared::from_static(&[#(#predicates),*]),
+                }
+            }
+        });
+        quote! {
+            static __TLTL_PARTS: [#runtime::factored::Part; #count] = [#(#parts),*];
         }
     }
 
@@ -279,7 +299,7 @@ impl<'a> Emitter<'a> {
             name: quote! { #function },
             robustness: of(Reading::Robustness),
             holds: of(Reading::Truth),
-            scratch: tables::operator_count(&task.spec),
+            scratch: operators(&task.spec).len(),
         }
         .tokens();
         let about_it: Vec<_> =
@@ -346,17 +366,6 @@ impl<'a> Emitter<'a> {
             quote! { { #code } }
         } else {
             quote! { ::core::result::Result::Ok({ #code }) }
-        }
-    }
-
-    /// The statics of a task.
-    fn parts(&self, task: &Task, dfa: &Dfa) -> TokenStream {
-        let runtime = self.runtime;
-        let formula = tables::formula(&task.spec, &task.text, &self.path);
-        let automaton = tables::automaton(dfa, &self.path);
-        quote! {
-            static __TLTL_FORMULA: #runtime::Formula = #formula;
-            static __TLTL_AUTOMATON: #runtime::Automaton = #automaton;
         }
     }
 

@@ -8,10 +8,10 @@ use std::hint::black_box;
 use std::sync::Arc;
 use std::time::Instant;
 
-use tltl::Monitor;
 use tltl::env::Env;
 use tltl::product::{Operand, Product};
 use tltl::rand::{Rng, SeedableRng, rngs::Xoshiro256PlusPlus};
+use tltl::{Acceptor, Monitor};
 use tltl_kitchen::planner::Planner;
 use tltl_kitchen::searcher::Searcher;
 use tltl_kitchen::tasks::phi_3;

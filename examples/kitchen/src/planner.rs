@@ -178,8 +178,7 @@ impl<'a> Planner<'a> {
     }
 
     fn reach(&self, frontier: &mut Frontier, truth: Truth, q: u32, by: Option<(usize, Action)>) {
-        let distance = self.monitor.distance(q);
-        if distance < u32::MAX && !self.monitor.is_trap(q) {
+        if let Some(distance) = self.monitor.distance(q) {
             frontier.push(truth, q, by, distance);
         }
     }

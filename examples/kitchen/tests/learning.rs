@@ -61,7 +61,7 @@ fn networks_learn_and_are_composed() {
     let device = Device::flex();
 
     let alone = Settings { relabelled: 0.0, ..settings(6_000) };
-    let skill = Skill::with_goals(put, View::of(layout.clone(), apple), goals(None));
+    let skill = Skill::with_goals(put.clone(), View::of(layout.clone(), apple), goals(None));
     let mut first =
         Learner::new(skill, layout.actions(), alone, &device, 1).exploring(exploration(&layout));
     let fixed = Goals::Fixed { object, receptacle };
@@ -70,7 +70,7 @@ fn networks_learn_and_are_composed() {
     assert!(satisfied >= 99, "{satisfied} of 100 episodes");
     assert!(steps <= 100 * 10, "{steps} steps in 100 episodes");
 
-    let skill = Skill::with_goals(any, View::new(layout.clone()), goals(None));
+    let skill = Skill::with_goals(any.clone(), View::new(layout.clone()), goals(None));
     let mut second = Learner::new(skill, layout.actions(), settings(6_000), &device, 1)
         .exploring(exploration(&layout));
     second.train(&mut kitchen(Goals::Random { except: None }), 12_000).unwrap();

@@ -3,10 +3,10 @@
 
 use std::sync::Arc;
 
-use tltl::Monitor;
 use tltl::env::Env;
 use tltl::product::{Operand, Product};
 use tltl::rand::{SeedableRng, rngs::Xoshiro256PlusPlus};
+use tltl::{Acceptor, Monitor};
 use tltl_kitchen::planner::Planner;
 use tltl_kitchen::searcher::Searcher;
 use tltl_kitchen::tasks::{phi_1, phi_2, phi_3};

@@ -161,17 +161,22 @@ impl<'a> Joint<'a> {
 }
 
 /// The least number of moves from each state to acceptance.
-fn distances(states: usize, accepted: Option<u32>, next: &[u32], classes: usize) -> Vec<u32> {
-    let mut distance = alloc::vec![u32::MAX; states];
+fn distances(
+    states: usize,
+    accepted: Option<u32>,
+    next: &[u32],
+    classes: usize,
+) -> Vec<Option<u32>> {
+    let mut distance = alloc::vec![None; states];
     let Some(accepted) = accepted else { return distance };
-    distance[accepted as usize] = 0;
+    distance[accepted as usize] = Some(0);
     let mut changed = true;
     while core::mem::take(&mut changed) {
         for (q, row) in next.chunks(classes).enumerate() {
             for &to in row {
-                let through = distance[to as usize].saturating_add(1);
-                if through < distance[q] {
-                    (distance[q], changed) = (through, true);
+                let Some(through) = distance[to as usize].map(|moves| moves + 1) else { continue };
+                if distance[q].is_none_or(|known| through < known) {
+                    (distance[q], changed) = (Some(through), true);
                 }
             }
         }

@@ -6,7 +6,8 @@ use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 
 use crate::learn::episode::Move;
-use crate::task::{Error, Monitor};
+use crate::monitor::{Acceptor, Monitor};
+use crate::task::Error;
 
 /// What a move of the automaton pays.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -95,25 +96,25 @@ pub enum End {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Ends {
     pub(super) of: Vec<Option<End>>,
-    pub(super) distance: Vec<u32>,
+    pub(super) distance: Vec<Option<u32>>,
     pub(super) farthest: u32,
 }
 
 impl Ends {
-    pub(super) fn new<S: ?Sized>(monitor: &(impl Monitor<S> + ?Sized)) -> Self {
-        let end = |q| match (monitor.is_accepting(q), monitor.is_trap(q)) {
+    pub(super) fn new(task: &(impl Acceptor + ?Sized)) -> Self {
+        let end = |q| match (task.is_accepting(q), task.is_trap(q)) {
             (true, _) => Some(End::Accepted),
             (_, true) => Some(End::Lost),
             _ => None,
         };
-        let states = 0..monitor.states();
-        let distance = states.clone().map(|q| monitor.distance(q)).collect();
+        let states = 0..task.states();
+        let distance = states.clone().map(|q| task.distance(q)).collect();
         Self::at(states.map(end).collect(), distance)
     }
 
     /// These ends, at these distances from acceptance.
-    pub(super) fn at(of: Vec<Option<End>>, distance: Vec<u32>) -> Self {
-        let farthest = distance.iter().copied().filter(|&d| d < u32::MAX).max().unwrap_or(0);
+    pub(super) fn at(of: Vec<Option<End>>, distance: Vec<Option<u32>>) -> Self {
+        let farthest = distance.iter().copied().flatten().max().unwrap_or(0);
         Self { of, distance, farthest }
     }
 
@@ -124,11 +125,10 @@ impl Ends {
 
     /// The potential Φ of `Shaped`.
     fn potential(&self, q: u32) -> f64 {
-        let distance = self.distance[q as usize];
-        if self.of(q).is_some() || distance > self.farthest {
-            return 0.0;
+        match (self.of(q), self.distance[q as usize]) {
+            (None, Some(distance)) => 1.0 - f64::from(distance) / f64::from(self.farthest + 1),
+            _ => 0.0,
         }
-        1.0 - f64::from(distance) / f64::from(self.farthest + 1)
     }
 }
 
@@ -141,12 +141,8 @@ pub(crate) struct Moves {
 }
 
 impl Moves {
-    pub(crate) fn new<S: ?Sized>(
-        monitor: &(impl Monitor<S> + ?Sized),
-        rewards: Rewards,
-        gamma: f64,
-    ) -> Self {
-        Self { ends: Ends::new(monitor), rewards, gamma }
+    pub(crate) fn new(task: &(impl Acceptor + ?Sized), rewards: Rewards, gamma: f64) -> Self {
+        Self { ends: Ends::new(task), rewards, gamma }
     }
 
     /// How the task has ended at `q`, if it has.
@@ -164,7 +160,7 @@ impl Moves {
     /// rewards left aside: the optimum if every state of the world could be chosen at every step.
     /// 0 where the task has ended.
     #[cfg(feature = "deep")]
-    pub(crate) fn most<S: ?Sized>(&self, monitor: &(impl Monitor<S> + ?Sized)) -> Vec<f64> {
+    pub(crate) fn most(&self, task: &(impl Acceptor + ?Sized)) -> Vec<f64> {
         let mut most = alloc::vec![0.0; self.ends.of.len()];
         let pays = |q, to| match self.rewards.mode {
             Reward::Robustness { bound } => self.rewards.pays(&self.ends, q, to, self.gamma, bound),
@@ -175,7 +171,7 @@ impl Moves {
             let mut change: f64 = 0.0;
             for q in self.live() {
                 let mut best = f64::NEG_INFINITY;
-                monitor.successors(q, &mut |to| {
+                task.successors(q, &mut |to| {
                     best = best.max(pays(q, to) + self.gamma * most[to as usize]);
                 });
                 change = change.max((best - most[q as usize]).abs());

@@ -26,10 +26,11 @@ use super::{Error, Goals};
 use crate::augmented::{Moves, Reward};
 use crate::compose::{Combine, Compose};
 use crate::learn::episode::Move;
+use crate::monitor::{Acceptor, Monitor};
 use crate::network::{Features, Network, Shape};
 use crate::product::{Operator, Product};
 use crate::q::argmax;
-use crate::task::{self, Monitor};
+use crate::task;
 
 /// A skill that was learned.
 pub struct Learned<'a, S> {
@@ -136,7 +137,7 @@ impl<'a, S: Clone, G: Goals<S>> Composition<'a, S, G> {
         assert_eq!(skills.len(), product.operands().len(), "a skill for each operand");
         let actions = skills[0].network.shape().actions;
         let moves = Moves::new(&product, settings.rewards, settings.gamma);
-        let heads = Heads::new(&moves, Monitor::<S>::states(product));
+        let heads = Heads::new(&moves, product.states());
         let features = Joint(skills.iter().map(|skill| skill.features).collect());
         let shape = Shape::of(&features, &settings.hidden, heads.states.len(), actions);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);

@@ -15,9 +15,10 @@ use super::{Error, Goals, Skill};
 use crate::augmented::Moves;
 use crate::env::{Env, Step, below, unit};
 use crate::learn::episode::{self, Agent, Done, Move, Seen, World};
+use crate::monitor::Monitor;
 use crate::network::{Dense, Features, Invalid, Network, Shape};
 use crate::q::argmax;
-use crate::task::{self, Monitor};
+use crate::task;
 
 /// A double-DQN learner of one skill.
 pub struct Learner<S, M, F, G> {

@@ -43,7 +43,7 @@ use crate::task;
 /// What is to be learned: a task, and what a network sees of the world.
 #[derive(Clone, Copy, Debug)]
 pub struct Skill<M, F, G = AsGiven> {
-    /// The task, a [`Monitor`](crate::task::Monitor) of the world's states.
+    /// The task, a [`Monitor`](crate::monitor::Monitor) of the world's states.
     pub task: M,
     /// What the network sees, [`Features`](crate::network::Features).
     pub features: F,

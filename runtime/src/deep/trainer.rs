@@ -11,9 +11,10 @@ use super::{Error, Goals};
 use crate::augmented::{Moves, Reward};
 use crate::env::unit;
 use crate::learn::episode::Move;
+use crate::monitor::Monitor;
 use crate::network::{Features, Invalid, Network};
 use crate::q::argmax;
-use crate::task::{self, Monitor};
+use crate::task;
 
 /// Added to every error before it becomes a priority, so that no step is forgotten.
 const LEAST_ERROR: f64 = 1e-3;

@@ -13,8 +13,9 @@ use super::Settings;
 use super::episode::{self, Agent, Done, Move, Seen, World};
 use crate::augmented::{End, Labelled};
 use crate::env::{FiniteEnv, Step, below, unit};
+use crate::monitor::Monitor;
 use crate::q::QTable;
-use crate::task::{Error, Monitor};
+use crate::task::Error;
 
 /// What the end of an episode pays.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -9,9 +9,9 @@ use serde::{Deserialize, Serialize};
 
 use super::Policy;
 use crate::learn::{Learner, Settings};
+use crate::monitor::Acceptor;
 use crate::shield::Shielded;
 use crate::solve::{Certificate, Start};
-use crate::task::Monitor;
 
 /// The automaton of a policy, without its edges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,7 +31,7 @@ pub struct States {
 impl States {
     /// Those of a task.
     #[must_use]
-    pub fn of<S: ?Sized>(task: &impl Monitor<S>) -> Self {
+    pub fn of(task: &(impl Acceptor + ?Sized)) -> Self {
         let states = task.states();
         let first = |is: &dyn Fn(u32) -> bool| (0..states).find(|&q| is(q));
         let accepting = first(&|q| task.is_accepting(q));

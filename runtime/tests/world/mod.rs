@@ -2,10 +2,10 @@
 #![allow(dead_code, reason = "not every test uses all of the world")]
 
 use tltl::augmented::Labelled;
-use tltl::automaton::{Automaton, Edge, Transitions};
+use tltl::automaton::{Automaton, Tables, Transitions};
 use tltl::model::{Dynamics, FiniteModel};
 use tltl::robustness::{NotANumber, Op, Predicates};
-use tltl::{Formula, Task};
+use tltl::{Formula, Shared, Task};
 
 pub(crate) const GAMMA: f64 = 0.95;
 
@@ -75,126 +75,150 @@ impl Predicates<Cell> for Regions {
     fn holds(&self, i: usize, s: &Cell) -> Result<bool, NotANumber> {
         Ok(self.robustness(i, s) > 0.0)
     }
+}
 
-    fn with_scratch<R>(&self, f: impl FnOnce(&mut [f64], &mut [f64]) -> R) -> R {
-        f(&mut [0.0; 8], &mut [0.0; 8])
+/// Guards as sums of products: cubes of literals.
+type Sum<'a> = &'a [&'a [i32]];
+
+/// An automaton with a table of transitions: the class of each valuation, the next states, the edges
+/// `(from, to, guard)`, and for each state the guard of progress and the distance.
+struct Written<'a> {
+    propositions: &'a [&'static str],
+    ends: [Option<u32>; 2],
+    class: &'a [u16],
+    next: &'a [u32],
+    edges: &'a [(u32, u32, Sum<'a>)],
+    progress: &'a [Sum<'a>],
+    distance: &'a [u32],
+}
+
+impl Written<'_> {
+    fn automaton(&self) -> Automaton {
+        let states = self.distance.len() as u32;
+        let sums = self.progress.iter().copied().chain(self.edges.iter().map(|edge| edge.2));
+        let (mut guards, mut literals) = (vec![0], Vec::new());
+        for sum in sums {
+            for cube in sum {
+                literals.extend(cube.iter().chain(&[0]));
+            }
+            guards.push(literals.len() as u32);
+        }
+        let before = |q| self.edges.iter().filter(|edge| edge.0 < q).count() as u32;
+        let tables = Tables {
+            propositions: self.propositions.iter().map(|&name| Shared::from(name)).collect(),
+            states,
+            accepting: self.ends[0],
+            trap: self.ends[1],
+            transitions: Transitions::Table {
+                class: self.class.to_vec().into(),
+                width: self.next.len() as u32 / states,
+                next: self.next.to_vec().into(),
+            },
+            edges: (0..=states).map(before).collect(),
+            targets: self.edges.iter().map(|edge| edge.1).collect(),
+            guards: guards.into(),
+            literals: literals.into(),
+            distance: self.distance.to_vec().into(),
+        };
+        Automaton::new(tables).unwrap()
+    }
+
+    fn task(
+        &self,
+        name: &'static str,
+        text: &'static str,
+        ops: &[Op],
+        places: [Cell; 2],
+    ) -> Task<Regions> {
+        let formula = Formula::new(text, ops.to_vec()).unwrap();
+        Task::new(name, formula, self.automaton(), Regions(places)).unwrap()
     }
 }
 
-const fn edge(from: u32, to: u32, guard: &'static [&'static [i32]]) -> Edge {
-    Edge { from, to, guard }
-}
-
 /// ◇p ∧ ◇q.
-pub(crate) static BOTH: Automaton = Automaton {
+const BOTH: Written<'_> = Written {
     propositions: &["p", "q"],
-    states: 4,
-    accepting: Some(3),
-    trap: None,
-    transitions: Transitions::Table {
-        class: &[0, 1, 2, 3],
-        width: 4,
-        next: &[0, 1, 2, 3, 1, 1, 3, 3, 2, 3, 2, 3, 3, 3, 3, 3],
-    },
+    ends: [Some(3), None],
+    class: &[0, 1, 2, 3],
+    next: &[0, 1, 2, 3, 1, 1, 3, 3, 2, 3, 2, 3, 3, 3, 3, 3],
     edges: &[
-        edge(0, 0, &[&[-1, -2]]),
-        edge(0, 1, &[&[1, -2]]),
-        edge(0, 2, &[&[-1, 2]]),
-        edge(0, 3, &[&[1, 2]]),
-        edge(1, 1, &[&[-2]]),
-        edge(1, 3, &[&[2]]),
-        edge(2, 2, &[&[-1]]),
-        edge(2, 3, &[&[1]]),
-        edge(3, 3, &[&[]]),
+        (0, 0, &[&[-1, -2]]),
+        (0, 1, &[&[1, -2]]),
+        (0, 2, &[&[-1, 2]]),
+        (0, 3, &[&[1, 2]]),
+        (1, 1, &[&[-2]]),
+        (1, 3, &[&[2]]),
+        (2, 2, &[&[-1]]),
+        (2, 3, &[&[1]]),
+        (3, 3, &[&[]]),
     ],
     progress: &[&[&[1], &[2]], &[&[2]], &[&[1]], &[]],
     distance: &[1, 1, 1, 0],
 };
 
 /// ◇p.
-pub(crate) static EVENTUALLY: Automaton = Automaton {
+const EVENTUALLY: Written<'_> = Written {
     propositions: &["p"],
-    states: 2,
-    accepting: Some(1),
-    trap: None,
-    transitions: Transitions::Table { class: &[0, 1], width: 2, next: &[0, 1, 1, 1] },
-    edges: &[edge(0, 0, &[&[-1]]), edge(0, 1, &[&[1]]), edge(1, 1, &[&[]])],
+    ends: [Some(1), None],
+    class: &[0, 1],
+    next: &[0, 1, 1, 1],
+    edges: &[(0, 0, &[&[-1]]), (0, 1, &[&[1]]), (1, 1, &[&[]])],
     progress: &[&[&[1]], &[]],
     distance: &[1, 0],
 };
 
 /// ¬q U p: p before q, and never q until then.
-pub(crate) static AVOID: Automaton = Automaton {
+const AVOID: Written<'_> = Written {
     propositions: &["p", "q"],
-    states: 3,
-    accepting: Some(1),
-    trap: Some(2),
-    transitions: Transitions::Table {
-        class: &[0, 1, 2, 1],
-        width: 3,
-        next: &[0, 1, 2, 1, 1, 1, 2, 2, 2],
-    },
+    ends: [Some(1), Some(2)],
+    class: &[0, 1, 2, 1],
+    next: &[0, 1, 2, 1, 1, 1, 2, 2, 2],
     edges: &[
-        edge(0, 0, &[&[-1, -2]]),
-        edge(0, 1, &[&[1]]),
-        edge(0, 2, &[&[-1, 2]]),
-        edge(1, 1, &[&[]]),
-        edge(2, 2, &[&[]]),
+        (0, 0, &[&[-1, -2]]),
+        (0, 1, &[&[1]]),
+        (0, 2, &[&[-1, 2]]),
+        (1, 1, &[&[]]),
+        (2, 2, &[&[]]),
     ],
     progress: &[&[&[1]], &[], &[]],
     distance: &[1, 0, u32::MAX],
 };
 
 /// ◇(p ∧ ○q): the automaton has a cycle.
-pub(crate) static NEXT: Automaton = Automaton {
+const NEXT: Written<'_> = Written {
     propositions: &["p", "q"],
-    states: 3,
-    accepting: Some(2),
-    trap: None,
-    transitions: Transitions::Table {
-        class: &[0, 1, 2, 3],
-        width: 4,
-        next: &[0, 1, 0, 1, 0, 1, 2, 2, 2, 2, 2, 2],
-    },
+    ends: [Some(2), None],
+    class: &[0, 1, 2, 3],
+    next: &[0, 1, 0, 1, 0, 1, 2, 2, 2, 2, 2, 2],
     edges: &[
-        edge(0, 0, &[&[-1]]),
-        edge(0, 1, &[&[1]]),
-        edge(1, 0, &[&[-1, -2]]),
-        edge(1, 1, &[&[1, -2]]),
-        edge(1, 2, &[&[2]]),
-        edge(2, 2, &[&[]]),
+        (0, 0, &[&[-1]]),
+        (0, 1, &[&[1]]),
+        (1, 0, &[&[-1, -2]]),
+        (1, 1, &[&[1, -2]]),
+        (1, 2, &[&[2]]),
+        (2, 2, &[&[]]),
     ],
     progress: &[&[&[1]], &[&[-1], &[2]], &[]],
     distance: &[2, 1, 0],
 };
 
-static F_BOTH: Formula = Formula {
-    text: "F p && F q",
-    ops: &[Op::Is(0), Op::Eventually(0), Op::Is(1), Op::Eventually(2), Op::And(1, 3)],
-};
-static F_EVENTUALLY: Formula = Formula { text: "F p", ops: &[Op::Is(0), Op::Eventually(0)] };
-static F_AVOID: Formula =
-    Formula { text: "!q U p", ops: &[Op::Not(1), Op::Is(0), Op::Until(0, 1)] };
-static F_NEXT: Formula = Formula {
-    text: "F (p && X q)",
-    ops: &[Op::Is(0), Op::Is(1), Op::Next(1), Op::And(0, 2), Op::Eventually(3)],
-};
-
 pub(crate) fn both(p: Cell, q: Cell) -> Task<Regions> {
-    Task::from_parts("both", &F_BOTH, &BOTH, Regions([p, q]))
+    let ops = [Op::Is(0), Op::Eventually(0), Op::Is(1), Op::Eventually(2), Op::And(1, 3)];
+    BOTH.task("both", "F p && F q", &ops, [p, q])
 }
 
 pub(crate) fn eventually(p: Cell) -> Task<Regions> {
-    Task::from_parts("eventually", &F_EVENTUALLY, &EVENTUALLY, Regions([p, p]))
+    EVENTUALLY.task("eventually", "F p", &[Op::Is(0), Op::Eventually(0)], [p, p])
 }
 
 /// `!q U p`.
 pub(crate) fn avoid(q: Cell, p: Cell) -> Task<Regions> {
-    Task::from_parts("avoid", &F_AVOID, &AVOID, Regions([p, q]))
+    AVOID.task("avoid", "!q U p", &[Op::Not(1), Op::Is(0), Op::Until(0, 1)], [p, q])
 }
 
 pub(crate) fn next(p: Cell, q: Cell) -> Task<Regions> {
-    Task::from_parts("next", &F_NEXT, &NEXT, Regions([p, q]))
+    let ops = [Op::Is(0), Op::Is(1), Op::Next(1), Op::And(0, 2), Op::Eventually(3)];
+    NEXT.task("next", "F (p && X q)", &ops, [p, q])
 }
 
 pub(crate) fn dynamics() -> Dynamics {

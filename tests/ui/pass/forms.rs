@@ -73,7 +73,7 @@ pub(crate) fn main() {
     assert_eq!(captured.satisfied(&[2.5]), Ok(false));
     let grid = Grid { x: 2.0, r#in: 3, cells: [[1.0; 2]; 2], ok: true, about: PhantomData };
     assert_eq!(both().satisfied(&[grid]), Ok(true));
-    assert_eq!(r#loop().automaton().states, 3);
+    assert_eq!(r#loop().automaton().tables().states, 3);
     assert!(
         raw(&Grid { x: 0.0, r#in: 1, cells: [[0.0; 2]; 2], ok: false, about: PhantomData }) < 0.0
     );

@@ -4,7 +4,8 @@ use proc_macro2::TokenStream;
 use quote::quote;
 use tltl_compiler::compile::Compiled;
 use tltl_compiler::emit::rust::{Options, items, sizes};
-use tltl_compiler::emit::tables;
+use tltl_compiler::emit::tables as emit;
+use tltl_compiler::tables::tables;
 
 /// A source as a Rust file, as the macros would generate it, formatted.
 ///
@@ -26,8 +27,8 @@ pub fn file(compiled: &Compiled) -> String {
 fn statics(compiled: &Compiled) -> TokenStream {
     let tasks = compiled.module.tasks.iter().zip(&compiled.automata);
     let tasks = tasks.map(|(task, automata)| {
-        let formula = tables::formula(&task.spec, &task.text, "::tltl");
-        let automaton = tables::automaton(&automata.dfa, "::tltl");
+        let formula = emit::formula(&task.spec, &task.text, "::tltl");
+        let automaton = emit::automaton(&tables(&automata.dfa), "::tltl");
         let about = format!("`{}`", task.text);
         let size = sizes(&automata.dfa);
         quote! {

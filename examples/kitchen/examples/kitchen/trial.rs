@@ -17,7 +17,7 @@ use tltl::product::Product;
 use tltl::rand::{SeedableRng, rngs::Xoshiro256PlusPlus};
 use tltl_kitchen::features::{FeasibleGoals, View, exploration};
 use tltl_kitchen::show::Episode;
-use tltl_kitchen::tasks::{phi_3, phi1_1, phi1_2, phi1_3, told};
+use tltl_kitchen::tasks::{phi1_1, phi1_2, phi1_3, told};
 use tltl_kitchen::{Action, Goal, Goals, Kitchen, Known, Layout, strip};
 
 /// Episodes of an evaluation during training, as in the paper.
@@ -292,8 +292,8 @@ impl Trials {
     fn policy(&self, task: &dyn Monitor<Known>, network: Network) -> Result<String, Failure> {
         let kitchen = self.kitchen(1)?;
         let actions = (0..kitchen.actions()).map(|a| kitchen.action_name(a)).collect();
-        let text = phi_3(0, 0).formula().text;
-        let policy = NetworkPolicy::new("phi_3", text, States::of(&task), actions, network)?;
+        let text = task.formula().text();
+        let policy = NetworkPolicy::new("phi_3", text, States::of(task), actions, network)?;
         Ok(serde_json::to_string(&policy)?)
     }
 

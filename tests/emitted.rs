@@ -1,12 +1,11 @@
-//! Emitted tables as the runtime's automata, without a compiler: the Rust text is read as data.
+//! Emitted tables as data, without a compiler: the Rust text is read.
 
 use std::collections::HashMap;
 
-use syn::{Expr, ExprLit, Lit, Member};
-use tltl::Automaton;
-use tltl::automaton::{Cube, Edge, Guard, Node, Transitions};
+use syn::{Expr, ExprLit, Lit, Member, Stmt};
 use tltl_compiler::dfa::Dfa;
-use tltl_compiler::emit::tables;
+use tltl_compiler::emit::tables as emit;
+use tltl_compiler::tables::{Tables, Transitions, tables};
 
 /// A constant expression.
 enum Value {
@@ -17,28 +16,27 @@ enum Value {
     Made(String, HashMap<String, Value>),
 }
 
-/// The automaton that the code for `dfa` makes.
-pub(crate) fn leaked(dfa: &Dfa) -> &'static Automaton {
-    let code: Expr = syn::parse2(tables::automaton(dfa, "tltl")).unwrap();
+/// The tables of the automaton that the code for `dfa` makes.
+pub(crate) fn emitted(dfa: &Dfa) -> Tables {
+    let code: Expr = syn::parse2(emit::automaton(&tables(dfa), "tltl")).unwrap();
     let value = read(&code);
     let optional = |name: &str| match value.field(name) {
         Value::Made(some, fields) if some == "Some" => Some(fields["0"].number() as u32),
         _ => None,
     };
-    leak(Automaton {
-        propositions: list(value.field("propositions"), |name| &*name.text().to_owned().leak()),
+    let numbers = |name: &str| numbers(value.field(name));
+    Tables {
+        propositions: list(value.field("propositions"), |name| name.text().to_owned()),
         states: value.field("states").number() as u32,
         accepting: optional("accepting"),
         trap: optional("trap"),
         transitions: transitions(value.field("transitions")),
-        edges: list(value.field("edges"), |edge| Edge {
-            from: edge.field("from").number() as u32,
-            to: edge.field("to").number() as u32,
-            guard: guard(edge.field("guard")),
-        }),
-        progress: list(value.field("progress"), guard),
-        distance: numbers(value.field("distance")),
-    })
+        edges: numbers("edges"),
+        targets: numbers("targets"),
+        guards: numbers("guards"),
+        literals: list(value.field("literals"), |literal| literal.number() as i32),
+        distance: numbers("distance"),
+    }
 }
 
 fn transitions(value: &Value) -> Transitions {
@@ -49,32 +47,19 @@ fn transitions(value: &Value) -> Transitions {
             next: numbers(value.field("next")),
         },
         _ => Transitions::Diagram {
-            nodes: list(value.field("nodes"), |node| Node {
-                proposition: node.field("proposition").number() as u32,
-                low: node.field("low").number() as u32,
-                high: node.field("high").number() as u32,
-            }),
+            nodes: list(value.field("nodes"), |node| numbers(node).try_into().unwrap()),
             roots: numbers(value.field("roots")),
         },
     }
 }
 
-fn guard(value: &Value) -> Guard {
-    let cube = |cube: &Value| -> Cube { list(cube, |literal| literal.number() as i32) };
-    list(value, cube)
-}
-
-fn numbers(value: &Value) -> &'static [u32] {
+fn numbers(value: &Value) -> Vec<u32> {
     list(value, |number| number.number() as u32)
 }
 
-fn list<T>(value: &Value, one: impl Fn(&Value) -> T) -> &'static [T] {
+fn list<T>(value: &Value, one: impl Fn(&Value) -> T) -> Vec<T> {
     let Value::List(values) = value else { panic!("no list") };
-    values.iter().map(one).collect::<Vec<_>>().leak()
-}
-
-fn leak<T>(value: T) -> &'static T {
-    Box::leak(Box::new(value))
+    values.iter().map(one).collect()
 }
 
 impl Value {
@@ -106,7 +91,13 @@ fn read(code: &Expr) -> Value {
         Expr::Reference(reference) => read(&reference.expr),
         Expr::Array(array) => Value::List(array.elems.iter().map(read).collect()),
         Expr::Path(path) => Value::Made(last(&path.path), HashMap::new()),
+        Expr::Const(constant) => tail(&constant.block),
+        Expr::Block(block) => tail(&block.block),
         Expr::Call(call) => match &*call.func {
+            // What only passes on its argument.
+            Expr::Path(path) if matches!(&*last(&path.path), "trusted" | "from_static") => {
+                read(&call.args[0])
+            }
             Expr::Path(path) => {
                 let field = ("0".to_owned(), read(&call.args[0]));
                 Value::Made(last(&path.path), HashMap::from([field]))
@@ -121,6 +112,14 @@ fn read(code: &Expr) -> Value {
             Value::Made(last(&made.path), made.fields.iter().map(field).collect())
         }
         _ => panic!("no constant"),
+    }
+}
+
+/// The value of a block, after its imports.
+fn tail(block: &syn::Block) -> Value {
+    match block.stmts.last() {
+        Some(Stmt::Expr(value, None)) => read(value),
+        _ => panic!("no value"),
     }
 }
 
