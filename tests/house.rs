@@ -83,7 +83,7 @@ const ORDER: [(&str, &str); 3] = [
          arithmetic check translate minimize factor judge compile hoa tables emit",
     ),
     ("macros", "tokens expand"),
-    ("tools", "semantics tables format evaluate vacuity product trace diff emit explain cli"),
+    ("tools", "semantics tables format evaluate vacuity task product trace diff emit explain cli"),
 ];
 
 /// The source files under `folder` with the module of the crate that each belongs to.

@@ -23,5 +23,6 @@ mod semantics;
 mod static_corpus;
 mod stages;
 mod static_corpus_source;
+mod tasks;
 mod ui;
 mod units;

@@ -31,6 +31,8 @@ pub struct Input {
     pub name: String,
     /// What it is.
     pub kind: InputKind,
+    /// What it is measured in, if the source says so.
+    pub unit: Option<String>,
     /// The names of the values, in order, if it is one of an enumeration.
     pub values: Vec<String>,
 }

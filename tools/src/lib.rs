@@ -18,5 +18,6 @@ pub mod format;
 pub mod product;
 pub mod semantics;
 pub mod tables;
+pub mod task;
 pub mod trace;
 pub mod vacuity;

@@ -1,16 +1,13 @@
 //! `tltlc automaton`.
 
-use tltl_compiler::compile::{self, Compiled};
 use tltl_compiler::dfa::{Automata, Dfa};
-use tltl_compiler::error::{Error, Style};
-use tltl_compiler::predicate::Task;
-use tltl_compiler::source::Source;
+use tltl_compiler::error::Style;
 use tltl_compiler::translate::Budget;
 
 use crate::emit::{dot, hoa, json, mermaid, rust, svg, text};
+use crate::task::{Entry, TaskFile};
 
-use super::subject::choose;
-use super::{Automaton, Exit, Format, Outcome, Report, Streams, input};
+use super::{Automaton, Exit, Format, Outcome, Report, Streams, input, subject};
 
 /// Shows what the arguments ask for.
 pub(super) fn run(arguments: &Automaton, streams: &mut Streams<'_>) -> Outcome {
@@ -24,10 +21,12 @@ pub(super) fn run(arguments: &Automaton, streams: &mut Streams<'_>) -> Outcome {
     let Some(path) = &arguments.file else { return Err("there is no formula and no file".into()) };
     match input::file(path, streams)? {
         // Rust is of the file as a whole.
-        Some(compiled) if arguments.format == Format::Rust => streams.print(&rust::file(&compiled)),
-        Some(compiled) => {
-            let (task, automata) = choose(&compiled, arguments.task.as_deref())?;
-            streams.print(&shown(arguments, &compiled, task, automata)?)
+        Some(file) if arguments.format == Format::Rust => {
+            streams.print(&rust::file(file.compiled()))
+        }
+        Some(file) => {
+            let entry = subject::choose(&file, arguments.task.as_deref())?;
+            streams.print(&shown(arguments, &entry)?)
         }
         None => Ok(Exit::Mistaken),
     }
@@ -35,17 +34,13 @@ pub(super) fn run(arguments: &Automaton, streams: &mut Streams<'_>) -> Outcome {
 
 /// One formula, in any form.
 fn single(arguments: &Automaton, formula: &str, streams: &mut Streams<'_>) -> Outcome {
-    let source = Source::new("formula", formula);
-    let result = compile::formula(&source, Budget::SHOWN);
-    if let (Format::Json, Err(errors)) = (arguments.format, &result) {
-        streams.print(&json::failure(formula, errors.first()))?;
+    let result = TaskFile::of_formula(formula, Budget::SHOWN);
+    if let (Format::Json, Err(error)) = (arguments.format, &result) {
+        streams.print(&json::failure(formula, error.errors().first()))?;
         return Ok(Exit::Mistaken);
     }
-    match input::reported(&source, result, Report::Human, streams)? {
-        Some(compiled) => {
-            let (task, automata) = choose(&compiled, None)?;
-            streams.print(&shown(arguments, &compiled, task, automata)?)
-        }
+    match input::reported(result, Report::Human, streams)? {
+        Some(file) => streams.print(&shown(arguments, &subject::choose(&file, None)?)?),
         None => Ok(Exit::Mistaken),
     }
 }
@@ -65,17 +60,21 @@ fn formulas(arguments: &Automaton, list: &str, streams: &mut Streams<'_>) -> Out
 }
 
 fn one_of_many(arguments: &Automaton, formula: &str) -> Result<String, String> {
-    let source = Source::new("formula", formula);
-    let failure = |error: &Error| match arguments.format {
-        Format::Json => json::failure(formula, error),
-        _ => error.render(&source, Style::Plain),
-    };
-    let compiled =
-        compile::formula(&source, Budget::SHOWN).map_err(|errors| failure(errors.first()))?;
-    let automata = compiled.automata.first().ok_or_else(String::new)?;
-    let dfa = selected(arguments, automata);
+    let json = arguments.format == Format::Json;
+    let file = TaskFile::of_formula(formula, Budget::SHOWN).map_err(|error| {
+        let first = error.errors().first();
+        if json {
+            json::failure(formula, first)
+        } else {
+            first.render(error.source_text(), Style::Plain)
+        }
+    })?;
+    let entry = subject::choose(&file, None)?;
+    let dfa = selected(arguments, subject::automata(&entry)?);
     match (arguments.format, arguments.explicit) {
-        (Format::Json, true) => json::explicit(formula, dfa).map_err(|error| failure(&error)),
+        (Format::Json, true) => {
+            json::explicit(formula, dfa).map_err(|error| json::failure(formula, &error))
+        }
         (Format::Json, false) => Ok(json::summary(formula, dfa)),
         _ => Ok(text::automaton(formula, dfa)),
     }
@@ -85,12 +84,8 @@ fn selected<'a>(arguments: &Automaton, automata: &'a Automata) -> &'a Dfa {
     if arguments.propositional { &automata.propositional } else { &automata.dfa }
 }
 
-fn shown(
-    arguments: &Automaton,
-    compiled: &Compiled,
-    task: &Task,
-    automata: &Automata,
-) -> Result<String, String> {
+fn shown(arguments: &Automaton, entry: &Entry) -> Result<String, String> {
+    let (task, automata) = (entry.task(), subject::automata(entry)?);
     let dfa = selected(arguments, automata);
     let title = task.name.as_deref().unwrap_or(&task.text);
     Ok(match arguments.format {
@@ -103,7 +98,7 @@ fn shown(
         Format::Svg => svg::automaton(title, dfa),
         Format::Mermaid => mermaid::automaton(title, dfa),
         Format::Hoa => hoa::automaton(title, dfa),
-        Format::Rust => rust::file(compiled),
+        Format::Rust => rust::file(entry.file().compiled()),
     })
 }
 

@@ -2,20 +2,19 @@
 
 use std::path::{Path, PathBuf};
 
-use tltl_compiler::compile::{self, Compiled};
 use tltl_compiler::error::{Error, Errors};
 use tltl_compiler::source::Source;
 use tltl_compiler::translate::Budget;
 
 use crate::emit::json;
-use crate::vacuity::advice;
+use crate::task::{CompileError, TaskFile};
 
 use super::{Exit, Outcome, Report, Streams};
 
-/// Compiles a task file, its mistakes and warnings reported.
-pub(super) fn file(path: &Path, streams: &mut Streams<'_>) -> Result<Option<Compiled>, String> {
+/// Compiles a task file, its mistakes and warnings reported; `None` if there were mistakes.
+pub(super) fn file(path: &Path, streams: &mut Streams<'_>) -> Result<Option<TaskFile>, String> {
     let source = Source::new(path.display().to_string(), streams.read(path)?);
-    reported(&source, compile::file(&source, Budget::default()), Report::Human, streams)
+    reported(TaskFile::new(source, Budget::default()), Report::Human, streams)
 }
 
 /// Checks each file; the exit code says whether all are free of mistakes.
@@ -23,25 +22,26 @@ pub(super) fn check(paths: &[PathBuf], report: Report, streams: &mut Streams<'_>
     let mut all_well = true;
     for path in paths {
         let source = Source::new(path.display().to_string(), streams.read(path)?);
-        let result = compile::file(&source, Budget::default());
-        all_well &= reported(&source, result, report, streams)?.is_some();
+        let result = TaskFile::new(source, Budget::default());
+        all_well &= reported(result, report, streams)?.is_some();
     }
     Ok(Exit::of(all_well))
 }
 
 /// Reports mistakes and warnings; `None` if there were mistakes.
 pub(super) fn reported(
-    source: &Source,
-    result: Result<Compiled, Errors>,
+    result: Result<TaskFile, CompileError>,
     report: Report,
     streams: &mut Streams<'_>,
-) -> Result<Option<Compiled>, String> {
-    if let Ok(compiled) = &result {
-        let mut warnings = [compiled.warnings.clone(), advice(compiled)].concat();
-        warnings.sort_by_key(Error::span);
-        warnings.iter().try_for_each(|warning| show(source, warning, report, streams))?;
+) -> Result<Option<TaskFile>, String> {
+    match result {
+        Ok(file) => {
+            let mut warnings = file.warnings().into_iter();
+            warnings.try_for_each(|warning| show(file.source(), &warning, report, streams))?;
+            Ok(Some(file))
+        }
+        Err(error) => judged(error.source_text(), Err(error.errors().clone()), report, streams),
     }
-    judged(source, result, report, streams)
 }
 
 /// Reports mistakes; `None` if there were any.

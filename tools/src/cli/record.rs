@@ -61,7 +61,7 @@ fn lookup<'a>(state: &'a Value, name: &str) -> Option<&'a Value> {
 
 /// The number that a field is, as the input's type has it.
 fn number(text: &str, input: &Input) -> Result<f64, String> {
-    let Input { name, kind, values } = input;
+    let Input { name, kind, values, .. } = input;
     let ty = match kind {
         InputKind::Place(scalar) => scalar.name(),
         InputKind::Variable | InputKind::Proposition => "f64",

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use crate::evaluate::{Columns, Evaluator, Row, Scratch, run as run_automaton};
 use serde::Serialize;
 use tltl_compiler::dfa::{Automata, Dfa, State};
-use tltl_compiler::predicate::{Module, Task};
+use tltl_compiler::predicate::Task;
 
 use super::subject::{self, Subject};
 use super::{Exit, Outcome, RowFormat, Run, Streams, arguments, record};
@@ -17,19 +17,19 @@ pub(super) fn run(run: &Run, streams: &mut Streams<'_>) -> Outcome {
         Some(task) => arguments::split(task).map(|(name, given)| (Some(name), given))?,
         None => (None, None),
     };
-    let (mut compiled, place) = match subject::read(subject, name, streams)? {
+    let entry = match subject::read(subject, name, streams)? {
         None => return Ok(Exit::Mistaken),
-        Some(Subject::Task(compiled, place)) => (compiled, place),
+        Some(Subject::Task(entry)) => entry,
         Some(Subject::Automaton(_)) => {
             return Err("an automaton does not say how its propositions read a state".into());
         }
     };
-    let task = &compiled.module.tasks[place].clone();
-    arguments::bind(&mut compiled.module, task, given.as_deref().unwrap_or_default())?;
-    let automata = &compiled.automata[place];
+    let (task, automata) = (entry.task(), subject::automata(&entry)?);
+    let named = arguments::named(&entry, given.as_deref().unwrap_or_default())?;
+    let evaluator = entry.evaluator(&named).map_err(|error| error.to_string())?;
     let recorded = streams.read(&run.trace)?;
     let name = run.trace.display().to_string();
-    let result = judge(&compiled.module, task, automata, (&name, &recorded))?;
+    let result = judge(&evaluator, task, automata, (&name, &recorded))?;
     streams.print(&match run.format {
         RowFormat::Text => text(task, given.as_deref(), &result),
         RowFormat::Csv => csv(&result),
@@ -76,12 +76,11 @@ impl Judged {
 }
 
 fn judge(
-    module: &Module,
+    evaluator: &Evaluator,
     task: &Task,
     automata: &Automata,
     (name, recorded): (&str, &str),
 ) -> Result<Judged, String> {
-    let evaluator = Evaluator::new(module, task).map_err(|rust| rust.to_string())?;
     let record = record::read(name, recorded, evaluator.inputs())?;
     let rows = record.len();
     let numbers: Vec<f64> = record.iter().flat_map(|state| state.values.iter().copied()).collect();

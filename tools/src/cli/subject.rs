@@ -2,20 +2,20 @@
 
 use std::path::Path;
 
-use tltl_compiler::compile::{self, Compiled};
 use tltl_compiler::dfa::Automata;
 use tltl_compiler::error::Errors;
 use tltl_compiler::hoa;
-use tltl_compiler::predicate::Task;
 use tltl_compiler::source::Source;
 use tltl_compiler::translate::Budget;
+
+use crate::task::{Entry, NoSuchTask, TaskFile};
 
 use super::{Report, Streams, input};
 
 /// A subject that has been read.
 pub(super) enum Subject {
-    /// One task of a compiled source, by its place there.
-    Task(Box<Compiled>, usize),
+    /// A task of a file, or a formula.
+    Task(Entry),
     /// An automaton in HOA.
     Automaton(Box<hoa::Automaton>),
 }
@@ -30,10 +30,9 @@ pub(super) fn read(
     if exists(path) || looks_like_file(path) || task.is_some() {
         return file(path, named.or(task), streams);
     }
-    let source = Source::new("formula", text);
-    let compiled = compile::formula(&source, Budget::SHOWN);
-    let compiled = input::reported(&source, compiled, Report::Human, streams)?;
-    Ok(compiled.map(|compiled| Subject::Task(Box::new(compiled), 0)))
+    let formula = TaskFile::of_formula(text, Budget::SHOWN);
+    let formula = input::reported(formula, Report::Human, streams)?;
+    formula.map(|formula| choose(&formula, None).map(Subject::Task)).transpose()
 }
 
 /// `FILE:TASK` in its two parts; what is no such thing is the first of them. What a task takes may
@@ -67,43 +66,27 @@ fn file(
         let read = input::judged(&source, read, Report::Human, streams)?;
         return Ok(read.map(|automaton| Subject::Automaton(Box::new(automaton))));
     }
-    let compiled = compile::file(&source, Budget::default());
-    let Some(compiled) = input::reported(&source, compiled, Report::Human, streams)? else {
-        return Ok(None);
-    };
-    let place = place(&compiled, name)?;
-    Ok(Some(Subject::Task(Box::new(compiled), place)))
+    let file = input::reported(TaskFile::new(source, Budget::default()), Report::Human, streams)?;
+    file.map(|file| choose(&file, name).map(Subject::Task)).transpose()
 }
 
-/// The task of that name; the only one if no name is given.
-pub(super) fn choose<'a>(
-    compiled: &'a Compiled,
-    name: Option<&str>,
-) -> Result<(&'a Task, &'a Automata), String> {
-    let place = place(compiled, name)?;
-    Ok((&compiled.module.tasks[place], &compiled.automata[place]))
+/// The task of that name, or the only one if no name is given.
+pub(super) fn choose(file: &TaskFile, name: Option<&str>) -> Result<Entry, String> {
+    file.find(name).map_err(|error| match error {
+        NoSuchTask::Several(names) => {
+            let names = names.join(", ");
+            format!("the file has several tasks; choose one with --task: {names}")
+        }
+        error => error.to_string(),
+    })
 }
 
-fn place(compiled: &Compiled, name: Option<&str>) -> Result<usize, String> {
-    let tasks = &compiled.module.tasks;
-    let factored = compiled.factored.iter().find(|part| match name {
-        None => tasks.is_empty(),
-        Some(_) => part.task.name.as_deref() == name,
-    });
-    if let Some(Task { name: Some(name), .. }) = factored.map(|part| &part.task) {
-        return Err(format!(
+/// The automata of a task.
+pub(super) fn automata(entry: &Entry) -> Result<&Automata, String> {
+    entry.automata().ok_or_else(|| {
+        let name = entry.name().unwrap_or_default();
+        format!(
             "task `{name}` is factored: its parts have automata, and it has none of its own; without `#[factored]` it has one, if that is not too large"
-        ));
-    }
-    let names: Vec<&str> = tasks.iter().filter_map(|task| task.name.as_deref()).collect();
-    let names = names.join(", ");
-    match (name, tasks.len()) {
-        (_, 0) => Err("the file has no task".to_owned()),
-        (None, 1) => Ok(0),
-        (None, _) => Err(format!("the file has several tasks; choose one with --task: {names}")),
-        (Some(name), _) => tasks
-            .iter()
-            .position(|task| task.name.as_deref() == Some(name))
-            .ok_or_else(|| format!("the file has no task `{name}`; it has: {names}")),
-    }
+        )
+    })
 }

@@ -16,13 +16,13 @@ pub(super) fn explain(text: &str, task: Option<&str>, streams: &mut Streams<'_>)
         Some(Subject::Automaton(_)) => {
             Err(format!("{text} is an automaton: it has no formula to explain"))
         }
-        Some(Subject::Task(compiled, place)) => {
-            let task = &compiled.module.tasks[place];
+        Some(Subject::Task(entry)) => {
+            let (task, automata) = (entry.task(), subject::automata(&entry)?);
             let title = match &task.name {
                 Some(name) => format!("{name} = {}", task.text),
                 None => task.text.clone(),
             };
-            let told = explanation(&task.spec, &compiled.automata[place].dfa);
+            let told = explanation(&task.spec, &automata.dfa);
             let told = headed(&format!("{title}\n\n{told}"), streams.out.style);
             streams.print(&told)
         }
@@ -35,15 +35,15 @@ pub(super) fn difference(first: &str, second: &str, streams: &mut Streams<'_>) -
     let (Some(first), Some(second)) = (first, subject::read(second, None, streams)?) else {
         return Ok(Exit::Mistaken);
     };
-    let found = diff(automaton(&first), automaton(&second));
+    let found = diff(automaton(&first)?, automaton(&second)?);
     streams.print(&found.to_string())?;
     Ok(Exit::of(found == Difference::None))
 }
 
-fn automaton(subject: &Subject) -> &Dfa {
+fn automaton(subject: &Subject) -> Result<&Dfa, String> {
     match subject {
-        Subject::Task(compiled, place) => &compiled.automata[*place].dfa,
-        Subject::Automaton(automaton) => &automaton.dfa,
+        Subject::Task(entry) => subject::automata(entry).map(|automata| &automata.dfa),
+        Subject::Automaton(automaton) => Ok(&automaton.dfa),
     }
 }
 

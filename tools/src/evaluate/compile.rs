@@ -6,9 +6,11 @@
 use rustc_hash::FxHashMap;
 use tltl_compiler::ast::{Arithmetic, Comparison};
 use tltl_compiler::predicate::{
-    Condition, ConditionId, Function, Module, Number, Scalar, Task, Term, TermId,
+    Condition, ConditionId, Function, Module, Number, Scalar, State, Step as PlaceStep, Struct,
+    Task, Term, TermId, Type,
 };
 use tltl_compiler::spec::{Formula, Spec};
+use tltl_compiler::unit::Unit;
 
 use super::program::{Carry, Operand, Operation, Program, Step};
 use super::{Input, InputKind, Unreadable};
@@ -48,8 +50,7 @@ impl Inputs {
         for id in conditions {
             match module.arena.condition(id) {
                 Condition::Free(name) => {
-                    let (name, kind) = (name.clone(), InputKind::Proposition);
-                    let place = found.place(Input { name, kind, values: Vec::new() });
+                    let place = found.place(plain(name.clone(), InputKind::Proposition));
                     found.of_conditions.insert(id, place);
                 }
                 Condition::Value { text, .. } => return Err(Unreadable::Rust(text.clone())),
@@ -70,24 +71,50 @@ impl Inputs {
 
 /// The input that a term is, if it is one.
 fn term_input(module: &Module, id: TermId) -> Result<Option<Input>, Unreadable> {
-    let (name, kind) = match module.arena.term(id) {
-        Term::Place { scalar, .. } => {
-            let text = module.display_term(id).to_string();
+    match module.arena.term(id) {
+        Term::Place { steps, scalar } => {
+            let name = module.display_term(id).to_string();
             if !is_fixed(module, id) {
-                return Err(Unreadable::Element(text));
+                return Err(Unreadable::Element(name));
             }
-            (text, InputKind::Place(*scalar))
+            let values = match *scalar {
+                Scalar::Enum { of, .. } => module.enums[of as usize].variants.clone(),
+                _ => Vec::new(),
+            };
+            let unit = unit(module, steps).map(|unit| module.units.text(unit));
+            Ok(Some(Input { name, kind: InputKind::Place(*scalar), unit, values }))
         }
-        Term::Variable(name) => (name.clone(), InputKind::Variable),
-        Term::Host { text, .. } => return Err(Unreadable::Rust(text.clone())),
-        Term::Parameter { name, .. } => return Err(Unreadable::Parameter(name.clone())),
-        _ => return Ok(None),
-    };
-    let values = match kind {
-        InputKind::Place(Scalar::Enum { of, .. }) => module.enums[of as usize].variants.clone(),
-        _ => Vec::new(),
-    };
-    Ok(Some(Input { name, kind, values }))
+        Term::Variable(name) => Ok(Some(plain(name.clone(), InputKind::Variable))),
+        Term::Host { text, .. } => Err(Unreadable::Rust(text.clone())),
+        Term::Parameter { name, .. } => Err(Unreadable::Parameter(name.clone())),
+        _ => Ok(None),
+    }
+}
+
+fn plain(name: String, kind: InputKind) -> Input {
+    Input { name, kind, unit: None, values: Vec::new() }
+}
+
+/// The unit of a place: that of the last field on the way to it.
+fn unit<'a>(module: &'a Module, steps: &[PlaceStep]) -> Option<&'a Unit> {
+    let State::Declared(state) = &module.state else { return None };
+    let (mut declared, mut unit) = (state, None);
+    for step in steps {
+        let PlaceStep::Field(name) = step else { continue };
+        let field = declared.fields.iter().find(|field| field.name == *name)?;
+        unit = field.unit.as_ref();
+        declared = structure(module, &field.ty).unwrap_or(declared);
+    }
+    unit
+}
+
+/// The struct that a type consists of, or its elements do.
+fn structure<'a>(module: &'a Module, ty: &Type) -> Option<&'a Struct> {
+    match ty {
+        Type::Scalar(_) => None,
+        Type::Struct(place) => module.structs.get(*place as usize),
+        Type::Array(element, _) | Type::Table(element, _) => structure(module, element),
+    }
 }
 
 /// Whether no index on the way to a place depends on the state.

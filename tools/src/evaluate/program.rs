@@ -2,9 +2,9 @@
 //!
 //! A [`Program`] does each of its steps for a whole block before it does the next one: what to do is
 //! decided once a block and not once a row, and each step is a plain loop, which is vectorised. The
-//! steps write numbers only. A truth value is 1 or -1, so that `min`, `max` and negation are
-//! conjunction, disjunction and negation of truth values as they are of robustness, and NaN goes
-//! through all of them in the same way.
+//! steps write numbers only. A truth value is a number as well, positive if true, negative if false
+//! and never 0: so `min`, `max` and negation are conjunction, disjunction and negation of truth
+//! values as they are of robustness, and NaN goes through all of them in the same way.
 
 use tltl_compiler::predicate::Function;
 
@@ -48,11 +48,11 @@ pub(super) enum Operation {
     Greatest,
     /// f(a), or f(a, b).
     Call(Function),
-    /// Whether a = b; never NaN.
+    /// Whether a = b: 1 or -1, never NaN.
     Same,
-    /// Whether a > 0; NaN if a is.
+    /// Whether a > 0, as a truth value; NaN if a is.
     Positive,
-    /// Whether a ≥ 0; NaN if a is.
+    /// Whether a ≥ 0, as a truth value; NaN if a is.
     NotNegative,
     /// a in the next row.
     Next(Carry),
@@ -218,7 +218,8 @@ impl<'a> Lanes<'a> {
 }
 
 fn row_by_row(operation: Operation, a: Lanes<'_>, b: Lanes<'_>, out: &mut [f64]) {
-    let truth = |holds: bool| if holds { 1.0 } else { -1.0 };
+    // Three instructions for two rows, where a choice between 1, -1 and NaN takes eight.
+    let decided = |a: f64, at_0: f64| a + if a == 0.0 { at_0 } else { 0.0 };
     match operation {
         Operation::Add => zip(a, b, out, |a, b| a + b),
         Operation::Subtract => zip(a, b, out, |a, b| a - b),
@@ -228,9 +229,9 @@ fn row_by_row(operation: Operation, a: Lanes<'_>, b: Lanes<'_>, out: &mut [f64])
         Operation::Absolute => map(a, out, f64::abs),
         Operation::Least => zip(a, b, out, least),
         Operation::Greatest => zip(a, b, out, greatest),
-        Operation::Same => zip(a, b, out, |a, b| truth(a == b)),
-        Operation::Positive => map(a, out, |a| if a.is_nan() { a } else { truth(a > 0.0) }),
-        Operation::NotNegative => map(a, out, |a| if a.is_nan() { a } else { truth(a >= 0.0) }),
+        Operation::Same => zip(a, b, out, |a, b| if a == b { 1.0 } else { -1.0 }),
+        Operation::Positive => map(a, out, |a| decided(a, -f64::MIN_POSITIVE)),
+        Operation::NotNegative => map(a, out, |a| decided(a, f64::MIN_POSITIVE)),
         // The others are calls, which cost more than the choice among them.
         Operation::Call(Function::Sqrt) => map(a, out, f64::sqrt),
         Operation::Call(function) => zip(a, b, out, |a, b| function.value(a, b)),
