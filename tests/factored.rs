@@ -2,12 +2,13 @@
 
 use tltl::augmented::{JointError, Labelled, Rewards};
 use tltl::env::ModelEnv;
-use tltl::factored::JointDeadEnds;
+use tltl::factored::{Factored, JointDeadEnds, Part};
 use tltl::learn::{Learner, Settings};
 use tltl::model::FiniteModel;
-use tltl::product::Product;
+use tltl::product::{Operand, Product};
+use tltl::robustness::{NotANumber, Predicates};
 use tltl::solve::Problem;
-use tltl::{Acceptor, tltl};
+use tltl::{Acceptor, Monitor, tltl};
 
 /// Which of 40 propositions hold.
 #[derive(Clone, Copy, Debug)]
@@ -62,10 +63,90 @@ fn parts_side_by_side_agree_with_the_whole() {
 fn parts_multiply_to_the_whole() {
     let apart = tasks::apart();
     let parts: Vec<_> = (0..apart.len()).map(|i| apart.part(i)).collect();
-    let operands: Vec<&(dyn tltl::Monitor<Letter> + Sync)> =
-        parts.iter().map(|part| part as _).collect();
+    let operands: Vec<Operand<'_, Letter>> = parts.iter().map(|part| part as _).collect();
     let product = Product::conjunction(&operands);
     assert_eq!(product.live_or_accepting() + 1, tasks::whole().states() as usize);
+}
+
+/// The numbers of the tuples are another name for the states of the product: what holds of one holds
+/// of the other.
+#[test]
+fn numbered_tuples_are_the_product() {
+    let apart = tasks::apart();
+    let parts: Vec<_> = (0..apart.len()).map(|i| apart.part(i)).collect();
+    let operands: Vec<Operand<'_, Letter>> = parts.iter().map(|part| part as _).collect();
+    let product = Product::conjunction(&operands);
+    let numbered = tasks::apart().numbered().unwrap();
+    assert_eq!((numbered.states(), numbered.name()), (2 * 2 * 3, "apart"));
+    // The last part is `!h U …`, whose trap is its state 2; the least tuple with it is (0, 0, 2).
+    let number = |q: u32| match product.is_trap(q) {
+        true => 2 * 2 * 2,
+        false => {
+            product.components(q).iter().rev().zip([3, 2, 2]).fold(0, |n, (q, size)| n * size + q)
+        }
+    };
+    for q in 0..product.states() {
+        let n = number(q);
+        assert!(product.is_trap(q) || numbered.parts(n).eq(product.components(q).iter().copied()));
+        assert_eq!(numbered.is_accepting(n), product.is_accepting(q));
+        assert_eq!(numbered.is_trap(n), product.is_trap(q));
+        assert_eq!(numbered.distance(n), product.distance(q));
+        let mut successors = Vec::new();
+        numbered.successors(n, &mut |to| successors.push(to));
+        let mut expected: Vec<u32> = product.edges(q).iter().map(|&to| number(to)).collect();
+        expected.sort_unstable();
+        assert_eq!(successors, expected, "from {q}");
+    }
+    for trace in letters() {
+        let (mut q, mut n) = (0, 0);
+        for letter in &trace {
+            let rho = |task: &dyn Monitor<Letter>, q| {
+                (task.progress_robustness(q, letter), task.trap_robustness(q, letter))
+            };
+            assert_eq!(rho(&numbered, n), rho(&product, q), "{letter:?} at {q}");
+            (q, n) = (product.next(q, letter).unwrap(), numbered.next(n, letter).unwrap());
+            assert_eq!(n, number(q), "{trace:?}");
+        }
+        assert_eq!(numbered.trajectory_robustness(&trace), apart.robustness(&trace));
+    }
+}
+
+#[test]
+fn tuples_without_numbers_are_an_error_that_names_the_sizes() {
+    let goal = tltl! { |s: &Letter| F { s.0 & 1 == 1 } };
+    let part = Part {
+        formula: goal.formula().clone(),
+        automaton: goal.automaton().clone(),
+        predicates: vec![0].into(),
+    };
+    let tour = |goals: usize| {
+        let parts = vec![part.clone(); goals];
+        Factored::new("tour", "F a && …", parts, JointDeadEnds::None, Goal).unwrap()
+    };
+    assert_eq!(tour(31).numbered().map(|tour| tour.states()), Ok(1 << 31));
+    let error = tour(32).numbered().unwrap_err().to_string();
+    let sizes = ["2"; 32].join(" × ");
+    let expected =
+        format!("the parts of `tour` have {sizes} states together, which is more than 2^32 - 1");
+    assert_eq!(error, expected);
+
+    let other = Part { predicates: vec![0, 1].into(), ..part };
+    let error = Factored::new("tour", "F a", vec![other], JointDeadEnds::None, Goal).unwrap_err();
+    assert_eq!(error.to_string(), "`predicates` has 2 entries, not 1");
+}
+
+/// The one predicate of a tour whose goals are all the same.
+#[derive(Debug)]
+struct Goal;
+
+impl Predicates<Letter> for Goal {
+    fn robustness(&self, _: usize, letter: &Letter) -> f64 {
+        if letter.0 & 1 == 1 { 1.0 } else { -1.0 }
+    }
+
+    fn holds(&self, i: usize, letter: &Letter) -> Result<bool, NotANumber> {
+        Ok(self.robustness(i, letter) > 0.0)
+    }
 }
 
 #[test]
@@ -141,8 +222,7 @@ fn factored_tasks_are_learned_directly() {
     assert!(small.to_string().contains("reach more than 100 states"), "{small}");
 
     let parts: Vec<_> = (0..tour.len()).map(|i| tour.part(i)).collect();
-    let operands: Vec<&(dyn tltl::Monitor<Letter> + Sync)> =
-        parts.iter().map(|part| part as _).collect();
+    let operands: Vec<Operand<'_, Letter>> = parts.iter().map(|part| part as _).collect();
     let product = Labelled::new(states, &Product::conjunction(&operands)).unwrap();
     assert_eq!(product.automaton_states(), task.automaton_states());
     let mut env = ModelEnv::new(Ring).unwrap();

@@ -23,6 +23,7 @@ mod semantics;
 mod static_corpus;
 mod stages;
 mod static_corpus_source;
+mod tables;
 mod tasks;
 mod ui;
 mod units;

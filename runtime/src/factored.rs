@@ -13,6 +13,8 @@
 
 mod numbered;
 
+use core::fmt;
+
 pub use numbered::{Numbered, TooManyStates};
 
 use crate::automaton::Automaton;
@@ -57,13 +59,25 @@ pub enum JointDeadEnds {
 /// # }
 /// # Ok::<(), tltl::task::Error>(())
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Factored<P> {
     name: Shared<str>,
     formula: Formula,
     parts: Shared<[Part]>,
     joint: JointDeadEnds,
     predicates: P,
+}
+
+/// Name, formula and sizes: predicates are code.
+impl<P> fmt::Debug for Factored<P> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Factored")
+            .field("name", &self.name)
+            .field("formula", &self.formula.text)
+            .field("parts", &self.parts.len())
+            .field("joint", &self.joint)
+            .finish_non_exhaustive()
+    }
 }
 
 impl<P> Factored<P> {
@@ -231,10 +245,15 @@ impl<P> Factored<P> {
 }
 
 /// Some predicates of a task, numbered anew: those of one of its parts.
-#[derive(Debug)]
 pub struct Select<'a, P> {
     predicates: &'a P,
     chosen: &'a [u32],
+}
+
+impl<P> fmt::Debug for Select<'_, P> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Select").field("chosen", &self.chosen).finish_non_exhaustive()
+    }
 }
 
 impl<P> Clone for Select<'_, P> {

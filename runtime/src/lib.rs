@@ -65,6 +65,8 @@
 //! assert!(certificate.satisfied > 0.999 && certificate.regret_steps < Some(0.01));
 //! # Ok::<(), Box<dyn core::error::Error>>(())
 //! ```
+#![warn(missing_debug_implementations)]
+#![warn(missing_debug_implementations)]
 #![no_std]
 
 #[cfg(feature = "alloc")]

@@ -1,6 +1,8 @@
 //! What generated code calls. Not part of the public interface: it changes with the compiler, and
 //! the two are released together.
 
+use core::fmt;
+
 use crate::automaton::{Automaton, Tables, Transitions};
 use crate::robustness::{NotANumber, Predicate, Predicates};
 use crate::shared::Shared;
@@ -9,6 +11,12 @@ use crate::task::{EMPTY, Task};
 /// A predicate as two closures: its robustness, and whether it holds.
 #[derive(Clone, Copy)]
 pub struct Closures<F, G>(pub F, pub G);
+
+impl<F, G> fmt::Debug for Closures<F, G> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Closures")
+    }
+}
 
 impl<S: ?Sized, F, G> Predicate<S> for Closures<F, G>
 where

@@ -105,7 +105,7 @@ impl Formula {
 /// # }
 /// # Ok::<(), tltl::task::Error>(())
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Task<P> {
     name: Shared<str>,
     formula: Shared<Formula>,
@@ -141,6 +141,17 @@ impl fmt::Display for Error {
 }
 
 impl core::error::Error for Error {}
+
+/// Name, formula and size: predicates are code.
+impl<P> fmt::Debug for Task<P> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Task")
+            .field("name", &self.name)
+            .field("formula", &self.formula.text)
+            .field("states", &self.automaton.states())
+            .finish_non_exhaustive()
+    }
+}
 
 impl<P> Task<P> {
     /// The task of tables that a program made at run time: predicate `i` is proposition `i` of the

@@ -16,6 +16,7 @@
 use burn::tensor::Device;
 use rand::SeedableRng;
 use rand::rngs::Xoshiro256PlusPlus;
+use std::fmt;
 use std::vec::Vec;
 
 use super::model::{Batch, Model};
@@ -44,6 +45,14 @@ pub struct Learned<'a, S> {
     pub experience: &'a Replay<S>,
 }
 
+impl<S> fmt::Debug for Learned<'_, S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut learned = f.debug_struct("Learned");
+        learned.field("task", &self.task.name()).field("shape", self.network.shape());
+        learned.finish_non_exhaustive()
+    }
+}
+
 impl<S> Clone for Learned<'_, S> {
     fn clone(&self) -> Self {
         *self
@@ -54,6 +63,12 @@ impl<S> Copy for Learned<'_, S> {}
 
 /// What several skills see, side by side. All must have the same entities.
 pub struct Joint<'a, S>(pub Vec<&'a dyn Features<S>>);
+
+impl<S> fmt::Debug for Joint<'_, S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Joint").field("skills", &self.0.len()).finish_non_exhaustive()
+    }
+}
 
 impl<S> Features<S> for Joint<'_, S> {
     fn inputs(&self) -> usize {
@@ -112,6 +127,16 @@ pub struct Composition<'a, S, G> {
     replay: Replay<S>,
     rng: Xoshiro256PlusPlus,
     actions: usize,
+}
+
+impl<S, G> fmt::Debug for Composition<'_, S, G> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Composition")
+            .field("product", self.product)
+            .field("settings", &self.settings)
+            .field("combine", &self.combine)
+            .finish_non_exhaustive()
+    }
 }
 
 impl<'a, S: Clone, G: Goals<S>> Composition<'a, S, G> {

@@ -4,6 +4,7 @@ use burn::tensor::Device;
 use rand::rngs::Xoshiro256PlusPlus;
 use rand::{Rng, SeedableRng};
 use serde::{Deserialize, Serialize};
+use std::fmt;
 use std::vec::Vec;
 
 use super::model::{Batch, Descent, Model, Moments};
@@ -27,6 +28,15 @@ pub struct Learner<S, M, F, G> {
     core: Core<S>,
     rng: Xoshiro256PlusPlus,
     done: Done,
+}
+
+impl<S, M, F, G> fmt::Debug for Learner<S, M, F, G> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Learner")
+            .field("settings", &self.core.settings)
+            .field("done", &self.done)
+            .finish_non_exhaustive()
+    }
 }
 
 /// All that learning changes, but for the random generator.

@@ -31,12 +31,18 @@ use crate::task::{Error, Formula};
 /// # }
 /// # Ok::<(), tltl::factored::TooManyStates>(())
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Numbered<P> {
     task: Factored<P>,
     states: u32,
     /// The least number of a tuple in which a part is lost.
     trap: Option<u32>,
+}
+
+impl<P> fmt::Debug for Numbered<P> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Numbered").field("task", &self.task).field("states", &self.states).finish()
+    }
 }
 
 /// The tuples of the parts' states do not have numbers of 32 bits.

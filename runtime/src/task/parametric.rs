@@ -33,7 +33,7 @@ pub struct Parametric<P, F> {
     of: F,
 }
 
-impl<P: fmt::Debug, F> fmt::Debug for Parametric<P, F> {
+impl<P, F> fmt::Debug for Parametric<P, F> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Parametric").field("any", &self.any).finish_non_exhaustive()
     }
