@@ -48,7 +48,8 @@ fn refused(automaton: &Automaton, change: impl FnOnce(&mut Tables)) -> String {
 fn what_is_wrong_in_a_table_is_named() {
     // States: 0 waits, 1 accepts, 2 is the trap.
     let avoid = compiled("!b U a");
-    let cases: [(&str, fn(&mut Tables)); 16] = [
+    type Change = fn(&mut Tables);
+    let cases: [(&str, Change); 16] = [
         ("`states`, entry 0: 0 is not less than 0", |t| t.states = 0),
         ("`accepting`, entry 0: 3 is not less than 3", |t| t.accepting = Some(3)),
         ("`trap`, entry 0: the accepting state is not the trap", |t| t.trap = Some(1)),

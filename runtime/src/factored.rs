@@ -1,11 +1,13 @@
 //! Conjunctions whose parts run side by side.
 //!
 //! The automaton of n unordered goals has 2^n states; their n automata together have 2n. A
-//! [`Factored`] task keeps the parts of a conjunction apart: its state is one automaton state for
-//! each part, it is accepted when all parts are and lost when one is. Parts that share a
-//! proposition can also be lost *together* while each could still go on alone (`!b U a` and
-//! `!a U b`). The compiler joins such parts into one if their product is small enough, and then
-//! nothing is missed; otherwise [`Factored::joint_dead_ends`] says so.
+//! [`Factored`] task, which `#[factored]` asks for, keeps the parts of a conjunction apart: its state
+//! is one automaton state for each part, it is accepted when all parts are and lost when one is.
+//!
+//! Parts that share a proposition can be lost *together* while each could still go on alone: with
+//! `!b U a` and `!a U b`, neither a nor b may come first. The compiler joins such parts into one if
+//! their product is small, and then every dead end is the trap of a part. Otherwise
+//! [`Factored::joint_dead_ends`] says that some may not be recognised.
 //!
 //! A factored task becomes a [`Monitor`](crate::Monitor) as [`Numbered`], which numbers the tuples of
 //! states. For learning in a finite world, `Labelled::of_factored` (module `augmented`, feature
@@ -25,7 +27,8 @@ use crate::robustness::{NotANumber, Predicates};
 use crate::shared::Shared;
 use crate::task::{Error, Formula, Reader, Task};
 
-/// One part of a factored task.
+/// One part of a factored task: a formula with its automaton, and which of the task's predicates it
+/// is about.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Part {
     /// Its formula; propositions are numbered as in `automaton`.
@@ -81,11 +84,38 @@ impl<P> fmt::Debug for Factored<P> {
 }
 
 impl<P> Factored<P> {
-    /// The factored task of parts that a program made at run time; `text` is the whole formula.
+    /// The factored task of parts that a program made at run time; `text` is the whole formula. The
+    /// numbers in [`Part::predicates`] must be those of `predicates`, which alone knows how many it
+    /// has.
     ///
     /// # Errors
     /// If a part does not have a predicate for each proposition of its automaton, or its formula is
     /// about a proposition that its automaton does not have.
+    ///
+    /// ```
+    /// # #[cfg(feature = "macros")] {
+    /// use tltl::factored::{Factored, JointDeadEnds, Part};
+    /// use tltl::{Acceptor, tltl};
+    /// # use tltl::robustness::{NotANumber, Predicates};
+    /// # struct Bits;
+    /// # impl Predicates<u8> for Bits {
+    /// #     fn robustness(&self, i: usize, s: &u8) -> f64 { f64::from(s >> i & 1) - 0.5 }
+    /// #     fn holds(&self, i: usize, s: &u8) -> Result<bool, NotANumber> { Ok(s >> i & 1 == 1) }
+    /// # }
+    ///
+    /// // Eight times `F`, each over a bit of the state.
+    /// let once = tltl! { |s: &(bool, bool)| F s.0 };
+    /// let part = |i| Part {
+    ///     formula: once.formula().clone(),
+    ///     automaton: once.automaton().clone(),
+    ///     predicates: vec![i].into(),
+    /// };
+    /// let parts: Vec<Part> = (0..8).map(part).collect();
+    /// let bits = Factored::new("bits", "all bits", parts, JointDeadEnds::None, Bits)?;
+    /// assert_eq!(bits.satisfied(&[0x0f_u8, 0xf0]), Ok(true));
+    /// # }
+    /// # Ok::<(), tltl::automaton::TableError>(())
+    /// ```
     #[cfg(feature = "alloc")]
     pub fn new(
         name: impl Into<Shared<str>>,
@@ -176,7 +206,7 @@ impl<P> Factored<P> {
     /// If a predicate that decides a move is not a number; the parts before it have moved.
     ///
     /// # Panics
-    /// If `q` does not have one state for each part.
+    /// If `q` does not have one state for each part, or one that is not a state of its part.
     pub fn next<S: ?Sized>(&self, q: &mut [u32], s: &S) -> Result<(), Error>
     where
         P: Predicates<S>,
@@ -244,7 +274,8 @@ impl<P> Factored<P> {
     }
 }
 
-/// Some predicates of a task, numbered anew: those of one of its parts.
+/// Some predicates of a task, numbered anew: those of one of its parts. Predicate `i` of the part is
+/// predicate `chosen[i]` of the task.
 pub struct Select<'a, P> {
     predicates: &'a P,
     chosen: &'a [u32],
@@ -275,7 +306,7 @@ impl<S: ?Sized, P: Predicates<S>> Predicates<S> for Select<'_, P> {
         self.predicates.holds(self.chosen[i] as usize, s)
     }
 
-    // The whole formula has at least as many operators as a part of it.
+    // The task's buffers are long enough: the whole formula has at least the operators of a part.
     fn with_scratch<R>(&self, cells: usize, f: impl FnOnce(&mut [f64], &mut [f64]) -> R) -> R {
         self.predicates.with_scratch(cells, f)
     }

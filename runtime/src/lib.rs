@@ -66,7 +66,6 @@
 //! # Ok::<(), Box<dyn core::error::Error>>(())
 //! ```
 #![warn(missing_debug_implementations)]
-#![warn(missing_debug_implementations)]
 #![no_std]
 
 #[cfg(feature = "alloc")]

@@ -1,5 +1,10 @@
 //! What generated code calls. Not part of the public interface: it changes with the compiler, and
 //! the two are released together.
+//!
+//! The compiler writes a predicate as a Rust expression over the author's own fields. What the
+//! expression needs beyond Rust's operators is here: comparisons that report a NaN, `min` and `max`
+//! that keep one, numbers of every type as `f64`, and functions that `core` lacks. All of it is
+//! inlined, so that a predicate costs what the author would have written by hand.
 
 use core::fmt;
 
@@ -8,7 +13,8 @@ use crate::robustness::{NotANumber, Predicate, Predicates};
 use crate::shared::Shared;
 use crate::task::{EMPTY, Task};
 
-/// A predicate as two closures: its robustness, and whether it holds.
+/// A predicate as two closures: its robustness, and whether it holds. They are two because at
+/// robustness 0 the comparison decides, which the number alone does not tell.
 #[derive(Clone, Copy)]
 pub struct Closures<F, G>(pub F, pub G);
 
@@ -34,13 +40,15 @@ where
     }
 }
 
-/// There is no predicate of this number.
+/// Panics: there is no predicate of this number. Generated code calls it in the last arm of a match,
+/// which only a hand-written caller reaches.
 #[cold]
 pub fn no_predicate(i: usize) -> ! {
     panic!("there is no predicate {i}")
 }
 
-/// Stands in for the predicates of a formula that did not compile.
+/// Stands in for the predicates of a formula that did not compile. It is a predicate of all states, so
+/// that the code around the macro has no further error.
 #[derive(Clone, Copy, Debug)]
 pub struct Invalid;
 
@@ -58,7 +66,8 @@ impl<S: ?Sized> Predicates<S> for Invalid {
     }
 }
 
-/// Stands in for a task that did not compile, so that one mistake is one message.
+/// Stands in for a task that did not compile, so that one mistake is one message. It is lost from the
+/// start; no program that holds it compiles.
 #[must_use]
 pub const fn invalid() -> Task<Invalid> {
     static AUTOMATON: Automaton = Automaton::trusted(Tables {
@@ -85,19 +94,29 @@ pub const fn invalid() -> Task<Invalid> {
     )
 }
 
-/// `a < b`.
+/// `a < b`, as the robustness `b - a` has it: the same rounding decides both, so ρ > 0 and truth
+/// cannot disagree.
+///
+/// # Errors
+/// If one of the two is not a number, or both are the same infinity.
 #[inline]
 pub fn less(a: f64, b: f64) -> Result<bool, NotANumber> {
     number_or_error(b - a).map(|rho| rho > 0.0)
 }
 
-/// `a <= b`.
+/// `a <= b`, as the robustness `b - a` has it.
+///
+/// # Errors
+/// As [`less`].
 #[inline]
 pub fn at_most(a: f64, b: f64) -> Result<bool, NotANumber> {
     number_or_error(b - a).map(|rho| rho >= 0.0)
 }
 
-/// `a == b`.
+/// `a == b`, as the robustness `-|a - b|` has it.
+///
+/// # Errors
+/// As [`less`].
 #[inline]
 pub fn equal(a: f64, b: f64) -> Result<bool, NotANumber> {
     number_or_error(b - a).map(|rho| rho == 0.0)
@@ -108,14 +127,15 @@ fn number_or_error(rho: f64) -> Result<f64, NotANumber> {
     if rho.is_nan() { Err(NotANumber) } else { Ok(rho) }
 }
 
-/// The lesser of two numbers; NaN if one of them is.
+/// The lesser of two numbers; NaN if one of them is, unlike `f64::min`, which would hide a mistake in
+/// the state behind the other operand.
 #[inline]
 #[must_use]
 pub fn min(a: f64, b: f64) -> f64 {
     if a < b || a.is_nan() { a } else { b }
 }
 
-/// The greater of two numbers; NaN if one of them is.
+/// The greater of two numbers; NaN if one of them is, unlike `f64::max`.
 #[inline]
 #[must_use]
 pub fn max(a: f64, b: f64) -> f64 {
@@ -158,20 +178,21 @@ macro_rules! numbers {
 
 numbers! { f64 f32 i8 i16 i32 i64 i128 isize u8 u16 u32 u64 u128 usize }
 
-/// A value that arithmetic in a predicate reads.
+/// A value that arithmetic in a predicate reads, as a real number.
 #[inline]
 pub fn number(value: impl Number) -> f64 {
     value.to_f64()
 }
 
-/// |x|, which needs no library.
+/// |x|, the one of these functions that `core` has.
 #[inline]
 #[must_use]
 pub fn abs(x: f64) -> f64 {
     x.abs()
 }
 
-/// Floating-point functions that `core` lacks; `f64` has them if there is a library.
+/// Floating-point functions that `core` lacks; `f64` has them if the feature `std` or `libm` is on.
+/// A bound by this trait turns their absence into an error at the author's call, with what to do.
 #[diagnostic::on_unimplemented(
     message = "this function needs floating-point routines that `core` lacks",
     label = "turn on the feature `std` or `libm` of the crate `tltl`"

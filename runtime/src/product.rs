@@ -1,10 +1,17 @@
 //! The product of tasks at run time (paper, Definition 4), itself a [`Monitor`].
 //!
-//! Composition of learned skills needs to know the components, so the states are the *raw*
-//! reachable tuples: not minimised, except that all tuples that lose the product are one trap and
-//! all that accept it are one state. The tasks are treated as independent (an edge of the product
-//! for every combination of edges), which is sound and at worst larger; the compiler's product of
-//! formulas is the minimal one.
+//! A product turns several tasks into one, for which skills that were learned for the tasks are
+//! composed. Composition has to know in which state each task is, so the states of a product are
+//! *raw*: the tuples of the tasks' states that can be reached, not minimised, except that all tuples
+//! that lose the product are one trap and all that accept it are one state.
+//!
+//! The tasks are treated as independent: the product has an edge for every combination of edges. A
+//! product of tasks that share a predicate can so have edges that no state of the world takes, which
+//! is sound (nothing is missed) and at worst larger. The minimal automaton of several formulas is
+//! the compiler's work: write them as one formula.
+//!
+//! Tuples are found once, when the product is made: O(states × edges of a state × operands) time.
+//! A move then reads the state with every operand and looks up the tuple.
 
 use alloc::collections::BTreeMap;
 use alloc::format;
@@ -17,7 +24,8 @@ use crate::robustness;
 use crate::shared::Shared;
 use crate::task::{Error, Formula};
 
-/// An operand of a product.
+/// An operand of a product: any task, by reference. It is `Sync`, so that the product can be shared
+/// between threads.
 pub type Operand<'a, S> = &'a (dyn Monitor<S> + Sync + 'a);
 
 /// How the operands make one task.
@@ -27,10 +35,12 @@ pub enum Operator {
     Conjunction,
     /// One of them.
     Disjunction,
-    /// One after the other: when the shortest prefix that satisfies the first ends at s_k, the
-    /// rest is judged on the trajectory from s_{k+1} on. Of `F a` and `F b` it is `a T b`. (Not
-    /// `(F a) T (F b)`, which lets a come after b: `T` asks when a formula *holds*, this when it is
-    /// *done*.) What running one skill until it is done, then the next, amounts to.
+    /// One after the other: the shortest prefix that satisfies the first operand ends at some s_k,
+    /// and the trajectory from s_{k+1} on has to satisfy the rest. This is the task of running one
+    /// skill until it is done, then the next.
+    ///
+    /// Of `F a` and `F b` it is `a T b`. It is not `(F a) T (F b)`, which b alone satisfies if a
+    /// comes later: `T` asks when a formula *holds*, a sequence when it is *done*.
     Sequence,
 }
 
@@ -45,32 +55,72 @@ impl Operator {
     }
 }
 
-/// A state of the product: the operands' states, and for a sequence which of them is running.
+/// A state of the product: the operand of a sequence that is running, and the operands' states as one
+/// number. `usize::MAX` stands for no operand: the key of an end, which no other key equals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Key {
     running: usize,
     code: u128,
 }
 
-/// Where a move of the product leads.
+/// Where a move of the product leads: to an end, or on with some operand running.
 enum Move {
     Accepted,
     Lost,
     To(usize),
 }
 
+/// How big a product is, under the usual conventions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Size {
+    /// States, the trap included.
+    pub states: usize,
+    /// Distinct pairs (q, q') with q ≠ q', edges into the trap included.
+    pub edges: usize,
+    /// Distinct pairs (q, q), that of the trap included.
+    pub self_loops: usize,
+    /// Edges of `edges` that lead into the trap.
+    pub into_trap: usize,
+    /// Whether there is a trap.
+    pub trap: bool,
+}
+
 /// A product of any number of tasks over the same states.
 ///
-/// States are numbered breadth-first from the initial one, 0.
+/// States are numbered breadth-first from the initial one, 0. At most one is accepting and at most
+/// one a trap; both have a self-loop only.
+///
+/// ```
+/// # #[cfg(feature = "macros")] {
+/// use tltl::product::{Operand, Product};
+/// use tltl::{Acceptor, Monitor, tltl};
+///
+/// struct Cell { coffee: bool, mail: bool, stairs: bool }
+/// let coffee = tltl! { |s: &Cell| F s.coffee };
+/// let mail = tltl! { |s: &Cell| !s.stairs U s.mail };
+/// let operands: [Operand<'_, Cell>; 2] = [&coffee, &mail];
+/// let both = Product::conjunction(&operands);
+/// assert_eq!(both.formula().text(), "(F s.coffee) && (!s.stairs U s.mail)");
+///
+/// let q = both.next(0, &Cell { coffee: false, mail: true, stairs: false })?;
+/// assert_eq!(both.components(q), [0, 1], "the mail is done");
+/// assert!(both.is_accepting(both.next(q, &Cell { coffee: true, mail: false, stairs: true })?));
+/// # }
+/// # Ok::<(), tltl::task::Error>(())
+/// ```
 pub struct Product<'a, S: ?Sized> {
     operator: Operator,
     name: String,
     formula: Formula,
     operands: Vec<Operand<'a, S>>,
+    /// The weight of each operand's state in the code of a tuple.
     strides: Vec<u128>,
+    /// The state of each key, and the other way round.
     index: BTreeMap<Key, u32>,
     keys: Vec<Key>,
+    /// The operands' states at each state, one after the other.
     components: Vec<u32>,
+    /// Where the edges of each state begin in `successors`, and where the last end.
     first: Vec<u32>,
     successors: Vec<u32>,
     distance: Vec<Option<u32>>,
@@ -156,8 +206,11 @@ impl<'a, S: ?Sized> Product<'a, S> {
         &self.operands
     }
 
-    /// The state of each operand at `q`; for the accepting state and the trap, those by which it
-    /// was met first. An operand of a sequence that does not run yet is in its state 0.
+    /// The state of each operand at `q`; for the accepting state and the trap, those of the tuple
+    /// that was found first. An operand of a sequence that does not run yet is in its state 0.
+    ///
+    /// # Panics
+    /// If `q` is not a state of the product.
     #[must_use]
     pub fn components(&self, q: u32) -> &[u32] {
         let n = self.operands.len();
@@ -165,35 +218,39 @@ impl<'a, S: ?Sized> Product<'a, S> {
     }
 
     /// Which operand of a sequence runs at `q`; 0 for the other operators.
+    ///
+    /// # Panics
+    /// If `q` is not a state of the product.
     #[must_use]
     pub fn running(&self, q: u32) -> usize {
         self.keys[q as usize].running
     }
 
     /// The targets of the edges that leave `q`, self-loop included, ascending.
+    ///
+    /// # Panics
+    /// If `q` is not a state of the product.
     #[must_use]
     pub fn edges(&self, q: u32) -> &[u32] {
         &self.successors[self.first[q as usize] as usize..self.first[q as usize + 1] as usize]
     }
 
-    /// The number of edges, counted as distinct pairs of states, under both usual conventions:
-    /// with self-loops or not, with the trap or not.
+    /// How big the product is.
     #[must_use]
-    pub fn edge_count(&self, self_loops: bool, trap: bool) -> usize {
-        let counts = |q: u32, to: u32| {
-            (self_loops || q != to) && (trap || self.trap != Some(q) && self.trap != Some(to))
-        };
-        let states = 0..self.keys.len() as u32;
-        states.map(|q| self.edges(q).iter().filter(|&&to| counts(q, to)).count()).sum()
+    pub fn size(&self) -> Size {
+        let (states, trap) = (self.keys.len(), self.trap.is_some());
+        let mut size = Size { states, edges: 0, self_loops: 0, into_trap: 0, trap };
+        for q in 0..states as u32 {
+            for &to in self.edges(q) {
+                size.self_loops += usize::from(to == q);
+                size.edges += usize::from(to != q);
+                size.into_trap += usize::from(to != q && self.trap == Some(to));
+            }
+        }
+        size
     }
 
-    /// The number of states that are not the trap.
-    #[must_use]
-    pub fn live_or_accepting(&self) -> usize {
-        self.keys.len() - usize::from(self.trap.is_some())
-    }
-
-    /// Visits the reachable tuples breadth-first and lists their edges.
+    /// Visits the reachable tuples breadth-first and lists their edges: `keys` is the queue as well.
     fn explore(&mut self) {
         let start = self.judge(&alloc::vec![0; self.operands.len()], None);
         self.number(Key { running: 0, code: 0 }, &alloc::vec![0; self.operands.len()]);
@@ -248,6 +305,7 @@ impl<'a, S: ?Sized> Product<'a, S> {
         }
     }
 
+    /// The number of a key, the next one if the key is new.
     fn number(&mut self, key: Key, tuple: &[u32]) -> u32 {
         let next = self.keys.len() as u32;
         let q = *self.index.entry(key).or_insert(next);
@@ -258,6 +316,7 @@ impl<'a, S: ?Sized> Product<'a, S> {
         q
     }
 
+    /// A tuple as one number.
     fn code(&self, tuple: &[u32]) -> u128 {
         tuple.iter().zip(&self.strides).map(|(&q, stride)| u128::from(q) * stride).sum()
     }
@@ -293,7 +352,9 @@ impl<'a, S: ?Sized> Product<'a, S> {
         self.accepting == Some(q) || self.trap == Some(q)
     }
 
-    /// The least number of moves to the accepting state, for all states.
+    /// The least number of moves to the accepting state, for all states. Rounds until nothing
+    /// changes, from the last state back: breadth-first numbers mostly rise towards acceptance, so
+    /// a few rounds are enough.
     fn distances(&self) -> Vec<Option<u32>> {
         let mut distance = alloc::vec![None; self.keys.len()];
         let Some(accepting) = self.accepting else { return distance };
@@ -364,6 +425,7 @@ fn combinations(tuples: &[Vec<u32>], edges: &[u32]) -> Vec<Vec<u32>> {
     longer
 }
 
+/// The weights of the operands' states in a number of mixed radix.
 fn strides<S: ?Sized>(operands: &[Operand<'_, S>]) -> Vec<u128> {
     let mut stride: u128 = 1;
     let mut next = |operand: &Operand<'_, S>| {
@@ -459,8 +521,8 @@ impl<S: ?Sized> Monitor<S> for Product<'_, S> {
     }
 
     /// Min over the operands of a conjunction, max over those of a disjunction. In a sequence each
-    /// operand is judged on its own part of the trajectory, and the least counts; so it may fall
-    /// where one operand hands over to the next.
+    /// operand is judged on its own part of the trajectory, and the least counts. So, unlike that of a
+    /// formula, it may fall while the trajectory grows: where one operand hands over to the next.
     fn trajectory_robustness(&self, trajectory: &[S]) -> Result<f64, Error>
     where
         S: Sized,
@@ -476,6 +538,7 @@ impl<S: ?Sized> Monitor<S> for Product<'_, S> {
     }
 }
 
+/// The least robustness of the operands, each on its own part of the trajectory.
 fn sequence_robustness<S>(operands: &[Operand<'_, S>], trajectory: &[S]) -> Result<f64, Error> {
     let (mut least, mut start) = (f64::INFINITY, 0);
     for operand in operands {

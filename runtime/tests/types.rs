@@ -83,7 +83,6 @@ fn pointers_are_the_task_that_they_point_to() {
     }
     let task = both(A, B);
     follows(&task);
-    follows(&&task);
     follows(Box::new(task.clone()));
     follows(Box::new(task.clone()) as Box<dyn Monitor<Cell> + Send + Sync>);
     follows(std::rc::Rc::new(task.clone()));

@@ -1,7 +1,17 @@
 //! Whether tables from outside are an automaton, or operators a formula.
 //!
-//! Everything that the runtime relies on is checked here once, so that no look-up of a checked
-//! automaton is out of range and no walk through it fails to end.
+//! The runtime reads tables without a doubt: it indexes by offsets, walks diagrams until they end,
+//! and looks up where a move leads. All that this relies on is checked here, once, so that no
+//! look-up of a checked automaton is out of range, every walk through it ends, and what reads it
+//! (a product, a solver) meets no move that the edges do not have.
+//!
+//! Not checked: that states are numbered breadth-first, that the automaton is minimal (nothing
+//! relies on either), and that guards agree with δ. To compare a sum of products with a decision
+//! diagram takes time exponential in the number of propositions, and the valuations that arithmetic
+//! rules out, on which they may differ, are not in the tables.
+//!
+//! The checks come in the order in which each relies on those before it; the first error is
+//! reported, for what follows from it is not news.
 
 use alloc::vec::Vec;
 use core::fmt;
@@ -9,19 +19,31 @@ use core::fmt;
 use super::{Tables, Transitions};
 use crate::robustness::Op;
 
-/// Why tables are no automaton, or operators no formula.
+/// Why tables are not an automaton, or operators not a formula: the table, the entry, and what is
+/// wrong with it.
+///
+/// ```
+/// use tltl::{Formula, robustness::Op};
+///
+/// // The operand of an operator is an earlier one.
+/// let error = Formula::new("F a", vec![Op::Eventually(1), Op::Is(0)]).unwrap_err();
+/// assert_eq!(error.to_string(), "`operators`, entry 0: 1 is not less than 0");
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TableError(Kind);
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Kind {
+    /// A table is longer or shorter than another one says.
     Length { table: &'static str, found: usize, expected: usize },
+    /// An index points beyond its table.
     Limit { table: &'static str, at: usize, found: u64, limit: u64 },
+    /// An entry breaks a rule, which `what` states.
     Entry { table: &'static str, at: usize, what: &'static str },
 }
 
 impl TableError {
-    /// The entry of a table is not what it must be.
+    /// An entry breaks a rule, which `what` states.
     fn entry(table: &'static str, at: usize, what: &'static str) -> Self {
         Self(Kind::Entry { table, at, what })
     }
@@ -45,8 +67,7 @@ impl core::error::Error for TableError {}
 
 type Result<T = ()> = core::result::Result<T, TableError>;
 
-/// Whether `tables` are an automaton; the order of the checks matters, for each relies on those
-/// before it.
+/// Whether `tables` are an automaton.
 pub(super) fn automaton(tables: &Tables) -> Result {
     ends(tables)?;
     transitions(tables)?;
@@ -55,7 +76,8 @@ pub(super) fn automaton(tables: &Tables) -> Result {
     distances(tables)
 }
 
-/// Whether every operator comes after its operands and every proposition is one of `propositions`.
+/// Whether operators are a formula over so many propositions: every operator comes after its
+/// operands, so one pass in order has the operands' values when it needs them.
 pub(crate) fn operators(ops: &[Op], propositions: usize) -> Result {
     for (k, op) in ops.iter().enumerate() {
         let limited = |value: u32, limit: usize| limit_of("operators", k, value.into(), limit);
@@ -81,17 +103,19 @@ pub(crate) fn length(table: &'static str, found: usize, expected: usize) -> Resu
     }
 }
 
+/// Whether an index is below the limit.
 fn limit_of(table: &'static str, at: usize, found: u64, limit: usize) -> Result {
     let limit = limit as u64;
     if found < limit { Ok(()) } else { Err(TableError(Kind::Limit { table, at, found, limit })) }
 }
 
+/// Whether all entries of a table are below the limit.
 fn all_below(table: &'static str, entries: &[u32], limit: u32) -> Result {
     let mut entries = entries.iter().enumerate();
     entries.try_for_each(|(at, &found)| limit_of(table, at, found.into(), limit as usize))
 }
 
-/// There are states, and the ends are two of them.
+/// There are states, and the two ends are states, not the same one.
 fn ends(tables: &Tables) -> Result {
     let Tables { states, accepting, trap, .. } = *tables;
     limit_of("states", 0, 0, states as usize)?;
@@ -105,11 +129,13 @@ fn ends(tables: &Tables) -> Result {
     Ok(())
 }
 
+/// δ is total and leads to states: a dense table has an entry for each state and class, and a class
+/// for each valuation; in a diagram every node refers to states and to nodes before it.
 fn transitions(tables: &Tables) -> Result {
     let (states, propositions) = (tables.states, tables.propositions.len());
     match &tables.transitions {
         Transitions::Table { class, width, next } => {
-            // The classes are counted in 16 bits; a table over more valuations could not be stored.
+            // The number of valuations must be a number; a table of them is never that long.
             limit_of("propositions", 0, propositions as u64, usize::BITS as usize)?;
             length("class", class.len(), 1 << propositions)?;
             for (at, &class) in class.iter().enumerate() {
@@ -136,7 +162,8 @@ fn transitions(tables: &Tables) -> Result {
     }
 }
 
-/// The offsets lead to edges and guards, and these to states and propositions.
+/// The offsets lead to edges and guards, the literals to propositions, and every guard is a sequence
+/// of cubes, each with a 0 after it.
 fn guards(tables: &Tables) -> Result {
     let Tables { edges, targets, guards, literals, .. } = tables;
     let states = tables.states as usize;
@@ -155,7 +182,8 @@ fn guards(tables: &Tables) -> Result {
     Ok(())
 }
 
-/// Offsets of `items` items in a table of `end` entries.
+/// Offsets of `items` items in a table of `end` entries: from 0 to `end` without a fall, so that the
+/// range of every item lies in the table.
 fn offsets(table: &'static str, offsets: &[u32], items: usize, end: usize) -> Result {
     length(table, offsets.len(), items + 1)?;
     let falls = offsets.windows(2).position(|pair| pair[0] > pair[1]);
@@ -172,7 +200,7 @@ fn offsets(table: &'static str, offsets: &[u32], items: usize, end: usize) -> Re
     Ok(())
 }
 
-/// The edges are those of δ, and the ends have a self-loop only.
+/// The edges are those of δ, and the ends have a self-loop only: an episode that has ended stays so.
 fn successors(tables: &Tables) -> Result {
     let mut leaves = Leaves::new(tables);
     for q in 0..tables.states {
@@ -191,10 +219,12 @@ fn successors(tables: &Tables) -> Result {
     Ok(())
 }
 
-/// Finds the states that δ leads to.
+/// Finds the states that δ leads to: those of one row of a table, those that a state's root reaches in
+/// a diagram. Every node is visited once for each state, O(states × nodes) in all.
 struct Leaves<'a> {
     tables: &'a Tables,
-    /// For each node the last state (plus 1) from which it was met.
+    /// For each node the last state (plus 1) from which it was met, so that nothing is cleared between
+    /// two states.
     met: Vec<u32>,
     found: Vec<u32>,
 }
@@ -208,7 +238,7 @@ impl<'a> Leaves<'a> {
         Self { tables, met: alloc::vec![0; nodes], found: Vec::new() }
     }
 
-    /// The states that `q` moves to, ascending.
+    /// The states that `q` moves to under some valuation, ascending.
     fn of(&mut self, q: u32) -> &[u32] {
         self.found.clear();
         match &self.tables.transitions {
@@ -237,9 +267,10 @@ impl<'a> Leaves<'a> {
     }
 }
 
-/// The accepting state is at 0 and every other state one move farther than the nearest that it
-/// moves to. Only the distance is such: along the nearest ones it falls to 0 in as many moves as it
-/// says, and no way is shorter.
+/// The accepting state is at 0, and every other state is one move farther than the nearest state that
+/// it moves to. Only the distance has this property, so nothing is computed to compare with: along
+/// the nearest states it falls to 0 in as many moves as it says, and along no way can it fall
+/// faster.
 fn distances(tables: &Tables) -> Result {
     let Tables { edges, targets, distance, .. } = tables;
     length("distance", distance.len(), tables.states as usize)?;

@@ -1,8 +1,12 @@
 //! Factored tasks as monitors: a number for every tuple of the parts' states.
 //!
-//! The number of the tuple (q₀, q₁, …) is q₀ + n₀ (q₁ + n₁ (q₂ + …)), where part i has nᵢ states.
-//! Nothing is explored and nothing stored, so a joint task costs no more than its parts; but it
-//! numbers all tuples, also those that no trajectory reaches.
+//! The number of the tuple (q₀, q₁, …) is q₀ + n₀ (q₁ + n₁ (q₂ + …)), where part i has nᵢ states: the
+//! states are the digits of a number of mixed radix, the first part's is the lowest. Nothing is
+//! explored or stored, so nothing is allocated, and a numbered task costs no more than its parts.
+//!
+//! The price is that all tuples have a number, also those that no trajectory reaches. What makes a
+//! table of all states (`Labelled::new`) should take `Labelled::of_factored` instead, and what needs
+//! few states a `Product` of the [parts](Factored::part).
 
 use core::fmt;
 
@@ -12,11 +16,12 @@ use crate::robustness::{self, Predicates};
 use crate::shared::Shared;
 use crate::task::{Error, Formula};
 
-/// A factored task whose joint states are numbers: one automaton for what reads one.
+/// A factored task whose state is one number: a [`Monitor`], for everything that takes one.
 ///
-/// All tuples in which a part is lost count as the trap; moves lead to the least of them. Parts are
-/// treated as independent, as the operands of a product are: `successors` and `distance` know of no
-/// two parts that cannot move at once.
+/// A part that is lost loses the task: all tuples with such a part are traps, and a move into one of
+/// them leads to the one with the least number. The parts are treated as independent, as the operands
+/// of a product are: `successors` lists every combination of the parts' moves, and `distance` takes
+/// all parts to move at once.
 ///
 /// ```
 /// # #[cfg(feature = "macros")] {
@@ -45,7 +50,10 @@ impl<P> fmt::Debug for Numbered<P> {
     }
 }
 
-/// The tuples of the parts' states do not have numbers of 32 bits.
+/// The parts of a factored task have so many states together that 32 bits do not number them.
+///
+/// The message names the numbers of states. Such a task is followed part by part
+/// ([`Factored::next`]), and learned over the states that a world reaches (`Labelled::of_factored`).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TooManyStates {
     task: Shared<str>,
@@ -66,10 +74,10 @@ impl fmt::Display for TooManyStates {
 impl core::error::Error for TooManyStates {}
 
 impl<P> Factored<P> {
-    /// The task as one automaton, whose states are numbers.
+    /// The task with one number as its state.
     ///
     /// # Errors
-    /// If the parts' numbers of states multiply to more than a `u32` holds.
+    /// If the parts' numbers of states multiply to more than a `u32` holds: 32 goals do.
     pub fn numbered(self) -> Result<Numbered<P>, TooManyStates> {
         let (mut states, mut trap) = (1_u32, None);
         for part in &*self.parts {
@@ -91,7 +99,7 @@ impl<P> Numbered<P> {
         &self.task
     }
 
-    /// The state of each part at `q`.
+    /// The state of each part at `q`: the digits of the number.
     pub fn parts(&self, q: u32) -> impl Iterator<Item = u32> {
         let mut rest = q;
         self.task.automata().map(move |automaton| {
@@ -102,9 +110,10 @@ impl<P> Numbered<P> {
         })
     }
 
-    /// Visits all tuples that `parts` reach from `q` without being lost, by rising number: the last
-    /// part, whose digit weighs most, moves slowest. `place` is the weight of the digit after it,
-    /// `number` the digits from there on.
+    /// Visits all tuples that `parts` reach from `q` in one move without being lost, by rising number:
+    /// the last part, whose digit weighs most, moves slowest. `place` is the weight of the digit after
+    /// it, `number` the digits from there on. The depth is the number of parts, of which there are
+    /// fewer than 32 that have two states.
     fn walk(parts: &[Part], q: u32, place: u32, number: u32, visit: &mut dyn FnMut(u32)) {
         let Some((part, rest)) = parts.split_last() else { return visit(number) };
         let automaton = &part.automaton;
@@ -140,7 +149,7 @@ impl<P> Acceptor for Numbered<P> {
         self.task.automata().zip(self.parts(q)).any(|(automaton, q)| automaton.is_trap(q))
     }
 
-    /// The greatest of the parts' distances: all can move at once.
+    /// The greatest of the parts' distances: all move at once, and the ones that are done wait.
     fn distance(&self, q: u32) -> Option<u32> {
         let mut parts = self.task.automata().zip(self.parts(q));
         parts.try_fold(0, |most, (automaton, q)| Some(automaton.distance(q)?.max(most)))
@@ -171,14 +180,14 @@ impl<S: ?Sized, P: Predicates<S>> Monitor<S> for Numbered<P> {
             let to = part.next(at, s)?;
             lost |= part.automaton.is_trap(to);
             number += to * place;
-            // The last product is the number of states, which is in range.
+            // No overflow: after the last part it is the number of states, which fits.
             place *= part.automaton.states();
         }
         Ok(self.trap.filter(|_| lost).unwrap_or(number))
     }
 
-    /// As of a conjunction of independent operands: (D₁ ∧ ¬τ₂) ∨ (D₂ ∧ ¬τ₁), where τᵢ is the guard
-    /// into trap i.
+    /// For two parts (D₁ ∧ ¬τ₂) ∨ (D₂ ∧ ¬τ₁), where τᵢ is the guard into trap i: progress of one part
+    /// that loses none of the others, as in a product.
     fn progress_robustness(&self, q: u32, s: &S) -> Result<f64, Error> {
         if self.is_terminal(q) {
             return Ok(f64::NEG_INFINITY);

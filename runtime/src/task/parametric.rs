@@ -1,4 +1,9 @@
 //! Tasks whose arguments are read from the state.
+//!
+//! A task that takes parameters is one value for each choice of arguments. Where every episode has
+//! its own (bring *this* object to *that* shelf, as the environment draws them), a learner still wants
+//! one task for all episodes. [`Parametric`] is that: at each state it makes the task of the
+//! arguments that the state names. To make a task costs nothing, for its tables are static.
 
 use core::fmt;
 
@@ -6,10 +11,12 @@ use super::{Error, Formula, Task};
 use crate::monitor::{Acceptor, Monitor};
 use crate::robustness::Predicates;
 
-/// A task whose arguments are read from the state: `deliver(s.wanted, s.target)`, say, where each
+/// A task whose arguments are read from the state: `deliver(s.wanted, s.target)`, say, if each
 /// episode wants something else.
 ///
-/// All arguments share one automaton, so an automaton state means the same for all of them.
+/// All arguments share one automaton, so an automaton state means the same for all of them. The
+/// arguments must not change during an episode: a state that was reached for one object says nothing
+/// about another.
 ///
 /// ```
 /// # #[cfg(feature = "macros")] {
@@ -40,7 +47,8 @@ impl<P, F> fmt::Debug for Parametric<P, F> {
 }
 
 impl<P, F> Parametric<P, F> {
-    /// The task that is `of(s)` at state `s`; `any` is the same task with whatever arguments.
+    /// The task that is `of(s)` at state `s`. `any` is the same task with whatever arguments: it
+    /// answers what does not depend on them, the size of the automaton and the name.
     pub fn new<S: ?Sized>(any: Task<P>, of: F) -> Self
     where
         F: Fn(&S) -> Task<P>,
