@@ -1,14 +1,15 @@
 //! Predicates read without Rust agree with the generated code, bit for bit.
 
+use std::sync::LazyLock;
+
 use proptest::prelude::*;
 use tltl::robustness::Predicates;
-use tltl::tltl;
-use tltl::{Acceptor, Task};
-use tltl_compiler::compile::{self, Compiled};
+use tltl::{Acceptor, Monitor, Task, tltl};
+use tltl_compiler::compile;
 use tltl_compiler::source::Source;
 use tltl_compiler::translate::Budget;
-use tltlc::evaluate::{Columns, Evaluator, Scratch, run};
-use tltlc::semantics;
+use tltlc::evaluate::{Columns, Evaluator, Scratch};
+use tltlc::task::{Bound, Task as RunTime, TaskFile, Verdict};
 
 /// The same file as the macro has it.
 mod arm {
@@ -18,10 +19,10 @@ mod arm {
 
 use arm::{Arm, Point};
 
-fn compiled() -> Compiled {
+static FILE: LazyLock<TaskFile> = LazyLock::new(|| {
     let source = Source::new("arm.tltl", include_str!("data/tasks/arm.tltl"));
-    compile::file(&source, Budget::default()).unwrap()
-}
+    TaskFile::new(source, Budget::default()).unwrap()
+});
 
 fn number() -> impl Strategy<Value = f64> {
     let corner = vec![0.0, -0.0, 1.0, -1.0, 1.5, 3.0, f64::INFINITY, f64::NEG_INFINITY];
@@ -62,54 +63,64 @@ fn field(arm: &Arm, name: &str) -> f64 {
     }
 }
 
-/// The robustness of each predicate as generated code has it; nothing if one is not a number.
-fn generated<P: Predicates<Arm>>(task: &Task<P>, arm: &Arm) -> Option<Vec<u64>> {
-    for q in 0..task.states() {
-        let numbers = (0..task.automaton().propositions().len())
-            .all(|i| task.predicate_robustness(i, arm).is_ok());
-        assert_eq!(task.next(q, arm).is_ok(), numbers, "{arm:?}");
+/// That the task of the file, without a Rust compiler, says what its generated code does.
+fn agree<P: Predicates<Arm>>(file: &TaskFile, generated: &Task<P>, trajectory: &[Arm]) {
+    let Bound::Plain(task) = file.find(Some(generated.name())).unwrap().bind(&[]).unwrap() else {
+        panic!("{} is factored", generated.name());
+    };
+    assert_eq!(task.automaton(), generated.automaton());
+    let row = |arm: &Arm| -> Vec<f64> {
+        task.inputs().iter().map(|input| field(arm, &input.name)).collect()
+    };
+    let rows: Vec<_> = trajectory.iter().map(row).collect();
+    for (arm, row) in trajectory.iter().zip(&rows) {
+        for q in 0..generated.states() {
+            assert_eq!(task.next(q, row), generated.next(q, arm), "{arm:?}");
+            let here = task.progress_robustness(q, row);
+            assert_eq!(here, generated.progress_robustness(q, arm), "{arm:?}");
+            let here = task.trap_robustness(q, row);
+            assert_eq!(here, Monitor::trap_robustness(generated, q, arm), "{arm:?}");
+        }
     }
-    let rho = |i| task.predicate_robustness(i, arm).ok().map(f64::to_bits);
-    (0..task.automaton().propositions().len()).map(rho).collect()
+    let whole = task.trajectory_robustness(&rows);
+    // Of more than one predicate that is not a number, either may be named.
+    assert_eq!(whole.ok(), generated.robustness(trajectory).ok());
+    by_columns(&task, generated, trajectory, &rows);
 }
 
-fn agree<P: Predicates<Arm>>(compiled: &Compiled, task: &Task<P>, trajectory: &[Arm]) {
-    let place = |name: Option<&str>| name == Some(task.name());
-    let tasks = &compiled.module.tasks;
-    let at = tasks.iter().position(|task| place(task.name.as_deref())).unwrap();
-    let evaluator = Evaluator::new(&compiled.module, &tasks[at]).unwrap();
-    let names: Vec<_> = evaluator.inputs().iter().map(|input| input.name.as_str()).collect();
-    let row = |arm| names.iter().map(move |name| field(arm, name));
-    let numbers: Vec<f64> = trajectory.iter().flat_map(row).collect();
+fn by_columns<P: Predicates<Arm>>(
+    task: &RunTime,
+    generated: &Task<P>,
+    trajectory: &[Arm],
+    rows: &[Vec<f64>],
+) {
+    let (numbers, width) = (rows.concat(), task.inputs().len());
+    let columns = |length| Columns::of_rows(length, width, &numbers[..length * width]).unwrap();
     let mut scratch = Scratch::default();
     let mut length = trajectory.len();
-    let width = evaluator.propositions();
-    let mut rho = vec![0.0; length * width];
-    let columns =
-        |length| Columns::of_rows(length, names.len(), &numbers[..length * names.len()]).unwrap();
-    if let Err(nan) = evaluator.rho(&columns(length), &mut scratch, &mut rho) {
+    if let Err(nan) = task.run(&columns(length), &mut scratch) {
         let arm = &trajectory[nan.row];
-        assert!(task.predicate_robustness(nan.predicate as usize, arm).is_err(), "{arm:?}");
-        assert!((0..nan.predicate).all(|p| task.predicate_robustness(p as usize, arm).is_ok()));
+        let is_number = |p: u32| generated.predicate_robustness(p as usize, arm).is_ok();
+        assert!(!is_number(nan.predicate) && (0..nan.predicate).all(is_number), "{arm:?}");
         length = nan.row;
     }
-    for (arm, rho) in trajectory[..length].iter().zip(rho.chunks(width)) {
-        let rho: Vec<_> = rho.iter().map(|rho| rho.to_bits()).collect();
-        assert_eq!(Some(rho), generated(task, arm), "{arm:?}");
-    }
     let trajectory = &trajectory[..length];
-    let robustness = evaluator.robustness(&columns(length), &mut scratch).unwrap();
-    assert_eq!(robustness.to_bits(), task.robustness(trajectory).unwrap().to_bits());
-    let of = |p: u32, t: usize| rho[t * width + p as usize];
-    assert_eq!(semantics::robustness(&tasks[at].spec, length, of), robustness);
-    let mut labels = vec![false; length * width];
-    evaluator.labels(&columns(length), &mut scratch, &mut labels).unwrap();
+    let run = task.run(&columns(length), &mut scratch).unwrap();
+    assert_eq!(run.robustness.to_bits(), generated.robustness(trajectory).unwrap().to_bits());
+    let predicates = task.evaluator().propositions();
+    let mut rho = vec![0.0; length * predicates];
+    task.evaluator().rho(&columns(length), &mut scratch, &mut rho).unwrap();
     let mut q = 0;
-    for (row, arm) in run(&compiled.automata[at].dfa, length, &labels, &rho).iter().zip(trajectory)
-    {
-        assert_eq!(row.progress, task.progress_robustness(q, arm).unwrap(), "{arm:?}");
-        q = task.next(q, arm).unwrap();
-        assert_eq!(row.state, q, "{arm:?}");
+    for (t, arm) in trajectory.iter().enumerate() {
+        for (i, rho) in rho[t * predicates..][..predicates].iter().enumerate() {
+            let expected = generated.predicate_robustness(i, arm).unwrap();
+            assert_eq!(rho.to_bits(), expected.to_bits(), "{arm:?}");
+        }
+        assert_eq!(run.progress[t], generated.progress_robustness(q, arm).unwrap(), "{arm:?}");
+        q = generated.next(q, arm).unwrap();
+        assert_eq!(run.states[t], q, "{arm:?}");
+        let ends = [Verdict::Satisfied, Verdict::Lost].map(|end| run.verdicts[t] == end);
+        assert_eq!(ends, [generated.is_accepting(q), generated.is_trap(q)], "{arm:?}");
     }
 }
 
@@ -118,11 +129,10 @@ proptest! {
 
     #[test]
     fn with_and_without_rust(trajectory in prop::collection::vec(state(), 1..6)) {
-        let compiled = compiled();
-        agree(&compiled, &arm::pick(), &trajectory);
-        agree(&compiled, &arm::bend(), &trajectory);
-        agree(&compiled, &arm::shapes(), &trajectory);
-        agree(&compiled, &arm::edges(), &trajectory);
+        agree(&FILE, &arm::pick(), &trajectory);
+        agree(&FILE, &arm::bend(), &trajectory);
+        agree(&FILE, &arm::shapes(), &trajectory);
+        agree(&FILE, &arm::edges(), &trajectory);
     }
 }
 

@@ -1,5 +1,6 @@
 //! The tests of the whole line, from source text to verdicts and learned policies.
 
+mod batch;
 mod columns;
 mod corpus;
 mod emitted;

@@ -9,11 +9,13 @@
 //! tables that are right by construction; tables from anywhere else pass through
 //! `Automaton::new`, which checks them once. Reading an automaton neither allocates nor parses.
 
+mod batch;
 #[cfg(feature = "alloc")]
 mod check;
 
 use core::fmt;
 
+pub use batch::Letters;
 #[cfg(feature = "alloc")]
 pub use check::TableError;
 #[cfg(feature = "alloc")]

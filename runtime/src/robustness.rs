@@ -214,7 +214,19 @@ pub fn guard(guard: Guard<'_>, mut rho: impl FnMut(usize) -> f64) -> f64 {
 ///
 /// What all operands but one leave is the least of all −ρ(s, τ_j), or the second least for the
 /// operand that has the least: two passes, not one for each operand.
-pub(crate) fn progress_of_all<E>(
+///
+/// ```
+/// use tltl::robustness::progress_of_all;
+///
+/// // The first operand moves on by 3, but by then the second one is lost by 1.
+/// let (losing, progress) = ([-4.0, 1.0], [3.0, -2.0]);
+/// let rho = progress_of_all(losing.map(Ok::<_, ()>).into_iter(), progress.map(Ok).into_iter());
+/// assert_eq!(rho, Ok(-1.0));
+/// ```
+///
+/// # Errors
+/// The first error of the operands.
+pub fn progress_of_all<E>(
     losing: impl Iterator<Item = Result<f64, E>>,
     progress: impl Iterator<Item = Result<f64, E>>,
 ) -> Result<f64, E> {

@@ -6,16 +6,16 @@
 //! robustness `c - x` and holds iff that is positive, whatever the rounding. It knows declared
 //! states and bare formulas; a predicate that is Rust code is refused. Nothing is allocated for a
 //! row or a block of rows, and an evaluator is never written to: threads share it, each with a
-//! [`Scratch`] of its own.
+//! [`Scratch`] of its own. It also answers for one predicate in one row, as the runtime's tasks ask.
 
 mod column;
 mod compile;
 mod program;
 
 use std::fmt;
+use std::sync::Arc;
 
-use tltl_compiler::dfa::{Dfa, Guards, State};
-use tltl_compiler::guard::Cube;
+use tltl::robustness::{self, Predicates};
 use tltl_compiler::predicate::{ConditionId, Module, PredicateId, Scalar, Task};
 
 pub use column::{Column, Columns, Numbers, WrongLength};
@@ -94,7 +94,7 @@ impl fmt::Display for NotANumber {
 
 impl std::error::Error for NotANumber {}
 
-/// The predicates of a task and its formula, ready to read states.
+/// The predicates of a task and its formula, ready to read states. Cheap to clone.
 ///
 /// ```
 /// use tltl_compiler::{compile, source::Source, translate::Budget};
@@ -115,12 +115,22 @@ impl std::error::Error for NotANumber {}
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Evaluator {
+pub struct Evaluator(Arc<Programs>);
+
+#[derive(Debug)]
+struct Programs {
     inputs: Vec<Input>,
-    propositions: usize,
     truth: Program,
     rho: Program,
     formula: Program,
+    /// Each predicate on its own, for whoever asks for one in one row.
+    predicates: Vec<Single>,
+}
+
+#[derive(Debug)]
+struct Single {
+    truth: Program,
+    rho: Program,
 }
 
 impl Evaluator {
@@ -132,25 +142,30 @@ impl Evaluator {
         let root = |id: &PredicateId| module.predicates[id.0 as usize].condition;
         let roots: Vec<ConditionId> = task.predicates.iter().map(root).collect();
         let inputs = Inputs::find(module, &roots)?;
-        Ok(Self {
-            propositions: roots.len(),
-            truth: compile::predicates(module, &inputs, &roots, Reading::Truth),
-            rho: compile::predicates(module, &inputs, &roots, Reading::Robustness),
+        let programs = |reading, roots: &[_]| compile::predicates(module, &inputs, roots, reading);
+        let single = |root: &ConditionId| Single {
+            truth: programs(Reading::Truth, &[*root]),
+            rho: programs(Reading::Robustness, &[*root]),
+        };
+        Ok(Self(Arc::new(Programs {
+            truth: programs(Reading::Truth, &roots),
+            rho: programs(Reading::Robustness, &roots),
             formula: compile::formula(module, &inputs, &roots, task),
+            predicates: roots.iter().map(single).collect(),
             inputs: inputs.inputs,
-        })
+        })))
     }
 
     /// What a row must give, in the order of the columns.
     #[must_use]
     pub fn inputs(&self) -> &[Input] {
-        &self.inputs
+        &self.0.inputs
     }
 
     /// The number of predicates.
     #[must_use]
     pub fn propositions(&self) -> usize {
-        self.propositions
+        self.0.predicates.len()
     }
 
     /// Which predicates hold in each row: `labels` has, row after row, a truth value for each
@@ -169,9 +184,9 @@ impl Evaluator {
         scratch: &mut Scratch,
         labels: &mut [bool],
     ) -> Result<(), NotANumber> {
-        let width = self.propositions;
+        let width = self.propositions();
         assert_eq!(labels.len(), columns.rows() * width, "a label for each row and predicate");
-        self.run(&self.truth, columns, scratch, &mut |first, predicate, truths| {
+        self.run(&self.0.truth, columns, scratch, &mut |first, predicate, truths| {
             let rows = labels[first * width..].chunks_exact_mut(width);
             rows.zip(truths).for_each(|(row, &truth)| row[predicate as usize] = truth > 0.0);
         })
@@ -192,10 +207,10 @@ impl Evaluator {
         scratch: &mut Scratch,
         letters: &mut [u64],
     ) -> Result<(), NotANumber> {
-        assert!(self.propositions <= 64, "a letter has at most 64 propositions");
+        assert!(self.propositions() <= 64, "a letter has at most 64 propositions");
         assert_eq!(letters.len(), columns.rows(), "a letter for each row");
         letters.fill(0);
-        self.run(&self.truth, columns, scratch, &mut |first, predicate, truths| {
+        self.run(&self.0.truth, columns, scratch, &mut |first, predicate, truths| {
             for (letter, &truth) in letters[first..].iter_mut().zip(truths) {
                 *letter |= u64::from(truth > 0.0) << predicate;
             }
@@ -217,9 +232,9 @@ impl Evaluator {
         scratch: &mut Scratch,
         rho: &mut [f64],
     ) -> Result<(), NotANumber> {
-        let width = self.propositions;
+        let width = self.propositions();
         assert_eq!(rho.len(), columns.rows() * width, "a number for each row and predicate");
-        self.run(&self.rho, columns, scratch, &mut |first, predicate, numbers| {
+        self.run(&self.0.rho, columns, scratch, &mut |first, predicate, numbers| {
             let rows = rho[first * width..].chunks_exact_mut(width);
             rows.zip(numbers).for_each(|(row, &number)| row[predicate as usize] = number);
         })
@@ -240,8 +255,8 @@ impl Evaluator {
         scratch: &mut Scratch,
     ) -> Result<f64, NotANumber> {
         let mut whole = f64::NEG_INFINITY;
-        self.run(&self.formula, columns, scratch, &mut |first, output, numbers| {
-            if first == 0 && output as usize == self.propositions {
+        self.run(&self.0.formula, columns, scratch, &mut |first, output, numbers| {
+            if first == 0 && output as usize == self.propositions() {
                 whole = numbers[0];
             }
         })?;
@@ -256,11 +271,11 @@ impl Evaluator {
         scratch: &mut Scratch,
         emit: &mut dyn FnMut(usize, u32, &[f64]),
     ) -> Result<(), NotANumber> {
-        assert_eq!(columns.width(), self.inputs.len(), "a column for each input");
+        assert_eq!(columns.width(), self.0.inputs.len(), "a column for each input");
         let mut first: Option<NotANumber> = None;
         program.run(columns, scratch, &mut |start, output, numbers| {
             // The formula is not a number only where a predicate is not.
-            if (output as usize) < self.propositions
+            if (output as usize) < self.propositions()
                 && let Some(at) = not_a_number(numbers)
             {
                 let found = NotANumber { row: start + at, predicate: output };
@@ -272,45 +287,22 @@ impl Evaluator {
     }
 }
 
+/// A row is the [inputs](Evaluator::inputs) of one state, in their order. Only what the predicate reads
+/// is looked at.
+impl<S: AsRef<[f64]> + ?Sized> Predicates<S> for Evaluator {
+    fn robustness(&self, i: usize, row: &S) -> f64 {
+        self.0.predicates[i].rho.of_row(row.as_ref())
+    }
+
+    fn holds(&self, i: usize, row: &S) -> Result<bool, robustness::NotANumber> {
+        let truth = self.0.predicates[i].truth.of_row(row.as_ref());
+        if truth.is_nan() { Err(robustness::NotANumber) } else { Ok(truth > 0.0) }
+    }
+}
+
 /// The place of the first NaN. To look for its place only if there is one is faster: that loop is
 /// vectorised.
 fn not_a_number(numbers: &[f64]) -> Option<usize> {
     let any = numbers.iter().fold(false, |any, number| any | number.is_nan());
     any.then(|| numbers.iter().position(|number| number.is_nan()))?
-}
-
-/// One row of a trajectory, read by a task's automaton.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Row {
-    /// The automaton's state after the row is read.
-    pub state: State,
-    /// ρ(s, D_φ^q), q being the state before: by how much the row moves the automaton on.
-    pub progress: f64,
-}
-
-/// Runs the automaton of a task over a trajectory, given the labels and the robustness of its
-/// predicates, row after row.
-#[must_use]
-pub fn run(dfa: &Dfa, rows: usize, labels: &[bool], rho: &[f64]) -> Vec<Row> {
-    let mut guards = Guards::new(dfa);
-    let mut progress: Vec<Option<Vec<Cube>>> = vec![None; dfa.len()];
-    let (mut q, width) = (0, dfa.propositions.len());
-    let row = |row: usize| {
-        let at = |proposition: u32| row * width + proposition as usize;
-        let cubes = progress[q as usize].get_or_insert_with(|| guards.progress(q));
-        let progress = guard(cubes, |proposition| rho[at(proposition)]);
-        q = dfa.next(q, |proposition| labels[at(proposition)]);
-        Row { state: q, progress }
-    };
-    (0..rows).map(row).collect()
-}
-
-/// The robustness of a guard: max over its cubes, min over their literals.
-fn guard(cubes: &[Cube], rho: impl Fn(u32) -> f64) -> f64 {
-    let literal = |&(proposition, value): &(u32, bool)| {
-        let rho = rho(proposition);
-        if value { rho } else { -rho }
-    };
-    let cube = |cube: &Cube| cube.iter().map(literal).fold(f64::INFINITY, f64::min);
-    cubes.iter().map(cube).fold(f64::NEG_INFINITY, f64::max)
 }

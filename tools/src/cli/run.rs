@@ -2,10 +2,11 @@
 
 use std::fmt::Write as _;
 
-use crate::evaluate::{Columns, Evaluator, Row, Scratch, run as run_automaton};
 use serde::Serialize;
-use tltl_compiler::dfa::{Automata, Dfa, State};
-use tltl_compiler::predicate::Task;
+use tltl_compiler::translate::Budget;
+
+use crate::evaluate::{Columns, Scratch};
+use crate::task::{self, Bound, Task, Verdict};
 
 use super::subject::{self, Subject};
 use super::{Exit, Outcome, RowFormat, Run, Streams, arguments, record};
@@ -17,132 +18,77 @@ pub(super) fn run(run: &Run, streams: &mut Streams<'_>) -> Outcome {
         Some(task) => arguments::split(task).map(|(name, given)| (Some(name), given))?,
         None => (None, None),
     };
-    let entry = match subject::read(subject, name, streams)? {
+    // Guards are needed, as in what becomes Rust.
+    let entry = match subject::read(subject, name, Budget::EMITTED, streams)? {
         None => return Ok(Exit::Mistaken),
         Some(Subject::Task(entry)) => entry,
         Some(Subject::Automaton(_)) => {
             return Err("an automaton does not say how its propositions read a state".into());
         }
     };
-    let (task, automata) = (entry.task(), subject::automata(&entry)?);
+    subject::automata(&entry)?;
     let named = arguments::named(&entry, given.as_deref().unwrap_or_default())?;
-    let evaluator = entry.evaluator(&named).map_err(|error| error.to_string())?;
+    let Bound::Plain(task) = entry.bind(&named).map_err(|error| error.to_string())? else {
+        unreachable!("a task with automata of its own is not factored");
+    };
     let recorded = streams.read(&run.trace)?;
     let name = run.trace.display().to_string();
-    let result = judge(&evaluator, task, automata, (&name, &recorded))?;
+    let result = followed(&task, (&name, &recorded))?;
     streams.print(&match run.format {
-        RowFormat::Text => text(task, given.as_deref(), &result),
+        RowFormat::Text => text(&task, &result),
         RowFormat::Csv => csv(&result),
         RowFormat::Json => json(&result),
     })?;
-    Ok(Exit::of(result.last() == Verdict::Satisfied))
+    Ok(Exit::of(result.verdict() == Verdict::Satisfied))
 }
 
-/// What became of the task.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-enum Verdict {
-    Open,
-    Satisfied,
-    Lost,
-}
-
-impl Verdict {
-    fn word(self) -> &'static str {
-        match self {
-            Self::Open => "open",
-            Self::Satisfied => "satisfied",
-            Self::Lost => "lost",
-        }
-    }
-}
-
-struct Judged {
-    rows: Vec<Row>,
-    verdicts: Vec<Verdict>,
-    robustness: f64,
-}
-
-impl Judged {
-    fn last(&self) -> Verdict {
-        self.verdicts.last().copied().unwrap_or(Verdict::Open)
-    }
-
-    /// The first row at which the last verdict stood.
-    fn since(&self) -> usize {
-        let last = self.last();
-        self.verdicts.iter().position(|verdict| *verdict == last).unwrap_or(0)
-    }
-}
-
-fn judge(
-    evaluator: &Evaluator,
-    task: &Task,
-    automata: &Automata,
-    (name, recorded): (&str, &str),
-) -> Result<Judged, String> {
-    let record = record::read(name, recorded, evaluator.inputs())?;
-    let rows = record.len();
+/// What becomes of the task along a recorded trajectory.
+fn followed(task: &Task, (name, recorded): (&str, &str)) -> Result<task::Run, String> {
+    let record = record::read(name, recorded, task.inputs())?;
     let numbers: Vec<f64> = record.iter().flat_map(|state| state.values.iter().copied()).collect();
-    let columns = Columns::of_rows(rows, evaluator.inputs().len(), &numbers)
+    let columns = Columns::of_rows(record.len(), task.inputs().len(), &numbers)
         .map_err(|error| error.to_string())?;
-    let mut scratch = Scratch::default();
-    let width = evaluator.propositions();
-    let (mut labels, mut rho) = (vec![false; rows * width], vec![0.0; rows * width]);
-    let robustness = evaluator.labels(&columns, &mut scratch, &mut labels).and_then(|()| {
-        evaluator.rho(&columns, &mut scratch, &mut rho)?;
-        evaluator.robustness(&columns, &mut scratch)
-    });
-    let robustness = robustness.map_err(|nan| {
-        let predicate = &task.spec.propositions()[nan.predicate as usize];
+    task.run(&columns, &mut Scratch::default()).map_err(|nan| {
+        let predicate = &task.automaton().propositions()[nan.predicate as usize];
         let line = record[nan.row].line;
         format!("{name}:{line}: the predicate `{predicate}` is not a number (NaN) there")
-    })?;
-    let rows = run_automaton(&automata.dfa, rows, &labels, &rho);
-    let verdicts = rows.iter().map(|row| verdict(&automata.dfa, row.state)).collect();
-    Ok(Judged { rows, verdicts, robustness })
+    })
 }
 
-fn verdict(dfa: &Dfa, q: State) -> Verdict {
-    match q {
-        _ if dfa.accepting == Some(q) => Verdict::Satisfied,
-        _ if dfa.trap == Some(q) => Verdict::Lost,
-        _ => Verdict::Open,
-    }
-}
-
-fn text(task: &Task, given: Option<&[&str]>, judged: &Judged) -> String {
-    let given = given.filter(|given| !given.is_empty());
-    let mut text = match (&task.name, given) {
-        (Some(name), Some(given)) => {
-            let names = task.parameters.iter().map(|known| known.name.as_str());
-            let with: Vec<_> =
-                names.zip(given).map(|(name, value)| format!("{name} = {value}")).collect();
-            format!("{name} = {}\nwith {}\n\n", task.text, with.join(", "))
-        }
-        (Some(name), None) => format!("{name} = {}\n\n", task.text),
-        (None, _) => format!("{}\n\n", task.text),
+fn text(task: &Task, run: &task::Run) -> String {
+    let formula = &task.entry().task().text;
+    let mut text = match task.entry().name() {
+        Some(name) => format!("{name} = {formula}\n"),
+        None => format!("{formula}\n"),
     };
-    let _ = writeln!(text, "{:>6}  {:>5}  {:>12}", "row", "state", "progress");
-    for (t, row) in judged.rows.iter().enumerate() {
-        let line = format!("{t:>6}  {:>5}  {:>12}", row.state, short(row.progress));
-        let verdict = judged.verdicts[t];
-        let first = verdict != Verdict::Open && t == judged.since();
-        let mark = if first { format!("  {}", verdict.word()) } else { String::new() };
-        let _ = writeln!(text, "{line}{mark}");
+    if !task.arguments().is_empty() {
+        let with = task.arguments().iter().map(|(name, value)| format!("{name} = {value}"));
+        let _ = writeln!(text, "with {}", with.collect::<Vec<_>>().join(", "));
     }
-    let since = judged.since();
-    let _ = match judged.last() {
-        Verdict::Open => writeln!(text, "\nnot satisfied yet, and not lost"),
-        verdict => writeln!(text, "\n{} at row {since}", verdict.word()),
+    let _ = writeln!(text, "\n{:>6}  {:>5}  {:>12}", "row", "state", "progress");
+    for (t, state, progress, verdict) in rows(run) {
+        let first = verdict != Verdict::Open && Some(t) == run.since();
+        let mark = if first { format!("  {verdict}") } else { String::new() };
+        let _ = writeln!(text, "{t:>6}  {state:>5}  {:>12}{mark}", short(progress));
+    }
+    let _ = match (run.verdict(), run.since()) {
+        (Verdict::Open, _) | (_, None) => writeln!(text, "\nnot satisfied yet, and not lost"),
+        (verdict, Some(since)) => writeln!(text, "\n{verdict} at row {since}"),
     };
     // Zero has no sign here.
-    let _ = writeln!(text, "robustness {}", judged.robustness + 0.0);
+    let _ = writeln!(text, "robustness {}", run.robustness + 0.0);
     text.push_str(
         "\nstate: the automaton's state after the row is read\n\
          progress: by how much the row moves the automaton on, from the state before it\n",
     );
     text
+}
+
+/// The rows with their numbers, from 0: state, progress, verdict.
+fn rows(run: &task::Run) -> impl Iterator<Item = (usize, u32, f64, Verdict)> {
+    let progress = run.progress.iter().zip(&run.verdicts);
+    let rows = run.states.iter().zip(progress).enumerate();
+    rows.map(|(t, (&state, (&progress, &verdict)))| (t, state, progress, verdict))
 }
 
 /// A number as it fits into a column.
@@ -151,11 +97,10 @@ fn short(value: f64) -> String {
     if exact.len() <= 12 { exact } else { format!("{value:.5e}") }
 }
 
-fn csv(judged: &Judged) -> String {
+fn csv(run: &task::Run) -> String {
     let mut text = String::from("row,state,progress,verdict\n");
-    for (t, row) in judged.rows.iter().enumerate() {
-        let verdict = judged.verdicts[t].word();
-        let _ = writeln!(text, "{t},{},{},{verdict}", row.state, row.progress + 0.0);
+    for (t, state, progress, verdict) in rows(run) {
+        let _ = writeln!(text, "{t},{state},{},{verdict}", progress + 0.0);
     }
     text
 }
@@ -163,7 +108,7 @@ fn csv(judged: &Judged) -> String {
 #[derive(Serialize)]
 struct JsonRow {
     row: usize,
-    state: State,
+    state: u32,
     /// `null` if it is infinite.
     progress: f64,
     verdict: Verdict,
@@ -176,23 +121,17 @@ struct JsonEnd {
     robustness: f64,
 }
 
-fn json(judged: &Judged) -> String {
+fn json(run: &task::Run) -> String {
     let mut text = String::new();
-    let rows = judged.rows.iter().zip(&judged.verdicts).enumerate();
-    let rows = rows.map(|(t, (row, &verdict))| JsonRow {
-        row: t,
-        state: row.state,
-        progress: row.progress + 0.0,
-        verdict,
-    });
-    for row in rows {
+    for (row, state, progress, verdict) in rows(run) {
+        let row = JsonRow { row, state, progress: progress + 0.0, verdict };
         text.push_str(&serde_json::to_string(&row).unwrap_or_default());
         text.push('\n');
     }
     let end = JsonEnd {
-        verdict: judged.last(),
-        since: judged.since(),
-        robustness: judged.robustness + 0.0,
+        verdict: run.verdict(),
+        since: run.since().unwrap_or_default(),
+        robustness: run.robustness + 0.0,
     };
     text + &serde_json::to_string(&end).unwrap_or_default() + "\n"
 }

@@ -20,17 +20,19 @@ pub(super) enum Subject {
     Automaton(Box<hoa::Automaton>),
 }
 
-/// Reads `FILE`, `FILE:TASK` or a formula, and reports its mistakes; `None` if it has any.
+/// Reads `FILE`, `FILE:TASK` or a formula, which has this budget, and reports its mistakes; `None`
+/// if it has any.
 pub(super) fn read(
     text: &str,
     task: Option<&str>,
+    budget: Budget,
     streams: &mut Streams<'_>,
 ) -> Result<Option<Subject>, String> {
     let (path, named) = split(text);
     if exists(path) || looks_like_file(path) || task.is_some() {
         return file(path, named.or(task), streams);
     }
-    let formula = TaskFile::of_formula(text, Budget::SHOWN);
+    let formula = TaskFile::of_formula(text, budget);
     let formula = input::reported(formula, Report::Human, streams)?;
     formula.map(|formula| choose(&formula, None).map(Subject::Task)).transpose()
 }

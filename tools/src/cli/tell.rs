@@ -2,6 +2,7 @@
 
 use tltl_compiler::dfa::Dfa;
 use tltl_compiler::error::Style;
+use tltl_compiler::translate::Budget;
 
 use crate::diff::{Difference, diff};
 use crate::explain::explain as explanation;
@@ -11,7 +12,7 @@ use super::{Exit, Outcome, Streams};
 
 /// Tells what a task asks for.
 pub(super) fn explain(text: &str, task: Option<&str>, streams: &mut Streams<'_>) -> Outcome {
-    match subject::read(text, task, streams)? {
+    match subject::read(text, task, Budget::SHOWN, streams)? {
         None => Ok(Exit::Mistaken),
         Some(Subject::Automaton(_)) => {
             Err(format!("{text} is an automaton: it has no formula to explain"))
@@ -31,8 +32,9 @@ pub(super) fn explain(text: &str, task: Option<&str>, streams: &mut Streams<'_>)
 
 /// Tells whether two tasks are the same, or how they differ.
 pub(super) fn difference(first: &str, second: &str, streams: &mut Streams<'_>) -> Outcome {
-    let first = subject::read(first, None, streams)?;
-    let (Some(first), Some(second)) = (first, subject::read(second, None, streams)?) else {
+    let first = subject::read(first, None, Budget::SHOWN, streams)?;
+    let (Some(first), Some(second)) = (first, subject::read(second, None, Budget::SHOWN, streams)?)
+    else {
         return Ok(Exit::Mistaken);
     };
     let found = diff(automaton(&first)?, automaton(&second)?);

@@ -58,6 +58,11 @@ impl<'a> Columns<'a> {
         }
     }
 
+    /// A single row.
+    pub(super) fn of_row(numbers: &'a [f64]) -> Self {
+        Self { rows: 1, source: Source::Matrix { numbers, width: numbers.len() } }
+    }
+
     /// The number of rows.
     #[must_use]
     pub fn rows(&self) -> usize {

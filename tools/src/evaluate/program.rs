@@ -129,6 +129,20 @@ impl Program {
         }
     }
 
+    /// The only output, of one row. What a program this small needs is on the stack.
+    pub(super) fn of_row(&self, row: &[f64]) -> f64 {
+        const SMALL: usize = 32;
+        let columns = Columns::of_row(row);
+        let mut found = f64::NAN;
+        let mut emit = |_: usize, _: u32, numbers: &[f64]| found = numbers[0];
+        if self.registers <= SMALL {
+            self.block(&columns, 0, 1, &mut [0.0; SMALL], &mut [], &mut emit);
+        } else {
+            self.block(&columns, 0, 1, &mut vec![0.0; self.registers], &mut [], &mut emit);
+        }
+        found
+    }
+
     fn block(
         &self,
         columns: &Columns<'_>,

@@ -1,9 +1,10 @@
 //! What a task takes, and values for it.
 
 use std::fmt;
+use std::sync::Arc;
 
 use tltl_compiler::predicate::{
-    Arguments, Module, Number, Parameter as Declared, ParameterType, Scalar, Task, Term,
+    Module, Number, Parameter as Declared, ParameterType, Scalar, Task, Term,
 };
 
 /// A value for a parameter of a task.
@@ -47,6 +48,9 @@ impl fmt::Display for Value {
         }
     }
 }
+
+/// The arguments of a task by the names of its parameters.
+pub(super) type Arguments = Arc<[(String, Value)]>;
 
 /// A parameter of a task, for whoever is to give it a value.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -121,7 +125,7 @@ pub(super) fn bind(
     let name = task.name.as_deref().unwrap_or("the formula");
     let values = matched(module, task, given)
         .map_err(|(takes, but)| ArgumentError(format!("`{name}` takes {takes}, and {but}")))?;
-    let mut arguments = Arguments::new();
+    let mut arguments = Vec::new();
     for (parameter, value) in task.parameters.iter().zip(values) {
         let term = term(module, parameter, value).map_err(|but| {
             let wanted = Parameter::new(module, parameter);

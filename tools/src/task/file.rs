@@ -1,17 +1,19 @@
 //! Sources, what is wrong with them, and the tasks in them.
 
+use std::borrow::Cow;
 use std::fmt;
 use std::sync::Arc;
 
 use tltl_compiler::compile::{self, Compiled};
 use tltl_compiler::dfa::Automata;
 use tltl_compiler::error::{Error, Errors, Style};
-use tltl_compiler::predicate::Task;
+use tltl_compiler::predicate;
 use tltl_compiler::source::Source;
 use tltl_compiler::translate::Budget;
 
-use super::argument::{ArgumentError, Parameter, Value, bind};
-use crate::evaluate::{Evaluator, Unreadable};
+use super::argument::{ArgumentError, Arguments, Parameter, Value, bind};
+use super::{Bound, Factored, Task};
+use crate::evaluate::Unreadable;
 use crate::vacuity::advice;
 
 /// A task file, compiled: its tasks, plain and factored. Cheap to clone.
@@ -114,11 +116,13 @@ impl TaskFile {
     }
 }
 
-/// The place of a task among the plain or the factored ones of a file.
+/// The place of a task among the plain or the factored ones of a file, or of a part of a factored
+/// one among its parts.
 #[derive(Clone, Copy, Debug)]
 enum Place {
     Plain(usize),
     Factored(usize),
+    Part(usize, usize),
 }
 
 /// A task of a file, as it is written: its parameters have no values. Cheap to clone.
@@ -128,6 +132,12 @@ pub struct Entry {
     place: Place,
 }
 
+/// What the compiler made of a task.
+enum Made<'a> {
+    Plain(&'a predicate::Task, &'a Automata),
+    Factored(&'a compile::Factored),
+}
+
 impl Entry {
     /// The file.
     #[must_use]
@@ -135,12 +145,24 @@ impl Entry {
         &self.file
     }
 
+    fn made(&self) -> Made<'_> {
+        let Compiled { module, automata, factored, .. } = self.file.compiled();
+        match self.place {
+            Place::Plain(place) => Made::Plain(&module.tasks[place], &automata[place]),
+            Place::Factored(place) => Made::Factored(&factored[place]),
+            Place::Part(place, part) => {
+                let part = &factored[place].parts[part];
+                Made::Plain(&part.task, &part.automata)
+            }
+        }
+    }
+
     /// The task as the compiler has it: name, formula, predicates.
     #[must_use]
-    pub fn task(&self) -> &Task {
-        match self.place {
-            Place::Plain(place) => &self.file.compiled.module.tasks[place],
-            Place::Factored(place) => &self.file.compiled.factored[place].task,
+    pub fn task(&self) -> &predicate::Task {
+        match self.made() {
+            Made::Plain(task, _) => task,
+            Made::Factored(factored) => &factored.task,
         }
     }
 
@@ -159,10 +181,19 @@ impl Entry {
     /// Its automata, unless it is factored.
     #[must_use]
     pub fn automata(&self) -> Option<&Automata> {
-        match self.place {
-            Place::Plain(place) => self.file.compiled.automata.get(place),
-            Place::Factored(_) => None,
+        match self.made() {
+            Made::Plain(_, automata) => Some(automata),
+            Made::Factored(_) => None,
         }
+    }
+
+    /// A part of it, if it is factored, as a task.
+    pub(super) fn part(&self, part: usize) -> Self {
+        let place = match self.place {
+            Place::Factored(place) => Place::Part(place, part),
+            other => other,
+        };
+        Self { file: self.file.clone(), place }
     }
 
     /// What it takes.
@@ -172,18 +203,41 @@ impl Entry {
         self.task().parameters.iter().map(|known| Parameter::new(module, known)).collect()
     }
 
-    /// Its predicates, ready to read states, with these values for its parameters.
+    /// The task with these values for its parameters, ready to run.
     ///
     /// # Errors
     /// If the values are not those that it takes, or a predicate is Rust code.
-    pub fn evaluator(&self, arguments: &[(&str, Value)]) -> Result<Evaluator, BindError> {
-        let module = &self.file.compiled.module;
-        if arguments.is_empty() && self.task().parameters.is_empty() {
-            return Evaluator::new(module, self.task()).map_err(BindError::Unreadable);
+    ///
+    /// ```
+    /// use tltl_compiler::{source::Source, translate::Budget};
+    /// use tltl::Monitor;
+    /// use tltlc::task::{Bound, TaskFile};
+    ///
+    /// let source = Source::new("dock.tltl", "state Robot { x: f64, docked: bool }
+    ///     task dock(far: f64) = (x > far) T docked");
+    /// let file = TaskFile::new(source, Budget::default())?;
+    /// let Bound::Plain(dock) = file.find(Some("dock"))?.bind(&[("far", 2.5.into())])? else {
+    ///     panic!("it is not factored");
+    /// };
+    /// assert_eq!(dock.next(0, &[3.0, 0.0])?, 1);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn bind(&self, arguments: &[(&str, Value)]) -> Result<Bound, BindError> {
+        let mut module = Cow::Borrowed(&self.file.compiled.module);
+        if !arguments.is_empty() || !self.task().parameters.is_empty() {
+            bind(module.to_mut(), self.task(), arguments).map_err(BindError::Argument)?;
         }
-        let mut module = module.clone();
-        bind(&mut module, self.task(), arguments).map_err(BindError::Argument)?;
-        Evaluator::new(&module, self.task()).map_err(BindError::Unreadable)
+        let own = |(name, value): &(&str, Value)| ((*name).to_owned(), value.clone());
+        let arguments: Arguments = arguments.iter().map(own).collect();
+        let bound = match self.made() {
+            Made::Plain(_, automata) => {
+                Task::new(self.clone(), automata, arguments, &module).map(Bound::Plain)
+            }
+            Made::Factored(factored) => {
+                Factored::new(self, factored, arguments, &module).map(Bound::Factored)
+            }
+        };
+        bound.map_err(BindError::Unreadable)
     }
 }
 

@@ -1,0 +1,174 @@
+//! Many moves in one call: of many states on a letter each, or of one state along a trajectory.
+//!
+//! The form of the transition function and that of the letters are looked at once a call and not
+//! once a move, so what remains of a move is one or two look-ups.
+
+use super::{Automaton, Transitions};
+
+/// Letters, one for each row: which propositions hold there.
+#[derive(Clone, Copy, Debug)]
+pub enum Letters<'a> {
+    /// Bit i is proposition i; bits beyond the propositions mean nothing. For up to 64
+    /// propositions.
+    Bits(&'a [u64]),
+    /// Row after row, a truth value for each proposition.
+    Labels(&'a [bool]),
+}
+
+impl<'a> From<&'a [u64]> for Letters<'a> {
+    fn from(bits: &'a [u64]) -> Self {
+        Self::Bits(bits)
+    }
+}
+
+impl<'a> From<&'a [bool]> for Letters<'a> {
+    fn from(labels: &'a [bool]) -> Self {
+        Self::Labels(labels)
+    }
+}
+
+impl Letters<'_> {
+    #[track_caller]
+    fn expect(self, rows: usize, propositions: usize) {
+        match self {
+            Self::Bits(bits) => {
+                assert!(propositions <= 64, "bits tell at most 64 propositions");
+                assert_eq!(bits.len(), rows, "a letter for each row");
+            }
+            Self::Labels(labels) => {
+                assert_eq!(labels.len(), rows * propositions, "a label for each proposition");
+            }
+        }
+    }
+}
+
+impl Automaton {
+    /// Moves many states, each on its own letter: `q[i] = δ(q[i], letter i)`.
+    ///
+    /// # Panics
+    /// If there is not a letter for each state, a letter of bits has to tell more than 64
+    /// propositions, or one of `q` is not a state of this automaton.
+    ///
+    /// ```
+    /// # #[cfg(feature = "macros")] {
+    /// let task = tltl::tltl! { |s: &(bool, bool)| s.0 T s.1 };
+    /// let mut q = [0, 0, 1];
+    /// task.automaton().step_batch(&mut q, &[0b01_u64, 0b10, 0b10][..]);
+    /// assert_eq!(q, [1, 0, 2]);
+    /// task.automaton().step_batch(&mut q, &[false, true, true, true, false, false][..]);
+    /// assert_eq!(q, [2, 1, 2]);
+    /// # }
+    /// ```
+    #[track_caller]
+    pub fn step_batch<'a>(&self, q: &mut [u32], letters: impl Into<Letters<'a>>) {
+        self.walk(q.len(), letters.into(), Each(q));
+    }
+
+    /// Reads a trajectory from state `q`: `states[t]` becomes the state after letter t, the last of
+    /// which is returned; `q` itself for an empty trajectory.
+    ///
+    /// # Panics
+    /// If there is not a letter for each of `states`, a letter of bits has to tell more than 64
+    /// propositions, or `q` is not a state of this automaton.
+    ///
+    /// ```
+    /// # #[cfg(feature = "macros")] {
+    /// use tltl::Acceptor;
+    ///
+    /// let task = tltl::tltl! { |s: &(bool, bool)| s.0 T s.1 };
+    /// let mut states = [0; 3];
+    /// let last = task.automaton().run(0, &[0b00_u64, 0b11, 0b10][..], &mut states);
+    /// assert_eq!(states, [0, 1, 2]);
+    /// assert!(task.is_accepting(last));
+    /// # }
+    /// ```
+    #[track_caller]
+    pub fn run<'a>(&self, q: u32, letters: impl Into<Letters<'a>>, states: &mut [u32]) -> u32 {
+        self.walk(states.len(), letters.into(), Along { q, states: &mut *states });
+        states.last().copied().unwrap_or(q)
+    }
+
+    #[track_caller]
+    fn walk(&self, rows: usize, letters: Letters<'_>, walk: impl Walk) {
+        let count = self.propositions().len();
+        letters.expect(rows, count);
+        match (&self.tables.transitions, letters) {
+            (Transitions::Table { class, width, next }, letters) => {
+                let (class, next): (&[u16], &[u32]) = (class, next);
+                let next = |q: u32, letter: usize| {
+                    next[q as usize * *width as usize + usize::from(class[letter])]
+                };
+                match letters {
+                    Letters::Bits(bits) => {
+                        let mask = class.len() - 1;
+                        walk.walk(|q, row| next(q, bits[row] as usize & mask));
+                    }
+                    Letters::Labels(labels) => {
+                        walk.walk(|q, row| next(q, letter(&labels[row * count..][..count])));
+                    }
+                }
+            }
+            (Transitions::Diagram { nodes, roots }, Letters::Bits(bits)) => {
+                let (nodes, roots): (&[[u32; 3]], &[u32]) = (nodes, roots);
+                walk.walk(|q, row| descend(nodes, roots[q as usize], |i| bits[row] >> i & 1 == 1));
+            }
+            (Transitions::Diagram { nodes, roots }, Letters::Labels(labels)) => {
+                let (nodes, roots): (&[[u32; 3]], &[u32]) = (nodes, roots);
+                walk.walk(|q, row| {
+                    let labels = &labels[row * count..][..count];
+                    descend(nodes, roots[q as usize], |i| labels[i])
+                });
+            }
+        }
+    }
+}
+
+/// The letter of a row of labels.
+#[inline]
+fn letter(labels: &[bool]) -> usize {
+    labels.iter().rev().fold(0, |letter, &holds| letter << 1 | usize::from(holds))
+}
+
+/// The state that a reference of a diagram leads to. To compute the next reference's place costs
+/// less than to branch on what nobody can predict.
+#[inline]
+fn descend(nodes: &[[u32; 3]], mut at: u32, holds: impl Fn(usize) -> bool) -> u32 {
+    while at < Transitions::LEAF {
+        let node = &nodes[at as usize];
+        at = node[1 + usize::from(holds(node[0] as usize))];
+    }
+    at - Transitions::LEAF
+}
+
+/// A use of the transition function, which is given as the state after `q` has read the letter of a
+/// row. A trait, for a closure cannot take a closure of any type.
+trait Walk {
+    fn walk(self, next: impl Fn(u32, usize) -> u32);
+}
+
+/// Every state for itself.
+struct Each<'a>(&'a mut [u32]);
+
+impl Walk for Each<'_> {
+    #[inline]
+    fn walk(self, next: impl Fn(u32, usize) -> u32) {
+        self.0.iter_mut().enumerate().for_each(|(row, q)| *q = next(*q, row));
+    }
+}
+
+/// Each state from the one before.
+struct Along<'a> {
+    q: u32,
+    states: &'a mut [u32],
+}
+
+impl Walk for Along<'_> {
+    #[inline]
+    fn walk(self, next: impl Fn(u32, usize) -> u32) {
+        let mut q = self.q;
+        for (row, state) in self.states.iter_mut().enumerate() {
+            q = next(q, row);
+            *state = q;
+        }
+    }
+}

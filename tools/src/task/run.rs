@@ -1,0 +1,206 @@
+//! What becomes of a task along a trajectory.
+
+use std::convert::Infallible;
+use std::fmt;
+
+use serde::Serialize;
+use tltl::automaton::{Automaton, Guard};
+use tltl::{Acceptor, robustness};
+
+use super::{Factored, Task};
+use crate::evaluate::{Columns, Evaluator, NotANumber, Scratch};
+
+/// What has become of a task.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Verdict {
+    /// It can still become either.
+    Open,
+    /// It is satisfied, for good.
+    Satisfied,
+    /// It can never be satisfied any more.
+    Lost,
+}
+
+/// In a word: `open`, `satisfied`, `lost`.
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Open => "open",
+            Self::Satisfied => "satisfied",
+            Self::Lost => "lost",
+        })
+    }
+}
+
+/// A trajectory that a task has read, row by row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Run {
+    /// The automaton's state after each row; of a factored task, row after row, that of each part.
+    pub states: Vec<u32>,
+    /// What has become of the task after each row.
+    pub verdicts: Vec<Verdict>,
+    /// For each row ρ(s, D_φ^q), q being the state before: by how much the row moves the automaton
+    /// on.
+    pub progress: Vec<f64>,
+    /// The robustness of the whole trajectory; -∞ for an empty one.
+    pub robustness: f64,
+}
+
+impl Run {
+    /// What becomes of the task in the end; an empty trajectory leaves it open.
+    #[must_use]
+    pub fn verdict(&self) -> Verdict {
+        self.verdicts.last().copied().unwrap_or(Verdict::Open)
+    }
+
+    /// The first row after which that was so.
+    #[must_use]
+    pub fn since(&self) -> Option<usize> {
+        let last = self.verdict();
+        self.verdicts.iter().position(|verdict| *verdict == last)
+    }
+}
+
+impl Task {
+    /// Runs the trajectory that the rows are, from the initial state.
+    ///
+    /// # Errors
+    /// The first predicate that is not a number, in the first row in which there is one.
+    ///
+    /// # Panics
+    /// If the columns are not as many as the inputs.
+    ///
+    /// ```
+    /// use tltl_compiler::translate::Budget;
+    /// use tltlc::evaluate::{Columns, Scratch};
+    /// use tltlc::task::{Verdict, compile};
+    ///
+    /// let task = compile("(x < 1) T (x > 2)", Budget::default())?;
+    /// let x = Columns::of_rows(4, 1, &[3.0, 0.0, 1.5, 2.5])?;
+    /// let run = task.run(&x, &mut Scratch::default())?;
+    /// assert_eq!(run.states, [0, 1, 1, 2]);
+    /// assert_eq!(run.progress, [-2.0, 1.0, -0.5, 0.5]);
+    /// assert_eq!((run.verdict(), run.since()), (Verdict::Satisfied, Some(3)));
+    /// assert_eq!(run.robustness, 0.5);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[track_caller]
+    pub fn run(&self, columns: &Columns<'_>, scratch: &mut Scratch) -> Result<Run, NotANumber> {
+        let automaton = self.automaton();
+        let read = Reading::new(self.evaluator(), columns, scratch)?;
+        let mut states = vec![Automaton::INITIAL; columns.rows()];
+        automaton.run(Automaton::INITIAL, &read.labels[..], &mut states);
+        let before = std::iter::once(&Automaton::INITIAL).chain(&states);
+        let progress = before
+            .zip(read.rows())
+            .map(|(&q, rho)| robustness::guard(automaton.progress(q), |i| rho[i]));
+        Ok(Run {
+            progress: progress.collect(),
+            verdicts: states.iter().map(|&q| verdict(automaton, q)).collect(),
+            robustness: read.robustness,
+            states,
+        })
+    }
+}
+
+impl Factored {
+    /// Runs the trajectory that the rows are, from the initial states.
+    ///
+    /// # Errors
+    /// The first predicate that is not a number, in the first row in which there is one.
+    ///
+    /// # Panics
+    /// If the columns are not as many as the inputs.
+    #[track_caller]
+    pub fn run(&self, columns: &Columns<'_>, scratch: &mut Scratch) -> Result<Run, NotANumber> {
+        let read = Reading::new(self.evaluator(), columns, scratch)?;
+        let (rows, count) = (columns.rows(), self.parts().len());
+        let mut states = vec![Automaton::INITIAL; rows * count];
+        for (part, task) in self.parts().iter().enumerate() {
+            let mut column = vec![Automaton::INITIAL; rows];
+            let labels = self.labels_of(part, &read.labels);
+            task.automaton().run(Automaton::INITIAL, &labels[..], &mut column);
+            let places = states.iter_mut().skip(part).step_by(count);
+            places.zip(column).for_each(|(place, q)| *place = q);
+        }
+        let initial = vec![Automaton::INITIAL; count];
+        let before = std::iter::once(&initial[..]).chain(states.chunks_exact(count));
+        Ok(Run {
+            progress: before.zip(read.rows()).map(|(q, rho)| self.progress(q, rho)).collect(),
+            verdicts: states.chunks_exact(count).map(|q| self.verdict(q)).collect(),
+            robustness: read.robustness,
+            states,
+        })
+    }
+
+    fn verdict(&self, q: &[u32]) -> Verdict {
+        let parts = || self.parts().iter().zip(q).map(|(part, &q)| verdict(part.automaton(), q));
+        if parts().all(|part| part == Verdict::Satisfied) {
+            Verdict::Satisfied
+        } else if parts().any(|part| part == Verdict::Lost) {
+            Verdict::Lost
+        } else {
+            Verdict::Open
+        }
+    }
+
+    /// ρ(s, D_φ^q) in a row in which the predicates of the whole have robustness `rho`.
+    fn progress(&self, q: &[u32], rho: &[f64]) -> f64 {
+        if self.verdict(q) != Verdict::Open {
+            return f64::NEG_INFINITY;
+        }
+        let rho = |part, guard| {
+            Ok::<_, Infallible>(robustness::guard(guard, |i| rho[self.place(part, i)]))
+        };
+        let parts = || self.parts().iter().map(Task::automaton).zip(q).enumerate();
+        let losing = parts().map(|(part, (automaton, &q))| {
+            let trap = automaton.trap();
+            rho(part, trap.map_or(Guard::FALSE, |trap| automaton.edge_guard(q, trap)))
+        });
+        let progress = parts().map(|(part, (automaton, &q))| rho(part, automaton.progress(q)));
+        let Ok(progress) = robustness::progress_of_all(losing, progress);
+        progress
+    }
+}
+
+/// What predicates and formula say of a trajectory.
+struct Reading {
+    /// Row after row, for each predicate.
+    labels: Vec<bool>,
+    rho: Vec<f64>,
+    rows: usize,
+    robustness: f64,
+}
+
+impl Reading {
+    #[track_caller]
+    fn new(
+        evaluator: &Evaluator,
+        columns: &Columns<'_>,
+        scratch: &mut Scratch,
+    ) -> Result<Self, NotANumber> {
+        let rows = columns.rows();
+        let count = rows * evaluator.propositions();
+        let (mut labels, mut rho) = (vec![false; count], vec![0.0; count]);
+        evaluator.labels(columns, scratch, &mut labels)?;
+        evaluator.rho(columns, scratch, &mut rho)?;
+        Ok(Self { labels, rho, rows, robustness: evaluator.robustness(columns, scratch)? })
+    }
+
+    /// The robustness of the predicates in each row.
+    fn rows(&self) -> impl Iterator<Item = &[f64]> {
+        let width = self.rho.len().checked_div(self.rows).unwrap_or(0);
+        (0..self.rows).map(move |row| &self.rho[row * width..][..width])
+    }
+}
+
+fn verdict(automaton: &Automaton, q: u32) -> Verdict {
+    if automaton.is_accepting(q) {
+        Verdict::Satisfied
+    } else if automaton.is_trap(q) {
+        Verdict::Lost
+    } else {
+        Verdict::Open
+    }
+}
