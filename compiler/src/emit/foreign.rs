@@ -1,12 +1,15 @@
 //! An automaton that came without a formula as Rust: what `include_tltl!` makes of an HOA file.
+//!
+//! Nothing is known of its propositions but their names, so the task takes a predicate for each: it is
+//! generic in them, as a bare formula is in the values that it names.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::dfa::Dfa;
+use crate::emit::declare::{documentation, sizes};
 use crate::emit::implementation::positional;
 use crate::emit::predicates::ident;
-use crate::emit::rust::{documentation, sizes};
 use crate::emit::tables as emit;
 use crate::tables::tables;
 
@@ -24,7 +27,7 @@ pub fn automaton(name: &str, dfa: &Dfa, runtime: &TokenStream) -> TokenStream {
     let about =
         format!("The task of the automaton `{name}`, over one predicate for each proposition:");
     let docs = documentation(&[about], &[propositions.join(", "), sizes(dfa)]);
-    // A run keeps a cell for each state.
+    // Without a formula, robustness is that of the best run, which keeps a cell for each state.
     let implementation = positional(&types, &ident("Predicates"), runtime, dfa.len());
     quote! {
         #docs

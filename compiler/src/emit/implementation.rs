@@ -1,11 +1,16 @@
 //! The implementation of the runtime's `Predicates` for the predicates of one task.
+//!
+//! One type answers for all predicates of a task, by number: a `match` with an arm for each, once for
+//! the robustness and once for the truth. After inlining this is the code that an author would write
+//! by hand for that task: no pointer to a function, no call that is not known when it is compiled.
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 use crate::emit::predicates::ident;
 
-/// What an implementation is made of.
+/// What an implementation is made of. For a file's task the state is one type, and the arms are the
+/// predicates' code; for a bare formula it is any type that all predicates read.
 pub(super) struct Implementation<'a> {
     /// The path of the runtime crate.
     pub(super) runtime: &'a TokenStream,
@@ -21,11 +26,13 @@ pub(super) struct Implementation<'a> {
     pub(super) robustness: TokenStream,
     /// The arms `number => truth,`.
     pub(super) holds: TokenStream,
-    /// The cells of scratch space that a trajectory's robustness needs.
+    /// The cells of scratch space that a trajectory's robustness needs, one for each operator. The
+    /// number is known here, so the space is an array on the stack.
     pub(super) scratch: usize,
 }
 
 impl Implementation<'_> {
+    /// The `impl` block.
     pub(super) fn tokens(&self) -> TokenStream {
         let Self { runtime, generics, state, argument: s, name, robustness, holds, scratch } = self;
         let scratch = Literal::usize_unsuffixed(*scratch);
@@ -66,8 +73,8 @@ impl Implementation<'_> {
     }
 }
 
-/// The implementation for a tuple struct `name` of predicates of the generic `types`, for every
-/// state that they all accept.
+/// The implementation for a tuple struct `name` of predicates, which are of the generic `types`, for
+/// every state that all of them read.
 pub(super) fn positional(
     types: &[Ident],
     name: &Ident,

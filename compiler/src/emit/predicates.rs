@@ -1,9 +1,13 @@
 //! Conditions and terms as Rust expressions: the typed robustness function of each predicate, and
 //! its truth.
 //!
+//! Both readings are written from the same terms, with the same operations in the same order, so they
+//! round alike and cannot disagree: `a < b` has robustness `b - a` and holds if that is positive.
+//! The tool reads recorded states by the same rules, and a test compares the two bit by bit.
+//!
 //! A condition that is used once becomes part of the expression around it; one that is used more
-//! often, or lies deep, gets a `let` of its own, so the code is as long as the arena and never
-//! nested beyond a fixed depth.
+//! often, or lies deep, gets a `let` of its own. So the code is as long as the arena, however often
+//! something is used, and never nested beyond a fixed depth, however deep the author nests.
 
 use proc_macro2::{Ident, Literal, Span as TokenSpan, TokenStream, TokenTree};
 use quote::{format_ident, quote, quote_spanned};
@@ -18,10 +22,11 @@ use crate::predicate::{
 use crate::reserved::is_keyword;
 use crate::source::Span;
 
-/// Expressions deeper than this are cut by a `let`.
+/// Expressions deeper than this are cut by a `let`. rustc reads nested expressions by recursion; what
+/// an author writes on one line is rarely as deep, so most code stays one expression.
 const DEPTH: u32 = 12;
 
-/// Which reading of a condition is written.
+/// Which of the two readings of a condition is written.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Reading {
     /// `f64`: the robustness.
@@ -41,7 +46,7 @@ pub struct Scope<'a> {
 }
 
 impl Scope<'_> {
-    /// The name of the state in the code.
+    /// The name of the state in the code: the one of the header, or one that no parameter has.
     pub fn state(&self) -> Ident {
         match &self.module.state {
             State::Host { name, .. } => ident(name),
@@ -56,7 +61,8 @@ impl Scope<'_> {
         }
     }
 
-    /// The statements and the expression that are a condition.
+    /// A condition as statements and an expression: the body of a function that has the state, and for
+    /// the truth one that returns a `Result`, because a comparison with NaN is an error (`?`).
     pub fn condition(&self, id: ConditionId, reading: Reading) -> TokenStream {
         let needed = arena::needed(vec![id.0], &mut |id, open| {
             let condition = self.module.arena.condition(ConditionId(id));
@@ -76,6 +82,7 @@ impl Scope<'_> {
     }
 }
 
+/// The conditions that a condition is made of.
 fn operands(condition: &Condition) -> impl Iterator<Item = ConditionId> {
     let pair = match *condition {
         Condition::Not(a) => [Some(a), None],
@@ -85,15 +92,16 @@ fn operands(condition: &Condition) -> impl Iterator<Item = ConditionId> {
     pair.into_iter().flatten()
 }
 
-/// An expression and how deep it is nested.
+/// An expression, and how deep it is nested.
 type Written = (TokenStream, u32);
 
+/// Writes one condition: what it needs first, in order, without recursion.
 struct Writer<'a> {
     scope: &'a Scope<'a>,
     reading: Reading,
     /// The conditions to be written, operands first.
     needed: Vec<u32>,
-    /// What is written of them already.
+    /// What has been written of them, by place in `needed`.
     conditions: Vec<Written>,
     terms: FxHashMap<TermId, Written>,
     lets: TokenStream,
@@ -123,15 +131,17 @@ impl Writer<'_> {
         self.conditions.pop().map(|(code, _)| code).unwrap_or_default()
     }
 
+    /// Where a condition stands among those that are needed; they ascend.
     fn place(&self, id: ConditionId) -> usize {
         self.needed.binary_search(&id.0).expect("operands are needed")
     }
 
-    /// What an operand is.
+    /// The code of an operand, which has been written before.
     fn operand(&self, id: ConditionId) -> Written {
         self.conditions[self.place(id)].clone()
     }
 
+    /// The code of one condition, from that of its operands.
     fn one(&mut self, id: ConditionId) -> Written {
         let runtime = self.scope.runtime;
         let state = self.scope.state();
@@ -229,6 +239,7 @@ impl Writer<'_> {
         }
     }
 
+    /// A negation: the opposite robustness, or the opposite truth.
     fn unary(&mut self, a: ConditionId) -> Written {
         let (a, depth) = self.operand(a);
         let code = if self.reading == Reading::Robustness {
@@ -239,6 +250,8 @@ impl Writer<'_> {
         (code, depth + 1)
     }
 
+    /// A conjunction or a disjunction. Its truth reads both sides: a NaN on the right must not depend on
+    /// what stands on the left.
     fn binary(
         &mut self,
         a: ConditionId,
@@ -256,6 +269,7 @@ impl Writer<'_> {
         (code, deep_a.max(deep_b) + 1)
     }
 
+    /// A comparison of numbers; see [`Reading`].
     fn comparison(&mut self, comparison: Comparison, a: TermId, b: TermId) -> Written {
         let arena = &self.scope.module.arena;
         if arena.is_value(a) || arena.is_value(b) {
@@ -290,7 +304,8 @@ impl Writer<'_> {
         (code, depth)
     }
 
-    /// Whether two values are equal: ±1.
+    /// Whether two values of an enumeration or two truth values are equal, with robustness ±1. If one
+    /// side may be absent, both are compared as options.
     fn value_comparison(&mut self, comparison: Comparison, a: TermId, b: TermId) -> Written {
         let optional = [a, b].map(|side| self.is_optional(side));
         let [a, b] = [(a, optional[1]), (b, optional[0])].map(|(side, other)| {
@@ -323,7 +338,7 @@ impl Writer<'_> {
         }
     }
 
-    /// A term, and first everything that it needs.
+    /// A term, after everything that it needs. Terms are shared by the conditions of one expression.
     fn term(&mut self, root: TermId) -> Written {
         let needed = arena::needed(vec![root.0], &mut |id, open| {
             let term = self.scope.module.arena.term(TermId(id));
@@ -347,6 +362,7 @@ impl Writer<'_> {
         self.terms[&root].clone()
     }
 
+    /// The code of one term, as an `f64` if it is a number, from that of its operands.
     fn one_term(&mut self, id: TermId) -> Written {
         let runtime = self.scope.runtime;
         match self.scope.module.arena.term(id) {
@@ -397,7 +413,7 @@ impl Writer<'_> {
         }
     }
 
-    /// A place within the state, a value, or a Rust expression.
+    /// A place within the state, a value, or a Rust expression, of its own type.
     fn leaf(&mut self, id: TermId) -> TokenStream {
         let module = self.scope.module;
         match module.arena.term(id) {
@@ -425,6 +441,7 @@ impl Writer<'_> {
         }
     }
 
+    /// One step into the state: a field, or an element.
     fn step(&mut self, step: &Step) -> TokenStream {
         match step {
             Step::Field(name) => {
@@ -452,6 +469,7 @@ fn first_span(tokens: &TokenStream) -> TokenSpan {
     }
 }
 
+/// A constant condition: ±∞, so that it never decides a minimum or a maximum against another.
 fn truth(value: bool, robust: bool) -> TokenStream {
     match (robust, value) {
         (false, value) => quote! { #value },
@@ -460,6 +478,7 @@ fn truth(value: bool, robust: bool) -> TokenStream {
     }
 }
 
+/// A number as Rust writes it, always an `f64`.
 fn number(value: f64) -> TokenStream {
     if value.is_nan() {
         return quote! { ::core::primitive::f64::NAN };

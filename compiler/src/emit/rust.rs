@@ -1,36 +1,42 @@
 //! A compiled source as Rust: what `tltl!` and `include_tltl!` expand to.
 //!
-//! For every predicate one typed robustness function, for every task one function that returns the
-//! runtime's `Task` with its `static` automaton. The code names the runtime by an absolute path,
-//! allocates nothing and parses nothing; the same source gives the same tokens.
+//! A file becomes items: for every type of the source a Rust type, for every predicate a robustness
+//! function and a type that implements `Predicate`, for every task a `const fn` that returns the
+//! runtime's `Task`. A bare formula becomes one expression, a block that declares what it needs: its
+//! predicates are whatever values are in scope, so their types are inferred, as generic parameters.
+//!
+//! The code names the runtime and `core` by absolute paths, so that no name of the author's can take
+//! their place; it allocates nothing and parses nothing. The same source gives the same tokens.
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::compile::{Compiled, Factored, Part};
 use crate::dfa::Dfa;
+use crate::emit::declare::documentation;
+pub use crate::emit::declare::sizes;
 use crate::emit::implementation::{Implementation, positional};
 pub use crate::emit::predicates::ident as identifier;
 use crate::emit::predicates::{Reading, Scope};
 use crate::emit::tables as emit;
-use crate::predicate::{
-    Condition, Enum, Parameter, ParameterType, PredicateId, Scalar, State, Struct, Task, Type,
-};
+use crate::predicate::{Condition, PredicateId, State, Task};
 use crate::source::Span;
 use crate::tables::{operators, tables};
-use crate::unit::Unit;
 
-/// How the code is fitted to the place where it stands.
+/// How the code fits the place where it stands.
 pub struct Options<'a> {
-    /// The path of the runtime crate, absolute.
+    /// The path of the runtime crate, absolute: `::tltl`, unless a crate re-exports it.
     pub runtime: TokenStream,
-    /// A type of the user's that has the fields of the declared state, to be used in its place.
+    /// A type of the user's that has the fields of the declared state, which is then not emitted.
     pub state: Option<TokenStream>,
-    /// The Rust tokens at a place of the source.
+    /// The Rust tokens at a place of the source, for what the source takes from Rust as it is.
     pub host: &'a dyn Fn(Span) -> TokenStream,
 }
 
 /// A bare formula as an expression: a `Task` over the predicates that are in scope.
+///
+/// The task's function is a method of its predicates because only so can its result be named: the
+/// types of the predicates may be closures, which have no name. Its tables are statics all the same.
 #[must_use]
 pub fn expression(compiled: &Compiled, options: &Options<'_>) -> TokenStream {
     let emitter = Emitter::new(compiled, options);
@@ -60,7 +66,8 @@ pub fn expression(compiled: &Compiled, options: &Options<'_>) -> TokenStream {
     }}
 }
 
-/// A source of declarations as items: the state, the predicates and the tasks.
+/// A source of declarations as items: its types, its predicates, its tasks, each in the order of the
+/// source.
 #[must_use]
 pub fn items(compiled: &Compiled, options: &Options<'_>) -> TokenStream {
     let emitter = Emitter::new(compiled, options);
@@ -81,16 +88,20 @@ pub fn items(compiled: &Compiled, options: &Options<'_>) -> TokenStream {
     quote! { #(#enums)* #(#structs)* #state #(#predicates)* #(#tasks)* #(#factored)* }
 }
 
-/// A task in the making: its type, the statics that it needs, and the expression that is it.
+/// The parts of the code of a task.
 struct Made {
+    /// Its type without the predicates: `Task` or `Factored`.
     kind: TokenStream,
+    /// The tables, as statics.
     statics: TokenStream,
+    /// The expression that is the task.
     result: TokenStream,
 }
 
-struct Emitter<'a> {
-    compiled: &'a Compiled,
-    options: &'a Options<'a>,
+/// What all code of one source is written from.
+pub(super) struct Emitter<'a> {
+    pub(super) compiled: &'a Compiled,
+    pub(super) options: &'a Options<'a>,
     runtime: &'a TokenStream,
     /// The runtime's path as text, for the tables.
     path: String,
@@ -102,6 +113,7 @@ impl<'a> Emitter<'a> {
         Self { compiled, options, runtime: &options.runtime, path }
     }
 
+    /// What predicates refer to outside themselves.
     fn scope(&self) -> Scope<'_> {
         Scope { module: &self.compiled.module, runtime: self.runtime, host: self.options.host }
     }
@@ -123,7 +135,8 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// A predicate of a bare formula as a value: the user's own, or two closures.
+    /// A predicate of a bare formula as a value: the user's own, or two closures. Of the second, all
+    /// types are written out, so that a task whose states are never read is typed as well.
     fn value(&self, id: PredicateId) -> TokenStream {
         let module = &self.compiled.module;
         let condition = module.predicates[id.0 as usize].condition;
@@ -144,6 +157,8 @@ impl<'a> Emitter<'a> {
         }
     }
 
+    /// A declared predicate: a function that gives its robustness, which authors call, and a type of
+    /// the same name that implements `Predicate`, which formulas in Rust refer to.
     fn predicate(&self, id: PredicateId) -> TokenStream {
         let predicate = &self.compiled.module.predicates[id.0 as usize];
         let (name, runtime) = (identifier(&predicate.name), self.runtime);
@@ -184,12 +199,14 @@ impl<'a> Emitter<'a> {
         }
     }
 
+    /// A task of a file.
     fn task(&self, task: &Task, dfa: &Dfa) -> TokenStream {
         let (function, names) = (self.function(task), self.parameters(&task.parameters).names);
         let made = self.made(task, dfa, &quote! { #function { #(#names),* } });
         self.declaration(task, &[format!("`{}`", task.text), sizes(dfa)], made)
     }
 
+    /// A factored task of a file.
     fn factored(&self, factored: &Factored) -> TokenStream {
         let task = &factored.task;
         let (function, names) = (self.function(task), self.parameters(&task.parameters).names);
@@ -200,8 +217,9 @@ impl<'a> Emitter<'a> {
         self.declaration(task, &[format!("`{}`", task.text), size], made)
     }
 
+    /// The name of the function that returns a task, and of the type that is its predicates.
     fn function(&self, task: &Task) -> Ident {
-        identifier(task.name.as_deref().unwrap_or("task"))
+        identifier(named(task))
     }
 
     /// The task whose predicates are `value`.
@@ -251,7 +269,7 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// The statics of a factored task.
+    /// The statics of a factored task: one array of its parts, each with its tables by value.
     fn parts(&self, parts: &[Part]) -> TokenStream {
         let runtime = self.runtime;
         let count = Literal::usize_unsuffixed(parts.len());
@@ -272,42 +290,18 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// The function that returns a task, and the struct that is its predicates.
+    /// The function that returns a task, and the type that is its predicates.
     fn declaration(&self, task: &Task, about_it: &[String], made: Made) -> TokenStream {
         let Made { kind, statics, result } = made;
-        let name = task.name.as_deref().unwrap_or("task");
-        let (function, state) = (identifier(name), self.state());
+        let function = self.function(task);
         let parameters = self.parameters(&task.parameters);
-        let unpacked = parameters.unpacked();
-        let of = |reading| {
-            let unpacked = &unpacked;
-            let arms = task.predicates.iter().enumerate().map(move |(i, &id)| {
-                let place = Literal::usize_unsuffixed(i);
-                let code = self.arm(id, reading);
-                match unpacked {
-                    Some(unpacked) => quote! { #place => { #unpacked #code } },
-                    None => quote! { #place => #code },
-                }
-            });
-            quote! { #(#arms,)* }
-        };
-        let implementation = Implementation {
-            runtime: self.runtime,
-            generics: TokenStream::new(),
-            state,
-            argument: self.scope().state(),
-            name: quote! { #function },
-            robustness: of(Reading::Robustness),
-            holds: of(Reading::Truth),
-            scratch: operators(&task.spec).len(),
-        }
-        .tokens();
         let about_it: Vec<_> =
             about_it.iter().cloned().chain(self.measures(&task.parameters)).collect();
         let docs = documentation(&task.docs, &about_it);
-        let about = format!("The predicates of the task `{name}`.");
+        let about = format!("The predicates of the task `{}`.", named(task));
         let declared = parameters.declared();
         let structure = parameters.structure(&function, &about);
+        let implementation = self.predicates(task, parameters.unpacked());
         let (called, checks) = self.indices(task);
         quote! {
             #docs
@@ -326,8 +320,37 @@ impl<'a> Emitter<'a> {
         }
     }
 
+    /// The implementation of the runtime's `Predicates` for the predicates of a task; `unpacked`
+    /// brings the task's parameters into scope.
+    fn predicates(&self, task: &Task, unpacked: Option<TokenStream>) -> TokenStream {
+        let of = |reading| {
+            let arms = task.predicates.iter().enumerate().map(|(i, &id)| {
+                let place = Literal::usize_unsuffixed(i);
+                let code = self.arm(id, reading);
+                match &unpacked {
+                    Some(unpacked) => quote! { #place => { #unpacked #code } },
+                    None => quote! { #place => #code },
+                }
+            });
+            quote! { #(#arms,)* }
+        };
+        let function = self.function(task);
+        Implementation {
+            runtime: self.runtime,
+            generics: TokenStream::new(),
+            state: self.state(),
+            argument: self.scope().state(),
+            name: quote! { #function },
+            robustness: of(Reading::Robustness),
+            holds: of(Reading::Truth),
+            scratch: operators(&task.spec).len(),
+        }
+        .tokens()
+    }
+
     /// The assertions that the parameters of a task are within the arrays that they index, and the
-    /// attribute that lets a failure be told where the task is made.
+    /// attribute by which a failure is reported where the task is made. After them no step of the
+    /// task can panic.
     fn indices(&self, task: &Task) -> (TokenStream, TokenStream) {
         let module = &self.compiled.module;
         let mut checks = TokenStream::new();
@@ -348,7 +371,8 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// A predicate within the `match` of a task.
+    /// A predicate within the `match` of a task: a call of a declared one, the condition itself of
+    /// another.
     fn arm(&self, id: PredicateId, reading: Reading) -> TokenStream {
         let predicate = &self.compiled.module.predicates[id.0 as usize];
         let (runtime, s) = (self.runtime, self.scope().state());
@@ -368,179 +392,9 @@ impl<'a> Emitter<'a> {
             quote! { ::core::result::Result::Ok({ #code }) }
         }
     }
-
-    /// What something is measured in, as a sentence that starts with `subject`.
-    fn measured(&self, subject: &str, unit: &Unit) -> String {
-        match unit.is_plain() {
-            true => format!("{subject} a plain number."),
-            false => format!("{subject} in {}.", self.compiled.module.units.text(unit)),
-        }
-    }
-
-    /// What the parameters are measured in, a paragraph each.
-    fn measures(&self, parameters: &[Parameter]) -> impl Iterator<Item = String> {
-        let units = parameters.iter().filter_map(|known| Some((&known.name, known.unit.as_ref()?)));
-        units.map(|(name, unit)| self.measured(&format!("`{name}` is"), unit))
-    }
-
-    fn structure(&self, declared: &Struct) -> TokenStream {
-        let name = identifier(&declared.name);
-        let docs = documentation(&declared.docs, &[]);
-        let fields = declared.fields.iter().map(|field| {
-            let unit: Vec<_> = field.unit.iter().map(|unit| self.measured("It is", unit)).collect();
-            let docs = documentation(&field.docs, &unit);
-            let (name, ty) = (identifier(&field.name), self.ty(&field.ty));
-            quote! { #docs pub #name: #ty }
-        });
-        quote! {
-            #docs
-            #[allow(missing_docs, non_snake_case, non_camel_case_types)]
-            #[derive(Clone, Copy, Debug, PartialEq)]
-            pub struct #name { #(#fields,)* }
-        }
-    }
-
-    fn enumeration(&self, declared: &Enum) -> TokenStream {
-        let name = identifier(&declared.name);
-        let docs = documentation(&declared.docs, &[]);
-        let variants: Vec<_> = declared.variants.iter().map(|name| identifier(name)).collect();
-        let count = Literal::usize_unsuffixed(variants.len());
-        quote! {
-            #docs
-            #[allow(missing_docs, non_camel_case_types)]
-            #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-            pub enum #name { #(#variants,)* }
-
-            #[allow(clippy::all)]
-            impl #name {
-                #[doc = " All values, in order."]
-                pub const ALL: [Self; #count] = [#(Self::#variants,)*];
-
-                #[doc = " Which value it is, counted from 0."]
-                #[must_use]
-                pub const fn index(self) -> ::core::primitive::usize {
-                    self as ::core::primitive::usize
-                }
-
-                #[doc = " The value of this index, if there is one."]
-                #[must_use]
-                pub const fn from_index(
-                    index: ::core::primitive::usize,
-                ) -> ::core::option::Option<Self> {
-                    if index < #count {
-                        ::core::option::Option::Some(Self::ALL[index])
-                    } else {
-                        ::core::option::Option::None
-                    }
-                }
-            }
-        }
-    }
-
-    fn scalar(&self, scalar: Scalar) -> TokenStream {
-        match scalar {
-            Scalar::Enum { of, optional } => {
-                let name = identifier(&self.compiled.module.enums[of as usize].name);
-                match optional {
-                    true => quote! { ::core::option::Option<#name> },
-                    false => quote! { #name },
-                }
-            }
-            Scalar::Number(_) | Scalar::Bool => {
-                let name = identifier(scalar.name());
-                quote! { ::core::primitive::#name }
-            }
-        }
-    }
-
-    /// What a predicate or a task takes, as Rust has it.
-    fn parameters(&self, parameters: &[Parameter]) -> Parameters {
-        let ty = |parameter: &Parameter| match parameter.ty {
-            ParameterType::Scalar(scalar) => self.scalar(scalar),
-            ParameterType::Host(span) => (self.options.host)(span),
-        };
-        let of_rust = |parameter: &Parameter| matches!(parameter.ty, ParameterType::Host(_));
-        Parameters {
-            names: parameters.iter().map(|parameter| identifier(&parameter.name)).collect(),
-            types: parameters.iter().map(ty).collect(),
-            printable: !parameters.iter().any(of_rust),
-        }
-    }
-
-    fn ty(&self, ty: &Type) -> TokenStream {
-        let module = &self.compiled.module;
-        match ty {
-            Type::Scalar(scalar) => self.scalar(*scalar),
-            Type::Table(element, of) => {
-                let length = module.enums[*of as usize].variants.len();
-                let (element, length) = (self.ty(element), Literal::usize_unsuffixed(length));
-                quote! { [#element; #length] }
-            }
-            Type::Struct(index) => {
-                let name = identifier(&module.structs[*index as usize].name);
-                quote! { #name }
-            }
-            Type::Array(element, length) => {
-                let (element, length) = (self.ty(element), Literal::u32_unsuffixed(*length));
-                quote! { [#element; #length] }
-            }
-        }
-    }
 }
 
-/// The parameters of a predicate or a task.
-struct Parameters {
-    names: Vec<Ident>,
-    types: Vec<TokenStream>,
-    /// Whether the types are known to implement `Debug`.
-    printable: bool,
-}
-
-impl Parameters {
-    /// `a: A, b: B`
-    fn declared(&self) -> TokenStream {
-        let Self { names, types, .. } = self;
-        quote! { #(#names: #types),* }
-    }
-
-    /// The struct `name` that holds them.
-    fn structure(&self, name: &Ident, about: &str) -> TokenStream {
-        let Self { names, types, printable } = self;
-        let derive = match printable {
-            true => quote! { #[derive(Clone, Copy, Debug)] },
-            false => quote! { #[derive(Clone, Copy)] },
-        };
-        quote! {
-            #[doc = #about]
-            #[allow(missing_docs, non_camel_case_types)]
-            #derive
-            pub struct #name { #(pub #names: #types),* }
-        }
-    }
-
-    /// The statement that brings the fields into scope; none if there are none.
-    fn unpacked(&self) -> Option<TokenStream> {
-        let names = &self.names;
-        (!names.is_empty()).then(|| quote! { let Self { #(#names),* } = *self; })
-    }
-}
-
-/// Doc attributes: the author's lines, then the tool's, each a paragraph.
-pub(super) fn documentation(lines: &[String], paragraphs: &[String]) -> TokenStream {
-    let author = lines.iter().map(|line| format!(" {}", line.trim()));
-    let lines =
-        author.chain(paragraphs.iter().flat_map(|text| [String::new(), format!(" {text}")]));
-    let lines = lines.skip_while(String::is_empty);
-    quote! { #(#[doc = #lines])* }
-}
-
-/// The size of an automaton, as a sentence of its documentation.
-#[must_use]
-pub fn sizes(dfa: &Dfa) -> String {
-    let size = dfa.size();
-    let trap = if size.trap { ", one of them the trap" } else { "" };
-    let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
-    let (states, edges) = (count(size.states, "state"), count(size.edges, "edge"));
-    let loops = count(size.self_loops, "self-loop");
-    format!("Minimal automaton: {states}{trap}, {edges} and {loops}.")
+/// What a task is called in Rust; one without a name stands alone in its file.
+fn named(task: &Task) -> &str {
+    task.name.as_deref().unwrap_or("task")
 }
