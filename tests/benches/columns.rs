@@ -12,11 +12,13 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use rowwise::Rowwise;
+use tltl::Acceptor;
+use tltl::automaton::{Automaton, Transitions};
 use tltl_compiler::compile::{self, Compiled};
 use tltl_compiler::source::Source;
 use tltl_compiler::translate::Budget;
 use tltlc::evaluate::{Column, Columns, Evaluator, Scratch};
-use tltlc::semantics;
+use tltlc::{semantics, task};
 
 /// Five comparisons of two columns.
 const PLAIN: &str = "state Plane { x: f64, y: f64 }
@@ -48,6 +50,89 @@ fn main() {
             Case::new(&compiled, rows).measure(name);
         }
     }
+    println!(
+        "\n{:<28}{:>9}{:>12}{:>22}{:>22}{:>12}{:>22}",
+        "automaton", "rows", "one by one", "letters", "labels", "run by one", "run"
+    );
+    let chain: Vec<_> = (0..16).map(|i| format!("p{i}")).collect();
+    let pairs: Vec<_> = chain.chunks(2).map(|pair| format!("F ({})", pair.join(" && "))).collect();
+    for formula in ["F a && F b && F c", &chain.join(" T "), &pairs.join(" && ")] {
+        let task = task::compile(formula, Budget::default()).expect("it is a formula");
+        for rows in [1_000, 100_000] {
+            moves(task.automaton(), rows);
+        }
+    }
+}
+
+/// Moves of many states, and along one trajectory.
+fn moves(automaton: &Automaton, rows: usize) {
+    let count = automaton.propositions().len();
+    let mut seed = 1_u64;
+    let mut random = || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        seed >> 32
+    };
+    let letters: Vec<u64> = (0..rows).map(|_| random() & random()).collect();
+    let label = |bits: u64| (0..count).map(move |i| bits >> i & 1 == 1);
+    let labels: Vec<bool> = letters.iter().flat_map(|&bits| label(bits)).collect();
+    let states = u64::from(automaton.states());
+    let before: Vec<u32> = (0..rows).map(|_| (random() % states) as u32).collect();
+    let next = |q: u32, bits: u64| automaton.next(q, |i| Ok::<_, ()>(bits >> i & 1 == 1)).unwrap();
+
+    let mut q = before.clone();
+    let by_one = nanoseconds(rows, || {
+        q.copy_from_slice(&before);
+        q.iter_mut().zip(&letters).for_each(|(q, &bits)| *q = next(*q, bits));
+    });
+    let expected = q.clone();
+    let by_letters = nanoseconds(rows, || {
+        q.copy_from_slice(&before);
+        automaton.step_batch(&mut q, &letters[..]);
+    });
+    assert_eq!(q, expected, "letters");
+    let by_labels = nanoseconds(rows, || {
+        q.copy_from_slice(&before);
+        automaton.step_batch(&mut q, &labels[..]);
+    });
+    assert_eq!(q, expected, "labels");
+
+    let run_by_one = nanoseconds(rows, || {
+        let mut at = 0;
+        for (q, &bits) in q.iter_mut().zip(&letters) {
+            at = next(at, bits);
+            *q = at;
+        }
+    });
+    let expected = q.clone();
+    let run = nanoseconds(rows, || automaton.run(0, &letters[..], &mut q));
+    assert_eq!(q, expected, "run");
+    let form = match &automaton.tables().transitions {
+        Transitions::Table { .. } => "table".to_owned(),
+        Transitions::Diagram { nodes, .. } => format!("{} nodes", nodes.len()),
+    };
+    let name = format!("{states} states of {count}, {form}");
+    println!(
+        "{name:<28}{rows:>9}{by_one:>12.2}{:>22}{:>22}{run_by_one:>12.2}{:>22}",
+        times(by_letters, by_one),
+        times(by_labels, by_one),
+        times(run, run_by_one)
+    );
+}
+
+fn times(time: f64, before: f64) -> String {
+    format!("{time:.2}: {:.1} x", before / time)
+}
+
+/// The least nanoseconds a row of some repetitions.
+fn nanoseconds<T>(rows: usize, mut run: impl FnMut() -> T) -> f64 {
+    let start = Instant::now();
+    let mut least = f64::INFINITY;
+    while start.elapsed().as_secs_f64() < 0.3 || least == f64::INFINITY {
+        let start = Instant::now();
+        black_box(run());
+        least = least.min(start.elapsed().as_secs_f64());
+    }
+    least * 1e9 / rows as f64
 }
 
 struct Case<'a> {
@@ -79,17 +164,17 @@ impl<'a> Case<'a> {
         let strided = Columns::new(self.rows, &strided).expect("equal columns");
         let mut scratch = Scratch::default();
 
-        let by_rows = self.nanoseconds(|| self.by_rows());
+        let by_rows = nanoseconds(self.rows, || self.by_rows());
         let mut found = vec![false; labels.len()];
         let [by_labels, by_strided] = [columns, strided].map(|columns| {
-            let time = self.nanoseconds(|| {
+            let time = nanoseconds(self.rows, || {
                 self.evaluator.labels(&columns, &mut scratch, &mut found).expect("numbers");
             });
             assert_eq!(found, labels, "labels");
             time
         });
         let mut found = vec![0.0; rho.len()];
-        let by_rho = self.nanoseconds(|| {
+        let by_rho = nanoseconds(self.rows, || {
             self.evaluator.rho(&columns, &mut scratch, &mut found).expect("numbers");
         });
         let bits = |numbers: &[f64]| numbers.iter().map(|rho| rho.to_bits()).collect::<Vec<_>>();
@@ -102,13 +187,12 @@ impl<'a> Case<'a> {
             semantics::robustness(spec, self.rows, |p, t| rho[t * width + p as usize])
         };
         let mut whole = 0.0;
-        let robustness = self.nanoseconds(|| {
+        let robustness = nanoseconds(self.rows, || {
             whole = self.evaluator.robustness(&columns, &mut scratch).expect("numbers");
         });
         assert_eq!(whole, semantics(), "robustness");
-        let by_semantics = self.nanoseconds(semantics);
+        let by_semantics = nanoseconds(self.rows, semantics);
 
-        let times = |time: f64, before: f64| format!("{time:.2}: {:.1} x", before / time);
         println!(
             "{name:<8}{:>9}{by_rows:>11.1}{:>22}{:>22}{:>24}{:>22}",
             self.rows,
@@ -130,17 +214,5 @@ impl<'a> Case<'a> {
             rho.extend(reading.robustness);
         }
         (labels, rho)
-    }
-
-    /// The least nanoseconds a row of some repetitions.
-    fn nanoseconds<T>(&self, mut run: impl FnMut() -> T) -> f64 {
-        let start = Instant::now();
-        let mut least = f64::INFINITY;
-        while start.elapsed().as_secs_f64() < 0.3 || least == f64::INFINITY {
-            let start = Instant::now();
-            black_box(run());
-            least = least.min(start.elapsed().as_secs_f64());
-        }
-        least * 1e9 / self.rows as f64
     }
 }

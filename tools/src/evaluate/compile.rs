@@ -3,13 +3,15 @@
 //! Operations are those of the generated code, one by one (`emit::predicates` of the compiler), so
 //! both give the same bits.
 
-use rustc_hash::FxHashMap;
+use std::hash::Hash;
+
+use rustc_hash::{FxHashMap, FxHashSet};
 use tltl_compiler::ast::{Arithmetic, Comparison};
 use tltl_compiler::predicate::{
     Condition, ConditionId, Function, Module, Number, Scalar, State, Step as PlaceStep, Struct,
     Task, Term, TermId, Type,
 };
-use tltl_compiler::spec::{Formula, Spec};
+use tltl_compiler::spec::{Formula, FormulaId, Spec};
 use tltl_compiler::unit::Unit;
 
 use super::program::{Carry, Operand, Operation, Program, Step};
@@ -145,8 +147,8 @@ pub(super) fn formula(
 ) -> Program {
     let mut compiler = Compiler::new(module, inputs, Reading::Robustness);
     let predicates = compiler.predicates(roots);
-    let carries = compiler.formula(&task.spec, &predicates);
-    Program::new(compiler.steps, carries)
+    compiler.formula(&task.spec, &predicates);
+    Program::new(compiler.steps, compiler.carries)
 }
 
 struct Compiler<'a> {
@@ -154,6 +156,7 @@ struct Compiler<'a> {
     inputs: &'a Inputs,
     reading: Reading,
     steps: Vec<Step>,
+    carries: u32,
     terms: FxHashMap<TermId, Operand>,
     conditions: FxHashMap<ConditionId, Operand>,
 }
@@ -165,6 +168,7 @@ impl<'a> Compiler<'a> {
             inputs,
             reading,
             steps: Vec::new(),
+            carries: 0,
             terms: FxHashMap::default(),
             conditions: FxHashMap::default(),
         }
@@ -201,20 +205,9 @@ impl<'a> Compiler<'a> {
 
     /// A condition, and first what it needs and is not known yet.
     fn condition(&mut self, root: ConditionId) -> Operand {
-        let mut open = vec![root];
-        while let Some(&id) = open.last() {
-            let before = open.len();
-            if !self.conditions.contains_key(&id) {
-                let operands = self.operands(id);
-                open.extend(operands.into_iter().filter(|id| !self.conditions.contains_key(id)));
-            }
-            if open.len() == before {
-                open.pop();
-                if !self.conditions.contains_key(&id) {
-                    let operand = self.one_condition(id);
-                    self.conditions.insert(id, operand);
-                }
-            }
+        for id in ordered(root, &self.conditions, |id| self.operands(id)) {
+            let operand = self.one_condition(id);
+            self.conditions.insert(id, operand);
         }
         self.conditions[&root]
     }
@@ -297,20 +290,9 @@ impl<'a> Compiler<'a> {
 
     /// A term, and first what it needs and is not known yet.
     fn term(&mut self, root: TermId) -> Operand {
-        let mut open = vec![root];
-        while let Some(&id) = open.last() {
-            let before = open.len();
-            if !self.terms.contains_key(&id) {
-                let operands = self.module.arena.term(id).operands();
-                open.extend(operands.into_iter().filter(|id| !self.terms.contains_key(id)));
-            }
-            if open.len() == before {
-                open.pop();
-                if !self.terms.contains_key(&id) {
-                    let operand = self.one_term(id);
-                    self.terms.insert(id, operand);
-                }
-            }
+        for id in ordered(root, &self.terms, |id| self.module.arena.term(id).operands()) {
+            let operand = self.one_term(id);
+            self.terms.insert(id, operand);
         }
         self.terms[&root]
     }
@@ -344,62 +326,76 @@ impl<'a> Compiler<'a> {
         self.unary(Operation::Input { input, low }, Operand::Constant(0.0))
     }
 
-    /// The operators of a formula over its predicates, and the output of the whole; the number of
-    /// carries.
-    fn formula(&mut self, spec: &Spec, predicates: &[Operand]) -> u32 {
-        let mut carries = 0;
+    /// The operators of a formula over its predicates, and the output of the whole.
+    fn formula(&mut self, spec: &Spec, predicates: &[Operand]) {
         let reachable = spec.reachable();
         let mut known = vec![Operand::Constant(f64::NEG_INFINITY); reachable.len()];
         for (id, formula) in spec.formulas().filter(|(id, _)| reachable[id.0 as usize]) {
-            let operands: Vec<Operand> =
-                formula.operands().map(|operand| known[operand.0 as usize]).collect();
-            known[id.0 as usize] = self.operator(formula, &operands, predicates, &mut carries);
+            known[id.0 as usize] = self.operator(formula, &known, predicates);
         }
         let whole = self.result(known[spec.root().0 as usize]);
         self.unary(Operation::Emit(predicates.len() as u32), whole);
-        carries
     }
 
-    fn operator(
-        &mut self,
-        formula: Formula,
-        operands: &[Operand],
-        predicates: &[Operand],
-        carries: &mut u32,
-    ) -> Operand {
-        let mut carry = || {
-            *carries += 1;
-            Carry(*carries - 1)
-        };
-        match (formula, operands) {
-            (Formula::Literal { proposition, negated }, _) => {
+    fn operator(&mut self, formula: Formula, known: &[Operand], predicates: &[Operand]) -> Operand {
+        let of = |id: FormulaId| known[id.0 as usize];
+        match formula {
+            Formula::True | Formula::False => self.truth(formula == Formula::True),
+            Formula::Literal { proposition, negated } => {
                 let rho = predicates[proposition as usize];
                 if negated { self.unary(Operation::Negate, rho) } else { rho }
             }
-            (Formula::And(..), &[a, b]) => self.step(Operation::Least, a, b),
-            (Formula::Or(..), &[a, b]) => self.step(Operation::Greatest, a, b),
-            (Formula::Next(_), &[a]) => {
-                let a = self.result(a);
-                self.unary(Operation::Next(carry()), a)
-            }
-            (Formula::Eventually(_), &[a]) => {
-                let a = self.result(a);
-                self.unary(Operation::Eventually(carry()), a)
-            }
-            (Formula::Until(..), &[a, b]) => {
-                let (a, b) = (self.result(a), self.result(b));
-                self.step(Operation::Until(carry()), a, b)
+            Formula::And(a, b) => self.step(Operation::Least, of(a), of(b)),
+            Formula::Or(a, b) => self.step(Operation::Greatest, of(a), of(b)),
+            Formula::Next(a) => self.next(of(a)),
+            Formula::Eventually(a) => self.eventually(of(a)),
+            Formula::Until(a, b) => {
+                let (a, b, carry) = (self.result(of(a)), self.result(of(b)), self.carry());
+                self.step(Operation::Until(carry), a, b)
             }
             // φ now and ψ, which is an `F`, from the next row on: now or later.
-            (Formula::Then(..), &[a, b]) => {
-                let b = self.result(b);
-                let later = self.unary(Operation::Next(carry()), b);
-                let both = self.step(Operation::Least, a, later);
-                self.unary(Operation::Eventually(carry()), both)
+            Formula::Then(a, b) => {
+                let later = self.next(of(b));
+                let both = self.step(Operation::Least, of(a), later);
+                self.eventually(both)
             }
-            (truth, _) => self.truth(truth == Formula::True),
         }
     }
+
+    fn next(&mut self, a: Operand) -> Operand {
+        let (a, carry) = (self.result(a), self.carry());
+        self.unary(Operation::Next(carry), a)
+    }
+
+    fn eventually(&mut self, a: Operand) -> Operand {
+        let (a, carry) = (self.result(a), self.carry());
+        self.unary(Operation::Eventually(carry), a)
+    }
+
+    fn carry(&mut self) -> Carry {
+        self.carries += 1;
+        Carry(self.carries - 1)
+    }
+}
+
+/// What `root` is made of and is not known yet, operands first, `root` among it. Without recursion,
+/// for authors nest.
+fn ordered<Id: Copy + Eq + Hash>(
+    root: Id,
+    known: &FxHashMap<Id, Operand>,
+    operands: impl Fn(Id) -> Vec<Id>,
+) -> Vec<Id> {
+    let (mut order, mut seen) = (Vec::new(), FxHashSet::default());
+    let mut open = vec![(root, false)];
+    while let Some((id, operands_are_done)) = open.pop() {
+        if operands_are_done {
+            order.push(id);
+        } else if !known.contains_key(&id) && seen.insert(id) {
+            open.push((id, true));
+            open.extend(operands(id).into_iter().map(|operand| (operand, false)));
+        }
+    }
+    order
 }
 
 fn arithmetic(operator: Arithmetic) -> Operation {
