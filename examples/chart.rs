@@ -1,15 +1,20 @@
-//! Line charts with confidence bands, as SVG.
+//! Line charts with bands, in rows that share their x axis and a legend, as SVG.
 
-use std::fmt::Write as _;
+use kuva::plot::LinePlot;
+use kuva::render::layout::Layout;
+use kuva::render::plots::Plot;
+use kuva::render::render::Scene;
 
-use crate::svg::{FONT, INK, text};
+use crate::plot::{self, LINE, Panels, SAMPLE};
+use crate::svg::{INK, PALE};
 
-const COLOURS: [&str; 6] = ["#1f6fb4", "#d9622b", "#2e8b57", "#8457a8", "#8c6d31", "#444b54"];
-const GRID: &str = "#e3e7ec";
-const LEFT: f64 = 64.0;
-const TOP: f64 = 42.0;
-const WIDTH: f64 = 460.0;
-const HEIGHT: f64 = 280.0;
+const COLOURS: [&str; 6] = ["#1f6fb4", "#d9622b", "#2e8b57", "#c23b60", "#8457a8", "#8c6d31"];
+/// A later curve is drawn above the earlier ones, so it is thinner and has wider gaps: where curves
+/// coincide, all of them show.
+const DASHES: [Option<&str>; 6] =
+    [None, Some("11 4"), Some("7 4"), Some("4 4"), Some("8 3 2 3"), Some("2 3")];
+const LEVELS: [&str; 2] = ["5 4", "1.5 3"];
+const BAND: f64 = 0.16;
 
 /// A point of a curve with its band.
 #[derive(Clone, Copy, Debug)]
@@ -24,7 +29,7 @@ pub struct Point {
     pub high: f64,
 }
 
-/// A curve.
+/// A curve; one without points is in the legend all the same, and keeps its colour.
 #[derive(Clone, Debug)]
 pub struct Curve {
     /// What the legend calls it.
@@ -33,56 +38,147 @@ pub struct Curve {
     pub points: Vec<Point>,
 }
 
-/// A chart; both axes are logarithmic, so all coordinates must be positive.
+/// What a chart's y axis measures.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Axis {
+    /// Positive numbers between two, on a logarithmic scale; the x axis is logarithmic, too.
+    Logarithmic(f64, f64),
+    /// Shares, in per cent.
+    Share,
+    /// Numbers from 0 to this one.
+    UpTo(f64),
+}
+
+/// One chart.
 #[derive(Clone, Debug)]
 pub struct Chart {
     /// What stands above it.
     pub title: String,
+    /// Its y axis.
+    pub axis: Axis,
+    /// Its curves, at most six.
+    pub curves: Vec<Curve>,
+    /// Horizontal lines, at most two, and what the legend calls them.
+    pub levels: Vec<(f64, String)>,
+}
+
+/// A row of charts, all with the same curves.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// What stands above it.
+    pub title: String,
     /// What the x axis measures.
     pub x: String,
-    /// What the y axis measures.
-    pub y: String,
-    /// A horizontal line, and what it is.
-    pub line: Option<(f64, String)>,
-    /// The curves.
-    pub curves: Vec<Curve>,
+    /// The charts.
+    pub charts: Vec<Chart>,
 }
 
-/// From values to pixels.
-struct Scale {
-    x: (f64, f64),
-    y: (f64, f64),
+/// The rows as one SVG document, with remarks below; one chart alone is drawn larger.
+#[must_use]
+pub fn svg(title: &str, rows: &[Row], remarks: &[String]) -> String {
+    let columns = rows.iter().map(|row| row.charts.len()).max().unwrap_or(0);
+    let bottom = if remarks.is_empty() { 0.0 } else { LINE * (remarks.len() as f64 + 0.5) };
+    let panels = match columns {
+        1 => Panels {
+            frame: (480.0, 280.0),
+            margins: [58.0, 20.0, 58.0, 42.0],
+            legend: (190.0, bottom),
+        },
+        _ => Panels {
+            frame: (232.0, 138.0),
+            margins: [48.0, 24.0, 58.0, 42.0],
+            legend: (290.0, bottom),
+        },
+    };
+    let drawn = rows.iter().map(|row| row.charts.iter().map(|c| c.draw(&panels, &row.x)).collect());
+    let mut scene = panels.scene(drawn.collect());
+    for (i, row) in rows.iter().enumerate() {
+        let (left, top) = panels.corner(i, 0);
+        plot::text(&mut scene, (left - 42.0, top - 34.0), 15, INK, &row.title);
+        for (j, chart) in row.charts.iter().enumerate() {
+            let (left, top) = panels.corner(i, j);
+            plot::text(&mut scene, (left, top - 8.0), 12, INK, &chart.title);
+        }
+        let (right, _) = panels.corner(i, row.charts.len());
+        row.legend(&mut scene, (right - panels.margins[0], top + 8.0));
+    }
+    let at = (panels.corner(0, 0).0, scene.height - bottom + 0.5 * LINE);
+    plot::remarks(&mut scene, at, remarks);
+    plot::document(title, scene)
 }
 
-impl Scale {
-    fn new(chart: &Chart) -> Self {
-        let points = || chart.curves.iter().flat_map(|curve| &curve.points);
-        let line = chart.line.iter().map(|&(y, _)| y);
-        let ys = points().flat_map(|p| [p.low, p.high]).chain(line);
-        let (low, high) = range(ys);
-        Self { x: range(points().map(|p| p.x)), y: (low / 1.1, high * 1.1) }
+impl Row {
+    fn legend(&self, scene: &mut Scene, (x, mut y): (f64, f64)) {
+        let (Some(first), Some(last)) = (self.charts.first(), self.charts.last()) else { return };
+        for (i, curve) in first.curves.iter().enumerate() {
+            plot::sample(scene, (x, y - 4.0), COLOURS[i], width(i), DASHES[i]);
+            plot::text(scene, (x + SAMPLE + 8.0, y), 12, INK, &curve.name);
+            y += LINE;
+        }
+        for (i, (_, name)) in last.levels.iter().enumerate() {
+            plot::sample(scene, (x, y - 4.0), INK, 1.2, Some(LEVELS[i]));
+            plot::text(scene, (x + SAMPLE + 8.0, y), 12, PALE, name);
+            y += LINE;
+        }
+    }
+}
+
+impl Chart {
+    fn draw(&self, panels: &Panels, x_name: &str) -> (Layout, Vec<Plot>) {
+        let xs = || self.curves.iter().flat_map(|curve| &curve.points).map(|point| point.x);
+        let (left, right) = (xs().fold(f64::MAX, f64::min), xs().fold(1.0, f64::max));
+        let (x, y) = match self.axis {
+            Axis::Logarithmic(low, high) => ((left, right), (low, high)),
+            Axis::Share => ((0.0, right), beyond(1.0)),
+            Axis::UpTo(top) => ((0.0, right), beyond(top)),
+        };
+        let levels = self.levels.iter().zip(LEVELS).map(|(&(at, _), dashes)| {
+            let line = LinePlot::new().with_data([(x.0, at), (x.1, at)]).with_color(INK);
+            Plot::Line(line.with_stroke_width(1.2).with_line_style(plot::dashes(Some(dashes))))
+        });
+        let curves = self.curves.iter().enumerate().map(|(i, curve)| curve.draw(i, y));
+        let layout = panels.layout(x, y).with_x_label(x_name);
+        (self.ticks(layout, right), levels.chain(curves).collect())
     }
 
-    fn x(&self, x: f64) -> f64 {
-        LEFT + WIDTH * (x / self.x.0).ln() / (self.x.1 / self.x.0).ln()
-    }
-
-    fn y(&self, y: f64) -> f64 {
-        TOP + HEIGHT * (1.0 - (y / self.y.0).ln() / (self.y.1 / self.y.0).ln())
+    fn ticks(&self, layout: Layout, right: f64) -> Layout {
+        let layout = layout.with_x_tick_format(plot::format(number));
+        match self.axis {
+            Axis::Logarithmic(..) => {
+                layout.with_log_scale().with_y_tick_format(plot::format(number))
+            }
+            Axis::Share => {
+                let layout = layout.with_x_tick_step(right / 2.0).with_y_tick_step(0.25);
+                layout.with_y_tick_format(plot::format(|value| format!("{:.0} %", 100.0 * value)))
+            }
+            Axis::UpTo(top) => layout.with_x_tick_step(right / 2.0).with_y_tick_step(top / 4.0),
+        }
     }
 }
 
-fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
-    values.fold((f64::INFINITY, 0.0), |(low, high), v| (low.min(v), high.max(v)))
+impl Curve {
+    /// As the `i`th of its chart; what is beyond the ends of the y axis is drawn on them.
+    fn draw(&self, i: usize, (low, high): (f64, f64)) -> Plot {
+        let within =
+            |of: fn(&Point) -> f64| self.points.iter().map(move |point| of(point).clamp(low, high));
+        let line = LinePlot::new()
+            .with_data(self.points.iter().map(|point| point.x).zip(within(|point| point.y)))
+            .with_color(COLOURS[i])
+            .with_stroke_width(width(i))
+            .with_line_style(plot::dashes(DASHES[i]));
+        let mut line = line.with_band(within(|point| point.low), within(|point| point.high));
+        line.band.iter_mut().for_each(|band| band.opacity = BAND);
+        Plot::Line(line)
+    }
 }
 
-/// 1, 2 and 5 times the powers of ten between the ends; the powers alone if those are many.
-fn ticks((low, high): (f64, f64)) -> Vec<f64> {
-    let fine = high / low < 200.0;
-    let steps: &[f64] = if fine { &[1.0, 2.0, 5.0] } else { &[1.0] };
-    let powers = (-9..12).map(|power| 10f64.powi(power));
-    let all = powers.flat_map(|power| steps.iter().map(move |step| step * power));
-    all.filter(|&tick| (low..=high).contains(&tick)).collect()
+/// From 0 to `top`, and a bit more at both ends: else curves at the ends would lie on the frame.
+fn beyond(top: f64) -> (f64, f64) {
+    (-0.03 * top, 1.03 * top)
+}
+
+fn width(i: usize) -> f64 {
+    3.2 - 0.3 * i as f64
 }
 
 fn number(value: f64) -> String {
@@ -90,89 +186,5 @@ fn number(value: f64) -> String {
         v if v >= 1e6 => format!("{} M", v / 1e6),
         v if v >= 1e3 => format!("{} k", v / 1e3),
         v => format!("{v}"),
-    }
-}
-
-impl Chart {
-    /// The chart as an SVG document.
-    #[must_use]
-    pub fn svg(&self) -> String {
-        let scale = Scale::new(self);
-        let (width, height) = (LEFT + WIDTH + 222.0, TOP + HEIGHT + 54.0);
-        let mut svg = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-             viewBox=\"0 0 {width} {height}\" {FONT}>\n\
-             <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n"
-        );
-        text(&mut svg, (LEFT, 24.0), 15, "start", INK, &self.title);
-        self.axes(&mut svg, &scale);
-        if let Some((y, name)) = &self.line {
-            let at = scale.y(*y);
-            let _ = writeln!(
-                svg,
-                "<path d=\"M{LEFT} {at:.1}h{WIDTH}\" stroke=\"{INK}\" stroke-dasharray=\"5 4\"/>"
-            );
-            text(&mut svg, (LEFT + WIDTH + 12.0, at + 4.0), 12, "start", INK, name);
-        }
-        for (i, curve) in self.curves.iter().enumerate() {
-            let dash = ["", "6 5"][usize::from(i >= 4)];
-            curve.draw(&mut svg, &scale, COLOURS[i % COLOURS.len()], dash);
-            let y = TOP + 10.0 + 22.0 * i as f64;
-            let _ = writeln!(
-                svg,
-                "<rect x=\"{}\" y=\"{}\" width=\"18\" height=\"4\" fill=\"{}\"/>",
-                LEFT + WIDTH + 12.0,
-                y - 6.0,
-                COLOURS[i % COLOURS.len()]
-            );
-            text(&mut svg, (LEFT + WIDTH + 36.0, y), 12, "start", INK, &curve.name);
-        }
-        svg.push_str("</svg>\n");
-        svg
-    }
-
-    fn axes(&self, svg: &mut String, scale: &Scale) {
-        for tick in ticks(scale.x) {
-            let x = scale.x(tick);
-            let _ = writeln!(svg, "<path d=\"M{x:.1} {TOP}v{HEIGHT}\" stroke=\"{GRID}\"/>");
-            text(svg, (x, TOP + HEIGHT + 18.0), 12, "middle", INK, &number(tick));
-        }
-        for tick in ticks(scale.y) {
-            let y = scale.y(tick);
-            let _ = writeln!(svg, "<path d=\"M{LEFT} {y:.1}h{WIDTH}\" stroke=\"{GRID}\"/>");
-            text(svg, (LEFT - 8.0, y + 4.0), 12, "end", INK, &number(tick));
-        }
-        let _ = writeln!(
-            svg,
-            "<rect x=\"{LEFT}\" y=\"{TOP}\" width=\"{WIDTH}\" height=\"{HEIGHT}\" fill=\"none\" \
-             stroke=\"{INK}\"/>"
-        );
-        let (x, y) = (LEFT + WIDTH / 2.0, TOP + HEIGHT + 40.0);
-        text(svg, (x, y), 13, "middle", INK, &self.x);
-        let middle = TOP + HEIGHT / 2.0;
-        let _ = writeln!(svg, "<g transform=\"translate(18 {middle}) rotate(-90)\">");
-        text(svg, (0.0, 0.0), 13, "middle", INK, &self.y);
-        svg.push_str("</g>\n");
-    }
-}
-
-impl Curve {
-    fn draw(&self, svg: &mut String, scale: &Scale, colour: &str, dash: &str) {
-        let path = |at: &dyn Fn(&Point) -> f64, points: &mut dyn Iterator<Item = &Point>| {
-            let mut path = String::new();
-            for p in points {
-                let _ = write!(path, " {:.1},{:.1}", scale.x(p.x), scale.y(at(p)));
-            }
-            path
-        };
-        let upper = path(&|p| p.high, &mut self.points.iter());
-        let lower = path(&|p| p.low, &mut self.points.iter().rev());
-        let middle = path(&|p| p.y, &mut self.points.iter());
-        let _ = writeln!(
-            svg,
-            "<polygon points=\"{upper}{lower}\" fill=\"{colour}\" opacity=\"0.2\"/>\n\
-             <polyline points=\"{middle}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"2\" \
-             stroke-dasharray=\"{dash}\"/>"
-        );
     }
 }

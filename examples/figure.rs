@@ -3,13 +3,15 @@
 use std::fmt::Write as _;
 
 use tltl_compiler::dfa::Dfa;
-use tltlc::emit::svg::{self, Drawing, Options};
+use tltlc::emit::svg::{Drawing, Options, drawing};
 
 use crate::grid::Grid;
-use crate::svg::{FONT, INK, escaped};
+use crate::svg::{Anchor, Font, INK, PALE, document, rect, text};
 
 const LINE: &str = "#d5dae1";
-const WRONG: &str = "#f7d4cf";
+/// What a cell loses by its action, up to a share of the largest value there, and its colour.
+const LOSSES: [(f64, &str, &str); 3] =
+    [(0.001, "#fbe4df", "up to 0.1 %"), (0.05, "#f3b3a6", "up to 5 %"), (1.0, "#df7361", "more")];
 const REGIONS: [&str; 6] = ["#f2b134", "#57a773", "#4c9be8", "#b07cc6", "#e07a5f", "#8d99ae"];
 
 /// A region of the grid: its name and its cells.
@@ -28,8 +30,8 @@ pub struct Panel {
     pub title: String,
     /// The action in each cell.
     pub actions: Vec<u32>,
-    /// The cells in which that action is not optimal.
-    pub wrong: Vec<usize>,
+    /// What it gives away in each cell: the share of the largest expected return from there.
+    pub losses: Vec<f64>,
 }
 
 /// One row of the figure: an automaton and the policy at each of its live states.
@@ -47,12 +49,14 @@ const CELL: f64 = 19.0;
 const GAP: f64 = 26.0;
 const MARGIN: f64 = 24.0;
 const PER_LINE: usize = 4;
+/// What stands above the cells of a panel.
+const HEAD: f64 = 31.0;
 
 /// The whole figure as an SVG document.
 #[must_use]
 pub fn figure(grid: &Grid, regions: &[Region], rows: &[Row<'_>]) -> String {
     let automata: Vec<Drawing> =
-        rows.iter().map(|row| svg::drawing(row.dfa, &Options::default())).collect();
+        rows.iter().map(|row| drawing(row.dfa, &Options::default())).collect();
     let left = automata.iter().map(|drawing| drawing.width).fold(0.0, f64::max);
     let (panel_width, panel_height) = (panel_width(grid), panel_height(grid));
     let columns = rows.iter().map(|row| row.panels.len().min(PER_LINE)).max().unwrap_or(1);
@@ -62,7 +66,7 @@ pub fn figure(grid: &Grid, regions: &[Region], rows: &[Row<'_>]) -> String {
     for (row, automaton) in rows.iter().zip(&automata) {
         let lines = row.panels.len().div_ceil(PER_LINE);
         let height = (lines as f64 * panel_height).max(automaton.height);
-        text(&mut body, MARGIN, y + 12.0, 15.0, "start", "bold", &row.title);
+        text(&mut body, (MARGIN, y + 12.0), Font::new(15.0).bold(), Anchor::Start, &row.title);
         y += 26.0;
         let down = y + (height - automaton.height) / 2.0;
         let across = MARGIN + (left - automaton.width) / 2.0;
@@ -81,7 +85,7 @@ pub fn figure(grid: &Grid, regions: &[Region], rows: &[Row<'_>]) -> String {
         y += height + 10.0;
     }
     legend(&mut body, MARGIN, y);
-    svg::document("Automata and policies", &Drawing { width, height: y + 30.0, body })
+    document("Automata and policies", (width, y + 46.0), &body)
 }
 
 fn panel_width(grid: &Grid) -> f64 {
@@ -89,47 +93,60 @@ fn panel_width(grid: &Grid) -> f64 {
 }
 
 fn panel_height(grid: &Grid) -> f64 {
-    f64::from(grid.height) * CELL + 20.0 + 12.0
+    f64::from(grid.height) * CELL + HEAD + 12.0
 }
 
 fn draw(body: &mut String, grid: &Grid, regions: &[Region], panel: &Panel) {
-    text(body, panel_width(grid) / 2.0, 12.0, 12.0, "middle", "normal", &panel.title);
+    let middle = panel_width(grid) / 2.0;
+    text(body, (middle, 10.0), Font::new(12.0), Anchor::Middle, &panel.title);
+    text(body, (middle, 24.0), Font::new(9.5).fill(PALE), Anchor::Middle, &panel.verdict());
     let place = |s: usize| {
         let (x, y) = (s as i32 % grid.width, s as i32 / grid.width);
-        (f64::from(x) * CELL, 20.0 + f64::from(grid.height - 1 - y) * CELL)
+        (f64::from(x) * CELL, HEAD + f64::from(grid.height - 1 - y) * CELL)
     };
-    for s in 0..panel.actions.len() {
-        let (x, y) = place(s);
-        let region = regions.iter().position(|region| region.cells.contains(&s));
-        let fill = match region {
-            Some(region) => REGIONS[region % REGIONS.len()],
-            None if panel.wrong.contains(&s) => WRONG,
-            None => "#ffffff",
-        };
-        let _ = writeln!(
-            body,
-            "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{CELL}\" height=\"{CELL}\" fill=\"{fill}\" \
-             stroke=\"{LINE}\"/>"
-        );
-    }
     for (s, &action) in panel.actions.iter().enumerate() {
-        let (x, y) = place(s);
-        act(body, x + CELL / 2.0, y + CELL / 2.0, action);
+        let ((x, y), loss) = (place(s), shade(panel.losses[s]));
+        let region = regions.iter().position(|region| region.cells.contains(&s));
+        let fill = region.map_or(loss.unwrap_or("#ffffff"), |i| REGIONS[i % REGIONS.len()]);
+        rect(body, (x, y, CELL, CELL), fill, LINE, "");
+        if let (Some(_), Some(loss)) = (region, loss) {
+            let frame = (x + 2.0, y + 2.0, CELL - 4.0, CELL - 4.0);
+            rect(body, frame, "none", loss, "stroke-width=\"3\"");
+        }
+        let (_, dx, dy) = Grid::ACTIONS[action as usize];
+        arrow(body, (x + CELL / 2.0, y + CELL / 2.0), (f64::from(dx), -f64::from(dy)));
     }
     for region in regions {
         for &s in &region.cells {
             let (x, y) = place(s);
-            text(body, x + 3.5, y + 7.5, 8.0, "middle", "bold", &region.name);
+            let font = Font::new(8.0).bold();
+            text(body, (x + 3.5, y + 7.5), font, Anchor::Middle, &region.name);
         }
     }
 }
 
-/// An arrow in the direction of the action; a dot for staying.
-fn act(body: &mut String, x: f64, y: f64, action: u32) {
-    let (_, dx, dy) = Grid::ACTIONS[action as usize];
-    let (dx, dy) = (f64::from(dx), -f64::from(dy));
+impl Panel {
+    /// In how many cells the action is not optimal, and what the worst loses.
+    fn verdict(&self) -> String {
+        let lossy = self.losses.iter().filter(|&&loss| loss > 0.0).count();
+        let worst = self.losses.iter().copied().fold(0.0, f64::max);
+        match (lossy, worst) {
+            (0, _) => "all optimal".to_owned(),
+            (_, 0.001..) => format!("{lossy} not optimal, by {:.1} % at most", 100.0 * worst),
+            _ => format!("{lossy} not optimal, by less than 0.1 %"),
+        }
+    }
+}
+
+fn shade(loss: f64) -> Option<&'static str> {
+    let of = |&&(most, ..): &&(f64, &str, &str)| loss <= most;
+    LOSSES.iter().find(of).filter(|_| loss > 0.0).map(|&(_, colour, _)| colour)
+}
+
+/// An arrow around a point, in a direction along an axis; a dot for staying.
+pub fn arrow(body: &mut String, (x, y): (f64, f64), (dx, dy): (f64, f64)) {
     if dx == 0.0 && dy == 0.0 {
-        let _ = writeln!(body, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"2.6\" fill=\"#2f6fb3\"/>");
+        let _ = writeln!(body, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"2.6\" fill=\"{INK}\"/>");
         return;
     }
     let (half, head) = (6.0, 3.2);
@@ -149,20 +166,15 @@ fn act(body: &mut String, x: f64, y: f64, action: u32) {
 }
 
 fn legend(body: &mut String, x: f64, y: f64) {
-    let _ = writeln!(
-        body,
-        "<rect x=\"{x:.1}\" y=\"{:.1}\" width=\"12\" height=\"12\" fill=\"{WRONG}\" stroke=\"{LINE}\"/>",
-        y - 2.0
-    );
-    let about = "the action shown is not optimal there; arrows: moves, dots: staying";
-    text(body, x + 18.0, y + 8.0, 11.0, "start", "normal", about);
-}
-
-fn text(body: &mut String, x: f64, y: f64, size: f64, anchor: &str, weight: &str, content: &str) {
-    let content = escaped(content);
-    let _ = writeln!(
-        body,
-        "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"{size}\" text-anchor=\"{anchor}\" \
-         font-weight=\"{weight}\" fill=\"{INK}\" {FONT}>{content}</text>"
-    );
+    let font = Font::new(11.0);
+    let moves = "Arrows: moves; dots: staying. Letters: where a, b and c are positive. \
+                 Numbers: the automaton's states, q.";
+    text(body, (x, y + 8.0), font, Anchor::Start, moves);
+    let about = "Not optimal there: of the largest expected return, the action gives away";
+    text(body, (x, y + 26.0), font, Anchor::Start, about);
+    for (i, (_, colour, most)) in LOSSES.into_iter().enumerate() {
+        let x = x + 380.0 + 85.0 * i as f64;
+        rect(body, (x, y + 16.0, 12.0, 12.0), colour, LINE, "");
+        text(body, (x + 18.0, y + 26.0), font, Anchor::Start, most);
+    }
 }

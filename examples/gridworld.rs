@@ -164,9 +164,13 @@ impl World {
         let exact = problem.optimal_q(&Rewards::default(), GAMMA);
         let states = 0..self.grid.states();
         let actions: Vec<u32> = states.clone().map(|s| table.greedy(q, s)).collect();
-        let wrong =
-            states.filter(|&s| exact.row(q, s)[actions[s] as usize] < exact.max(q, s) - 1e-6);
-        Panel { title: format!("q = {number}"), wrong: wrong.collect(), actions }
+        let loss = |s| {
+            let (best, own) = (exact.max(q, s), exact.row(q, s)[actions[s] as usize]);
+            // A smaller difference is rounding.
+            if best - own > 1e-6 { 1.0 - own / best } else { 0.0 }
+        };
+        let losses = states.map(loss).collect();
+        Panel { title: format!("q = {number}"), actions, losses }
     }
 
     fn regions(&self) -> Vec<Region> {

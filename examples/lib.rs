@@ -3,6 +3,7 @@
 pub mod chart;
 pub mod figure;
 pub mod grid;
+mod plot;
 pub mod spread;
 pub mod study;
 pub mod svg;

@@ -3,20 +3,20 @@
 //! A bar from the 5th to the 95th percentile, a tick at the median, a dot at the worst with its
 //! number. Axes are logarithmic; what is below the floor is drawn on it.
 
-use std::fmt::Write as _;
+use kuva::plot::{LinePlot, ScatterPlot};
+use kuva::render::layout::Layout;
+use kuva::render::plots::Plot;
+use kuva::render::render::Scene;
 
+use crate::plot::{self, LINE, Panels, SAMPLE};
 use crate::study::quantile;
-use crate::svg::{FONT, INK, text};
+use crate::svg::{INK, PALE};
 
-const GRID: &str = "#e3e7ec";
 const BAR: &str = "#9cc3e6";
 const GOOD: &str = "#2e8b57";
 const WORST: &str = "#d9622b";
-const LEFT: f64 = 196.0;
-const TOP: f64 = 66.0;
+const DASHES: &str = "5 4";
 const ROW: f64 = 25.0;
-const WIDTH: f64 = 270.0;
-const GAP: f64 = 84.0;
 
 /// One panel.
 #[derive(Clone, Debug)]
@@ -27,8 +27,8 @@ pub struct Panel {
     pub axis: String,
     /// The ends of its axis, both positive.
     pub range: (f64, f64),
-    /// A value that is asked for, drawn as a line.
-    pub bound: Option<f64>,
+    /// A value that is asked for, drawn as a line, and what the legend calls it.
+    pub bound: Option<(f64, String)>,
     /// The values of each group; infinite ones never come to an end.
     pub groups: Vec<Vec<f64>>,
 }
@@ -45,90 +45,77 @@ pub struct Spread {
 impl Spread {
     /// The figure as an SVG document.
     #[must_use]
-    pub fn svg(&self) -> String {
-        let panels = self.panels.len() as f64;
-        let width = LEFT + panels * WIDTH + panels * GAP;
-        let (bottom, height) = (self.bottom(), self.bottom() + 74.0);
-        let mut svg = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-             viewBox=\"0 0 {width} {height}\" {FONT}>\n\
-             <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n"
-        );
-        for (i, name) in self.names.iter().enumerate() {
-            text(&mut svg, (LEFT - 12.0, middle(i) + 4.0), 13, "end", INK, name);
-        }
+    pub fn svg(&self, title: &str) -> String {
+        let height = ROW * self.names.len() as f64;
+        let panels = Panels {
+            frame: (270.0, height),
+            margins: [150.0, 60.0, 44.0, 44.0],
+            legend: (0.0, 1.5 * LINE),
+        };
+        let row = self.panels.iter().map(|panel| panel.draw(&panels, &self.names)).collect();
+        let mut scene = panels.scene(vec![row]);
         for (i, panel) in self.panels.iter().enumerate() {
-            panel.draw(&mut svg, LEFT + i as f64 * (WIDTH + GAP), bottom);
+            panel.label(&mut scene, panels.corner(0, i), panels.frame.0);
         }
-        legend(&mut svg, bottom + 62.0);
-        svg.push_str("</svg>\n");
-        svg
+        let (left, top) = panels.corner(0, 0);
+        self.legend(&mut scene, (left, top + height + panels.margins[3] + LINE));
+        plot::document(title, scene)
     }
 
-    fn bottom(&self) -> f64 {
-        TOP + ROW * self.names.len() as f64
+    fn legend(&self, scene: &mut Scene, (x, y): (f64, f64)) {
+        let bound = self.panels.iter().find_map(|panel| panel.bound.as_ref());
+        let bound = bound.map(|(_, name)| (GOOD, 1.5, Some(DASHES), name.as_str()));
+        let bar = (BAR, 10.0, None, "5th to 95th percentile");
+        let median = (INK, 12.0, Some("0 14 2 14"), "median");
+        let worst = (BAR, 2.0, None, "up to the worst: a dot, and its number");
+        let mut x = x;
+        for (colour, width, dashes, name) in [bar, median, worst].into_iter().chain(bound) {
+            plot::sample(scene, (x, y - 4.0), colour, width, dashes);
+            plot::text(scene, (x + SAMPLE + 6.0, y), 12, INK, name);
+            x += SAMPLE + 30.0 + 6.0 * name.chars().count() as f64;
+        }
     }
 }
 
 impl Panel {
-    fn x(&self, left: f64, value: f64) -> f64 {
+    fn draw(&self, panels: &Panels, names: &[String]) -> (Layout, Vec<Plot>) {
+        let count = names.len() as f64;
+        let mut layout = panels.layout(self.range, (0.5, count + 0.5)).with_log_x();
+        let floor = self.range.0;
+        layout = layout.with_y_categories(names.iter().rev().cloned().collect());
+        layout = layout.with_x_label(&*self.axis).with_x_tick_format(plot::format(move |tick| {
+            if tick <= floor { format!("≤ {tick}") } else { format!("{tick}") }
+        }));
+        let bound = self
+            .bound
+            .iter()
+            .map(|&(x, _)| line([(x, 0.5), (x, count + 0.5)], GOOD, 1.5, Some(DASHES)));
+        let groups = self.groups.iter().enumerate();
+        let groups = groups.flat_map(|(i, values)| self.group(count - i as f64, values));
+        (layout, groups.chain(bound).collect())
+    }
+
+    fn group(&self, y: f64, values: &[f64]) -> [Plot; 4] {
         let (low, high) = self.range;
-        left + WIDTH * (value.clamp(low, high) / low).ln() / (high / low).ln()
+        let at = |share| quantile(values, share).clamp(low, high);
+        let worst = ScatterPlot::new().with_data([(at(1.0), y)]).with_color(WORST);
+        [
+            line([(at(0.05), y), (at(1.0), y)], BAR, 2.0, None),
+            line([(at(0.05), y), (at(0.95), y)], BAR, 10.0, None),
+            line([(at(0.5), y - 0.28), (at(0.5), y + 0.28)], INK, 2.0, None),
+            Plot::Scatter(worst.with_size(3.5)),
+        ]
     }
 
-    fn draw(&self, svg: &mut String, left: f64, bottom: f64) {
+    fn label(&self, scene: &mut Scene, (left, top): (f64, f64), width: f64) {
         for (i, title) in self.title.iter().enumerate() {
-            let size = if i == 0 { 14 } else { 12 };
-            text(svg, (left, 24.0 + 18.0 * i as f64), size, "start", INK, title);
+            let (size, colour) = if i == 0 { (14, INK) } else { (12, PALE) };
+            plot::text(scene, (left, top - 26.0 + 17.0 * i as f64), size, colour, title);
         }
-        self.axes(svg, left, bottom);
         for (i, values) in self.groups.iter().enumerate() {
-            self.group(svg, left, middle(i), values);
+            let at = (left + width + 8.0, top + ROW * (i as f64 + 0.5) + 4.0);
+            plot::text(scene, at, 12, WORST, &worst_of(quantile(values, 1.0)));
         }
-    }
-
-    fn axes(&self, svg: &mut String, left: f64, bottom: f64) {
-        let height = bottom - TOP;
-        let powers = (-9..9).map(|power| 10f64.powi(power));
-        for tick in powers.filter(|tick| (self.range.0..=self.range.1 * 1.01).contains(tick)) {
-            let x = self.x(left, tick);
-            let _ = writeln!(svg, "<path d=\"M{x:.1} {TOP}v{height}\" stroke=\"{GRID}\"/>");
-            let floor = if tick <= self.range.0 * 1.01 { "≤ " } else { "" };
-            text(svg, (x, bottom + 17.0), 12, "middle", INK, &format!("{floor}{tick}"));
-        }
-        if let Some(bound) = self.bound {
-            let x = self.x(left, bound);
-            let _ = writeln!(
-                svg,
-                "<path d=\"M{x:.1} {TOP}v{height}\" stroke=\"{GOOD}\" stroke-width=\"1.5\" \
-                 stroke-dasharray=\"5 4\"/>"
-            );
-        }
-        let _ = writeln!(
-            svg,
-            "<rect x=\"{left}\" y=\"{TOP}\" width=\"{WIDTH}\" height=\"{height}\" fill=\"none\" \
-             stroke=\"{INK}\"/>"
-        );
-        text(svg, (left + WIDTH / 2.0, bottom + 36.0), 13, "middle", INK, &self.axis);
-    }
-
-    fn group(&self, svg: &mut String, left: f64, y: f64, values: &[f64]) {
-        let at = |share| self.x(left, quantile(values, share));
-        let (low, median, high) = (at(0.05), at(0.5), at(0.95));
-        let worst = quantile(values, 1.0);
-        let end = self.x(left, worst);
-        let _ = writeln!(
-            svg,
-            "<path d=\"M{low:.1} {y}H{end:.1}\" stroke=\"{BAR}\" stroke-width=\"2\"/>\n\
-             <rect x=\"{:.1}\" y=\"{:.1}\" width=\"{:.1}\" height=\"10\" rx=\"2\" fill=\"{BAR}\"/>\n\
-             <path d=\"M{median:.1} {:.1}v14\" stroke=\"{INK}\" stroke-width=\"2\"/>\n\
-             <circle cx=\"{end:.1}\" cy=\"{y}\" r=\"3.5\" fill=\"{WORST}\"/>",
-            low - 1.0,
-            y - 5.0,
-            high - low + 2.0,
-            y - 7.0
-        );
-        text(svg, (left + WIDTH + 8.0, y + 4.0), 12, "start", WORST, &worst_of(worst));
     }
 }
 
@@ -143,23 +130,7 @@ fn worst_of(value: f64) -> String {
     }
 }
 
-fn middle(row: usize) -> f64 {
-    TOP + ROW * (row as f64 + 0.5)
-}
-
-fn legend(svg: &mut String, y: f64) {
-    let _ = writeln!(
-        svg,
-        "<rect x=\"{LEFT}\" y=\"{}\" width=\"26\" height=\"10\" rx=\"2\" fill=\"{BAR}\"/>\n\
-         <path d=\"M{} {}v14\" stroke=\"{INK}\" stroke-width=\"2\"/>\n\
-         <circle cx=\"{}\" cy=\"{}\" r=\"3.5\" fill=\"{WORST}\"/>",
-        y - 9.0,
-        LEFT + 192.0,
-        y - 11.0,
-        LEFT + 272.0,
-        y - 4.0
-    );
-    text(svg, (LEFT + 33.0, y), 12, "start", INK, "5th to 95th percentile");
-    text(svg, (LEFT + 201.0, y), 12, "start", INK, "median");
-    text(svg, (LEFT + 282.0, y), 12, "start", INK, "worst (number at the right)");
+fn line(points: [(f64, f64); 2], colour: &str, width: f64, dashes: Option<&str>) -> Plot {
+    let line = LinePlot::new().with_data(points).with_color(colour).with_stroke_width(width);
+    Plot::Line(line.with_line_style(plot::dashes(dashes)))
 }

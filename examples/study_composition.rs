@@ -15,7 +15,7 @@ use tltl::model::Dynamics;
 use tltl::product::Product;
 use tltl::q::QTable;
 use tltl::solve::Problem;
-use tltl_examples::chart::{Chart, Curve, Point};
+use tltl_examples::chart::{self, Axis, Chart, Curve, Point, Row};
 use tltl_examples::grid::Cell;
 use tltl_examples::study::{FAMILIES, Family, GRID, PAPER, Study, layout, mean, quantile};
 
@@ -24,6 +24,15 @@ const LAYOUTS: u64 = 100;
 const SCRATCH: u64 = 680_000;
 const METHODS: [&str; 6] =
     ["sum", "normalised sum", "max", "compensated", "refined", "from scratch"];
+
+/// What stands below each figure.
+const REMARKS: [&str; 3] = [
+    "Sum, normalised sum, max: of the two skills' values. Compensated: the sum less what both \
+     skills are paid for.",
+    "Refined: value iteration on the product, from the compensated values. From scratch: learned \
+     without skills.",
+    "Each curve has its own order of the layouts: it says how many lose no more than so much.",
+];
 
 /// What one method is worth on one layout.
 #[derive(Clone, Copy, Serialize, Deserialize)]
@@ -105,27 +114,32 @@ fn line(table: &mut String, formulas: [&str; 2], method: &str, worths: &[Worth])
 
 /// The methods' losses over the random layouts, each sorted by size: excess steps where nothing can
 /// be lost, regret in P(satisfied) where it can.
-fn chart(family: &Family, all: &[[Worth; 6]]) -> Chart {
+fn chart(family: &Family, all: &[[Worth; 6]]) -> String {
     let trapped = all.iter().flatten().any(|worth| worth.largest < 1.0 - 1e-9);
     let loss = |w: &Worth| if trapped { 100.0 * (w.largest - w.satisfied) } else { w.percent() };
     let curve = |i: usize| {
         let mut losses: Vec<f64> = all.iter().map(|worths| loss(&worths[i])).collect();
         losses.sort_by(f64::total_cmp);
-        let point = |(rank, y): (usize, &f64)| {
-            let y = y.clamp(0.01, 1e3);
-            Point { x: rank as f64 + 1.0, y, low: y, high: y }
-        };
-        let points = losses.iter().enumerate().map(point).collect();
-        Curve { name: METHODS[i].to_owned(), points }
+        let point = |(rank, &y): (usize, &f64)| Point { x: rank as f64 + 1.0, y, low: y, high: y };
+        Curve {
+            name: METHODS[i].to_owned(),
+            points: losses.iter().enumerate().map(point).collect(),
+        }
     };
     let measure = if trapped { "P(satisfied) given away, %" } else { "excess steps, %" };
-    Chart {
-        title: format!("({}) ∧ ({}), 100 random layouts", family.formulas[0], family.formulas[1]),
-        x: "layouts, the easiest first".to_owned(),
-        y: format!("{measure} (at least 0.01)"),
-        line: None,
+    let title = format!("({}) ∧ ({}), 100 random layouts", family.formulas[0], family.formulas[1]);
+    let chart = Chart {
+        title: format!("{measure}; 0.01 and less as 0.01"),
+        axis: Axis::Logarithmic(0.01, 100.0),
         curves: (0..METHODS.len()).map(curve).collect(),
-    }
+        levels: Vec::new(),
+    };
+    let x = "layouts, the easiest for each method first".to_owned();
+    chart::svg(
+        &title,
+        &[Row { title: title.clone(), x, charts: vec![chart] }],
+        &REMARKS.map(str::to_owned),
+    )
 }
 
 const HEAD: &str = "| skills | method | P regret, mean % | P regret, worst % | excess steps, median % \
@@ -171,8 +185,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
          --example study_composition`.\n\n## The paper's layout\n\n{paper}\n## 100 random layouts\n\n\
          {random}"
     );
-    study.publish("_steps.svg", &charts[0].svg())?;
-    study.publish("_traps.svg", &charts[4].svg())?;
+    study.publish("_steps.svg", &charts[0])?;
+    study.publish("_traps.svg", &charts[4])?;
     study.publish(".md", &text)?;
     study.publish_lines(lines)?;
     Ok(study.finish()?)

@@ -13,7 +13,7 @@ use tltl::learn::{Learner, Settings, Terminal, WholeLearner};
 use tltl::model::Dynamics;
 use tltl::solve::Problem;
 use tltl::tltl;
-use tltl_examples::chart::{Chart, Curve, Point};
+use tltl_examples::chart::{self, Axis, Chart, Curve, Point, Row};
 use tltl_examples::study::{GRID, PAPER, Study, at, capped_steps};
 
 const SEEDS: u64 = 20;
@@ -27,6 +27,10 @@ const METHODS: [&str; 5] = [
     "terminal robustness, no q",
     "satisfaction, no q",
 ];
+
+/// What the legend does not say.
+const EXPLAINED: &str = "q: the automaton's state. Counterfactual: a step updates every q. \
+                         Terminal robustness, satisfaction: paid once, at the end.";
 
 /// Expected steps, cut at the horizon, after each number of training steps.
 fn curve(method: usize, seed: u64) -> Vec<f64> {
@@ -88,20 +92,24 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let (method, seed) = (METHODS[case / SEEDS as usize], case as u64 % SEEDS);
         json!({"method": method, "seed": seed, "at": STEPS, "steps": steps})
     });
+    let title = "F a && F b on the paper's grid".to_owned();
     let chart = Chart {
-        title: "F a && F b on the paper's grid: mean of 20 seeds, 95 % bands".to_owned(),
-        x: "environment steps of training".to_owned(),
-        y: "expected steps, cut at 200".to_owned(),
-        line: Some((12.2002, "optimum, 12.2002".to_owned())),
+        title: format!("expected steps of the greedy policy, cut at {HORIZON}"),
+        axis: Axis::Logarithmic(10.0, 250.0),
         curves,
+        levels: vec![(12.2002, "optimum, 12.2002".to_owned())],
     };
+    let x = "environment steps of training".to_owned();
+    let row = Row { title: title.clone(), x, charts: vec![chart] };
+    let bands = format!("Lines: means over {SEEDS} seeds; bands: their 95 % confidence intervals.");
+    let remarks = [bands, EXPLAINED.to_owned()];
     let text = format!(
         "# Learning curves\n\n![Learning curves](curves.svg)\n\nExpected steps of the greedy policy on \
          `F a && F b`, episodes cut at {HORIZON}, exact for each policy; mean over {SEEDS} seeds with \
          Student's 95 % interval. All explore at random. The optimum is 12.2002. Written by `cargo run \
          --release --example study_curves`.\n\n{table}"
     );
-    study.publish(".svg", &chart.svg())?;
+    study.publish(".svg", &chart::svg(&title, &[row], &remarks))?;
     study.publish(".md", &text)?;
     study.publish_lines(lines)?;
     Ok(study.finish()?)

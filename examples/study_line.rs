@@ -15,11 +15,17 @@ use tltl::product::Product;
 use tltl::q::QTable;
 use tltl::solve::Problem;
 use tltl::{Monitor, tltl};
+use tltl_examples::figure::arrow;
 use tltl_examples::study::Study;
-use tltl_examples::svg::{FONT, INK};
+use tltl_examples::svg::{self, Anchor, Font, INK, rect, text};
 
 const GAMMA: f64 = 0.95;
-const ACTIONS: [&str; 3] = ["←", "●", "→"];
+const CELL: f64 = 40.0;
+/// Where the cells begin.
+const LEFT: f64 = 160.0;
+const GOALS: [(i32, &str, &str); 2] = [(-2, "a", "#f2b134"), (3, "b", "#57a773")];
+/// A smaller loss is rounding.
+const LOSS: f64 = 1e-6;
 
 struct Line;
 
@@ -50,22 +56,23 @@ impl FiniteModel for Line {
     }
 }
 
-/// A row of cells with the policy in them.
-fn row(svg: &mut String, y: f64, title: &str, actions: &[u32]) {
-    let _ = writeln!(svg, "<text x=\"16\" y=\"{}\" font-size=\"13\">{title}</text>", y + 25.0);
-    for (s, &action) in actions.iter().enumerate() {
-        let (x, at) = (200.0 + 40.0 * s as f64, s as i32 - 5);
-        let fill = if at == -2 { "#f2b134" } else { "#ffffff" };
-        let fill = if at == 3 { "#57a773" } else { fill };
-        let _ = writeln!(
-            svg,
-            "<rect x=\"{x}\" y=\"{y}\" width=\"40\" height=\"40\" fill=\"{fill}\" stroke=\"#1d2733\"/>\n\
-             <text x=\"{}\" y=\"{}\" font-size=\"20\" text-anchor=\"middle\">{}</text>",
-            x + 20.0,
-            y + 27.0,
-            ACTIONS[action as usize]
-        );
+/// A row of cells with the policy in them; what an action loses stands below it.
+fn row(svg: &mut String, y: f64, title: &str, policy: &Policy) {
+    text(svg, (16.0, y + 25.0), Font::new(13.0), Anchor::Start, title);
+    for (s, (&action, &loss)) in policy.actions.iter().zip(&policy.losses).enumerate() {
+        let x = LEFT + CELL * s as f64;
+        let goal = GOALS.iter().find(|(at, ..)| *at == s as i32 - 5);
+        rect(svg, (x, y, CELL, CELL), goal.map_or("#ffffff", |goal| goal.2), INK, "");
+        arrow(svg, (x + CELL / 2.0, y + CELL / 2.0), (f64::from(action) - 1.0, 0.0));
+        if loss > LOSS {
+            let loss = format!("−{loss:.3}");
+            text(svg, (x + CELL / 2.0, y + 36.0), Font::new(9.0), Anchor::Middle, &loss);
+        }
     }
+    let lossy = policy.losses.iter().filter(|&&loss| loss > LOSS).count();
+    let verdict =
+        if lossy == 0 { "all optimal".to_owned() } else { format!("{lossy} not optimal") };
+    text(svg, (LEFT + 10.0 * CELL + 12.0, y + 25.0), Font::new(12.0), Anchor::Start, &verdict);
 }
 
 /// The live automaton states that some trajectory meets; the raw product has more.
@@ -94,8 +101,15 @@ struct Composed {
     satisfied: f64,
     steps: Option<f64>,
     fraction_optimal: f64,
-    before_a: Vec<u32>,
-    after_a: Vec<u32>,
+    before_a: Policy,
+    after_a: Policy,
+}
+
+/// The actions at an automaton state, cell by cell, and the expected return that each gives away.
+#[derive(Serialize, Deserialize)]
+struct Policy {
+    actions: Vec<u32>,
+    losses: Vec<f64>,
 }
 
 /// All compositions, and what can be had at best.
@@ -131,17 +145,19 @@ fn compose() -> Report {
     let met = met(&task);
     let row = |(name, table): (&str, QTable)| {
         let own = problem.certify_against(&table.policy(), &exact, &best);
-        let actions = |before| {
-            let q = met.iter().find(|&&q| (q == task.start(4)) == before);
-            (0..10).map(|s| q.map_or(0, |&q| table.greedy(q, s))).collect()
+        let policy = |before| {
+            let q = met.iter().copied().find(|&q| (q == task.start(4)) == before).unwrap_or(0);
+            let actions: Vec<u32> = (0..10).map(|s| table.greedy(q, s)).collect();
+            let loss = |s| exact.max(q, s) - exact.row(q, s)[actions[s] as usize];
+            Policy { losses: (0..10).map(loss).collect(), actions }
         };
         Composed {
             composition: name.to_owned(),
             satisfied: own.satisfied,
             steps: own.steps,
             fraction_optimal: own.fraction_optimal,
-            before_a: actions(true),
-            after_a: actions(false),
+            before_a: policy(true),
+            after_a: policy(false),
         }
     };
     let rows = methods.map(row).into();
@@ -153,24 +169,24 @@ fn compose() -> Report {
 /// The policies of all compositions, one above the other.
 fn picture(rows: &[Composed]) -> String {
     let (mut body, mut y) = (String::new(), 40.0);
+    for s in 0..10 {
+        let (x, name) = (LEFT + CELL * (s as f64 + 0.5), (s - 5).to_string());
+        text(&mut body, (x, 30.0), Font::new(12.0), Anchor::Middle, &name);
+    }
     for composed in rows {
-        for (when, actions) in [("before a", &composed.before_a), ("after a", &composed.after_a)] {
-            row(&mut body, y, &format!("{}, {when}", composed.composition), actions);
-            y += 50.0;
+        for (when, policy) in [("before a", &composed.before_a), ("after a", &composed.after_a)] {
+            row(&mut body, y, &format!("{}, {when}", composed.composition), policy);
+            y += CELL + 10.0;
         }
     }
-    for s in 0..10 {
-        let (x, name) = (220.0 + 40.0 * s as f64, s - 5);
-        let _ = writeln!(
-            body,
-            "<text x=\"{x}\" y=\"30\" font-size=\"12\" text-anchor=\"middle\">{name}</text>"
-        );
+    for (i, (_, name, colour)) in GOALS.into_iter().enumerate() {
+        let x = LEFT + 60.0 * i as f64;
+        rect(&mut body, (x, y + 8.0, 12.0, 12.0), colour, INK, "");
+        text(&mut body, (x + 18.0, y + 18.0), Font::new(12.0), Anchor::Start, name);
     }
-    format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"620\" height=\"{y}\" viewBox=\"0 0 620 {y}\" \
-         {FONT} fill=\"{INK}\">\n<rect width=\"620\" \
-         height=\"{y}\" fill=\"#ffffff\"/>\n{body}</svg>\n"
-    )
+    let words = "arrows: moves; dots: staying; a number: the expected return that the action loses";
+    text(&mut body, (16.0, y + 42.0), Font::new(12.0), Anchor::Start, words);
+    svg::document("Policies on the line", (670.0, y + 60.0), &body)
 }
 
 fn document(report: &Report, right: bool) -> String {
@@ -199,7 +215,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let study = Study::new("line", &GAMMA);
     let reports = study.run(1, |_| compose())?;
     let report = &reports[0];
-    let right = report.rows[2].before_a[9] != 0;
+    let right = report.rows[2].before_a.actions[9] != 0;
     assert!(report.lost_at_b && right, "the composed policy must keep off b until a");
     study.publish(".svg", &picture(&report.rows))?;
     study.publish(".md", &document(report, right))?;

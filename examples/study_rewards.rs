@@ -170,7 +170,7 @@ fn figure(cases: &[Case]) -> Spread {
         true,
         "P(satisfied) given away, %",
         (1e-3, 100.0),
-        Some(0.1),
+        Some((0.1, "tolerated: 0.1 %".to_owned())),
         safety.collect(),
     );
     let slow = panel(
@@ -230,7 +230,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                    "regret_satisfied": p, "regret_steps": steps})
         })
     });
-    study.publish(".svg", &figure(&cases).svg())?;
+    study.publish(".svg", &figure(&cases).svg("Regret by setting"))?;
     study.publish(".md", &text)?;
     study.publish_lines(lines)?;
     let all = [worst, worst_learned];

@@ -193,6 +193,18 @@ impl Episode {
     }
 }
 
+/// The actions of an episode's [`text`](Episode::text), up to one that `layout` does not have.
+#[must_use]
+pub fn actions(text: &str, layout: &Layout) -> Vec<Action> {
+    let all: Vec<Action> = (0..layout.actions()).map(Action::from_index).collect();
+    let action = |line: &str| {
+        let name = line.split_whitespace().nth(1)?;
+        all.iter().copied().find(|action| action.name(layout) == name)
+    };
+    let start = text.lines().skip_while(|line| !line.starts_with("0 "));
+    start.skip(1).map_while(action).collect()
+}
+
 /// The predicates that make the automaton move from `q` to where it moves; none if it stays.
 fn reasons_for(
     monitor: &dyn Monitor<Known>,

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use tltl_kitchen::show::Episode;
+use tltl_kitchen::show::{self, Episode};
 use tltl_kitchen::tasks::phi_3;
 use tltl_kitchen::{Action, Goal, Goals, Kitchen, Layout, Truth, strip};
 
@@ -65,4 +65,12 @@ fn as_pictures() {
     {
         assert!(svg.contains(told), "{told}");
     }
+}
+
+#[test]
+fn read_back_from_their_text() {
+    let (layout, episode) = recorded();
+    let actions: Vec<Action> = episode.moments.iter().filter_map(|moment| moment.action).collect();
+    assert_eq!(show::actions(&episode.text(&layout), &layout), actions);
+    assert_eq!(show::actions("t   action\n0   (start)\n1   fly\n2   pick\n", &layout), []);
 }

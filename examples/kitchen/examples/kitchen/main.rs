@@ -4,18 +4,23 @@
 //!
 //! `cargo run --release -p tltl-kitchen --example kitchen` runs a part of it in some minutes and writes
 //! to `target/kitchen`; with `--full` it runs all with five seeds (or `--seeds N`) and writes to
-//! `docs/studies`. A run that is killed goes on where it was.
+//! `docs/studies`. A run that is killed goes on where it was. `--redraw` draws the figures in
+//! `docs/studies` again, from the curves and the episode that are recorded there.
 
-mod panels;
+mod figure;
+mod record;
 mod report;
 mod trial;
 
 use std::error::Error;
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde_json::json;
 use tltl_examples::study::Study;
+use tltl_kitchen::strip;
 
+use record::Record;
 use report::Report;
 use trial::{Budget, Outcome, Trials};
 
@@ -76,11 +81,12 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
             Ok(seeds) if seeds > 0 => (Plan::full(seeds), studies()),
             _ => return Err(format!("`{n}` is no number of seeds, from 1").into()),
         },
-        _ => return Err("usage: kitchen [--full [--seeds N]]".into()),
+        ["--redraw"] => return draw(&Trials::new(Plan::full(5).budget)?, &studies()),
+        _ => return Err("usage: kitchen [--full [--seeds N] | --redraw]".into()),
     };
     let trials = Trials::new(plan.budget)?;
-    let study =
-        Study::at(folder, "kitchen", &(&plan.specifications, plan.budget)).every(plan.per_seed());
+    let study = Study::at(folder.clone(), "kitchen", &(&plan.specifications, plan.budget))
+        .every(plan.per_seed());
     let results = study.run(plan.cases(), |case| plan.run(&trials, case));
     let results = results.map_err(|error| error.to_string())?;
     let results = results.into_iter().take(plan.cases() as usize);
@@ -90,13 +96,26 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
         outcome.curves.iter().map(move |curve| json!({"seed": seed, "curve": curve}))
     });
     study.publish_lines(lines)?;
-    let report = Report::new(&trials, results.iter().flat_map(|outcome| &outcome.curves))?;
-    study.publish(".svg", &report.figure())?;
+    let references = report::references(&trials)?;
+    let curves = results.iter().flat_map(|outcome| &outcome.curves);
+    let report = Report::new(curves, &references);
+    study.publish(".csv", &report.record().csv()?)?;
     study.publish(".md", &report.text(plan.seeds))?;
     for (name, content) in &results[0].shown {
         study.publish(name, content)?;
     }
+    draw(&trials, &folder)?;
     Ok(study.finish()?)
+}
+
+/// Draws the figures in `folder` from what is recorded there.
+fn draw(trials: &Trials, folder: &Path) -> Result<(), Box<dyn Error + Send + Sync>> {
+    let read = |name| fs::read_to_string(folder.join(name));
+    let record = Record::read(&read("kitchen.csv")?)?;
+    let figure = figure::svg(&record, &report::references(trials)?);
+    fs::write(folder.join("kitchen.svg"), figure)?;
+    let episode = trials.replay(&read("kitchen_episode.txt")?)?;
+    Ok(fs::write(folder.join("kitchen_episode.svg"), strip::svg(&episode, &trials.layout))?)
 }
 
 /// Where the studies are kept.

@@ -11,103 +11,43 @@ use tltl::rand::{SeedableRng, rngs::Xoshiro256PlusPlus};
 use tltl_kitchen::planner::Planner;
 use tltl_kitchen::searcher::Searcher;
 
-use crate::panels::{self, Chart, Point, Row};
+use crate::figure::{Content, ROWS};
+use crate::record::Record;
 use crate::trial::{Curve, Trials, Worth, specification};
 
 /// Starts that the planner and the searcher are tried on.
 const STARTS: u64 = 500;
 
-/// The curves of each row of the figure.
-const ROWS: [(&str, &str, &[&str]); 3] = [
-    (
-        "(c) Task 1: the apple into the fridge",
-        "environment steps",
-        &["φ1.1", "φ1.1*", "φ1.2", "φ1.2*", "φ1.3", "φ1.3*"],
-    ),
-    (
-        "(d) Task 2: any object into any receptacle",
-        "environment steps",
-        &["φ2.1", "φ2.1*", "φ2.2", "φ2.2*", "φ2.3", "φ2.3*"],
-    ),
-    ("(e) Composition: φ1.3* ∧ φ2.3*", "updates", &["c1", "max", "c2", "c3", "from scratch"]),
-];
-
 /// What others need for a problem, mean steps.
-struct Reference {
-    planner: f64,
-    searcher: f64,
+pub(crate) struct Reference {
+    pub(crate) planner: f64,
+    pub(crate) searcher: f64,
+}
+
+/// The references of all problems.
+pub(crate) fn references(trials: &Trials) -> Result<[Reference; 3], Box<dyn Error + Send + Sync>> {
+    Ok([reference(trials, 0)?, reference(trials, 1)?, reference(trials, 2)?])
 }
 
 /// All curves, by name, one for each seed.
 pub(crate) struct Report<'a> {
     curves: BTreeMap<&'a str, Vec<&'a Curve>>,
-    references: Vec<Reference>,
-    horizons: [u32; 3],
+    references: &'a [Reference; 3],
 }
 
 impl<'a> Report<'a> {
     pub(crate) fn new(
-        trials: &Trials,
         results: impl IntoIterator<Item = &'a Curve>,
-    ) -> Result<Self, Box<dyn Error + Send + Sync>> {
+        references: &'a [Reference; 3],
+    ) -> Self {
         let mut curves: BTreeMap<&str, Vec<&Curve>> = BTreeMap::new();
         results.into_iter().for_each(|curve| curves.entry(&curve.name).or_default().push(curve));
-        let references = (0..3).map(|problem| reference(trials, problem));
-        let references = references.collect::<Result<_, _>>()?;
-        Ok(Self { curves, references, horizons: crate::trial::HORIZONS })
+        Self { curves, references }
     }
 
-    /// The three rows of the paper's Figure 3 (c), (d), (e).
-    pub(crate) fn figure(&self) -> String {
-        let row = |problem: usize| {
-            let (title, x, names) = ROWS[problem];
-            let chart = |title, top, share, of: fn(&Worth) -> f64, lines| Chart {
-                title,
-                top,
-                share,
-                curves: names.iter().map(|name| self.curve(name, of)).collect(),
-                lines,
-            };
-            let Reference { planner, searcher } = self.references[problem];
-            let charts = vec![
-                chart("task success rate", 1.0, true, |worth| worth.success, vec![]),
-                chart("action success rate", 1.0, true, |worth| worth.actions, vec![]),
-                chart(
-                    "mean episode length",
-                    f64::from(self.horizons[problem]),
-                    false,
-                    |worth| worth.length,
-                    vec![(searcher, "searcher"), (planner, "planner")],
-                ),
-            ];
-            Row { title: title.to_owned(), x, charts }
-        };
-        panels::svg(&(0..3).map(row).collect::<Vec<_>>())
-    }
-
-    /// A curve: the mean over the seeds, and that less and plus its standard error, within the range.
-    fn curve(&self, name: &str, of: fn(&Worth) -> f64) -> panels::Curve {
-        let seeds = self.curves.get(name).map_or(&[][..], Vec::as_slice);
-        let length = seeds.iter().map(|curve| curve.points.len()).min().unwrap_or(0);
-        let point = |i: usize| -> Point {
-            let values = seeds.iter().map(|curve| of(&curve.points[i]));
-            let (low, high) = values
-                .clone()
-                .fold((f64::MAX, f64::MIN), |(low, high), v| (v.min(low), v.max(high)));
-            let x = seeds.iter().map(|curve| curve.points[i].x as f64).sum::<f64>();
-            let n = seeds.len() as f64;
-            let mean = values.clone().sum::<f64>() / n;
-            let squares = values.map(|v| (v - mean).powi(2)).sum::<f64>();
-            let error = if n > 1.0 { (squares / (n - 1.0) / n).sqrt() } else { 0.0 };
-            (x / n, mean, low.max(mean - error), high.min(mean + error))
-        };
-        let points: Vec<Point> = (0..length).map(point).collect();
-        // What is not learned is a level.
-        let level = matches!(points[..], [_]).then(|| {
-            let right = self.curves.get("c3").and_then(|c3| c3[0].points.last()).map_or(1, |p| p.x);
-            [points[0], Point::from((right as f64, points[0].1, points[0].2, points[0].3))]
-        });
-        panels::Curve { name: name.to_owned(), points: level.map_or(points, Vec::from) }
+    /// What the figure shows.
+    pub(crate) fn record(&self) -> Record {
+        Record::new(&self.curves)
     }
 
     /// Mean and range of the last policies' `of`.
@@ -124,15 +64,16 @@ impl<'a> Report<'a> {
         let mut text = format!(
             "{HEAD}\nSeeds: {seeds}. The mean, and in brackets the range over the seeds.\n\n"
         );
-        for (problem, (title, _, names)) in ROWS.iter().enumerate() {
-            let Reference { planner, searcher } = self.references[problem];
+        for (Content { title, curves, .. }, reference) in ROWS.iter().zip(self.references) {
+            let Reference { planner, searcher } = reference;
             let _ = writeln!(
                 text,
                 "### {title}\n\nThe planner, which sees everything, needs {planner:.2} steps; the searcher, \
                  which sees what the agent sees, {searcher:.2}.\n\n| | task success | action success | \
                  mean length | against the searcher |\n| --- | --- | --- | --- | --- |"
             );
-            for name in names.iter().filter(|name| self.curves.contains_key(*name)) {
+            let run = curves.iter().filter(|(name, _)| self.curves.contains_key(name));
+            for (name, _) in run {
                 let share = |of| {
                     self.last(name, of).map_or(String::new(), |v| {
                         let [mean, low, high] = v.map(|v| 100.0 * v);
@@ -190,7 +131,7 @@ const CLAIMS: [(&str, &[&str]); 6] = [
 
 const HEAD: &str = "# The kitchen\n\n\
 ![Success, action success and length of both tasks and of their composition](kitchen.svg)\n\n\
-An episode of the composed policy: [as a table](kitchen_episode.txt), [as pictures](kitchen_episode.svg).\n\n\
+The curves as numbers: [kitchen.csv](kitchen.csv). An episode of the composed policy: [as a table](kitchen_episode.txt), [as pictures](kitchen_episode.svg).\n\n\
 The paper's main experiment (Section 5.2, Figure 3) in an exact simulator: 17 objects, 39 receptacles, 62 \
 actions, hidden objects. The paper ran in AI2-THOR, and its specifications are lost with its supplement; what \
 is known and what is reconstructed is in the documentation of `tltl_kitchen`, and the formulas are in \

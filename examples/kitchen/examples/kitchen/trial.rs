@@ -16,9 +16,9 @@ use tltl::policy::States;
 use tltl::product::Product;
 use tltl::rand::{SeedableRng, rngs::Xoshiro256PlusPlus};
 use tltl_kitchen::features::{FeasibleGoals, View, exploration};
-use tltl_kitchen::show::Episode;
+use tltl_kitchen::show::{self, Episode};
 use tltl_kitchen::tasks::{phi1_1, phi1_2, phi1_3, told};
-use tltl_kitchen::{Action, Goal, Goals, Kitchen, Known, Layout, strip};
+use tltl_kitchen::{Action, Goal, Goals, Kitchen, Known, Layout};
 
 /// Episodes of an evaluation during training, as in the paper.
 const EPISODES: u64 = 50;
@@ -81,7 +81,7 @@ pub(crate) struct Trials {
 }
 
 type DeepLearner<'a> = Learner<Known, &'a dyn Monitor<Known>, View, FeasibleGoals>;
-type Failure = Box<dyn Error + Send + Sync>;
+pub(crate) type Failure = Box<dyn Error + Send + Sync>;
 
 impl Trials {
     pub(crate) fn new(budget: Budget) -> Result<Self, Failure> {
@@ -259,22 +259,21 @@ impl Trials {
             refined.points.extend(now.points);
             refined.last = now.last;
         }
-        let mut shown = self.episode(&product, |q, s| composition.act(q, s))?;
-        shown.push(("_policy.json".into(), self.policy(&*monitors[1], networks[1].clone())?));
+        let shown = vec![
+            ("_episode.txt".into(), self.episode(|q, s| composition.act(q, s))?),
+            ("_policy.json".into(), self.policy(&*monitors[1], networks[1].clone())?),
+        ];
         curves.extend([sum, refined, self.learned_whole(&product, seed)?]);
         Ok(Outcome { curves, shown })
     }
 
-    /// An episode of the composed policy, as a table and as a strip of pictures.
+    /// An episode of a policy of the composition, as a table.
     fn episode(
         &self,
-        product: &Product<'_, Known>,
         mut act: impl FnMut(u32, &Known) -> Result<usize, tltl::deep::Error>,
-    ) -> Result<Vec<(String, String)>, Failure> {
-        let mut kitchen = self.kitchen(2)?;
-        let told = kitchen.reset(&mut Xoshiro256PlusPlus::seed_from_u64(4_000)).goal();
+    ) -> Result<String, Failure> {
         let mut failure = None;
-        let episode = Episode::record(&mut kitchen, product, &[self.apple, told], |known, q| {
+        let episode = self.record(|known, q| {
             let action = act(q, known).unwrap_or_else(|error| {
                 failure = Some(error);
                 0
@@ -282,10 +281,31 @@ impl Trials {
             Action::from_index(action)
         })?;
         failure.map_or(Ok(()), Err)?;
-        Ok(vec![
-            ("_episode.txt".into(), episode.text(&self.layout)),
-            ("_episode.svg".into(), strip::svg(&episode, &self.layout)),
-        ])
+        Ok(episode.text(&self.layout))
+    }
+
+    /// The episode of a table.
+    pub(crate) fn replay(&self, table: &str) -> Result<Episode, Failure> {
+        let mut actions = show::actions(table, &self.layout).into_iter();
+        let mut short = false;
+        let episode = self.record(|_, _| {
+            actions.next().unwrap_or_else(|| {
+                short = true;
+                Action::Pick
+            })
+        })?;
+        if short || episode.text(&self.layout) != table {
+            return Err("the recorded episode is of another kitchen or task".into());
+        }
+        Ok(episode)
+    }
+
+    fn record(&self, policy: impl FnMut(&Known, u32) -> Action) -> Result<Episode, Failure> {
+        let monitors = [specification(0, 2), specification(1, 2)];
+        let product = Product::conjunction(&[&*monitors[0], &*monitors[1]]);
+        let mut kitchen = self.kitchen(2)?;
+        let told = kitchen.reset(&mut Xoshiro256PlusPlus::seed_from_u64(4_000)).goal();
+        Ok(Episode::record(&mut kitchen, &product, &[self.apple, told], policy)?)
     }
 
     /// The network of task 2 as a policy that `tltlc policy` turns into Rust.
