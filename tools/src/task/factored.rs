@@ -44,15 +44,15 @@ impl Factored {
         let places = factored.parts.iter().map(|part| part.propositions.clone().into());
         let places: Vec<Shared<[u32]>> = places.collect();
         let joint = if factored.joint { JointDeadEnds::None } else { JointDeadEnds::NotSearched };
-        let runtime = parts.iter().zip(&places).map(|(part, places)| Part {
+        let owned = |(part, places): (&Task, &Shared<[u32]>)| Part {
             formula: part.formula().clone(),
             automaton: part.automaton().clone(),
             predicates: places.clone(),
-        });
+        };
+        let owned: Shared<[Part]> = parts.iter().zip(&places).map(owned).collect();
         let name = entry.name().unwrap_or_default().to_owned();
         let text = entry.task().text.clone();
-        let parts_of = runtime.collect::<Shared<[Part]>>();
-        let monitor = tltl::Factored::new(name, text, parts_of, joint, evaluator.clone())
+        let monitor = tltl::Factored::new(name, text, owned, joint, evaluator.clone())
             .expect("a part's propositions are the predicates that the compiler numbered");
         let entry = entry.clone();
         Ok(Self(Arc::new(Inner { entry, arguments, evaluator, parts, places, monitor })))
