@@ -79,7 +79,7 @@ fn what_users_build_is_counted() {
 const ORDER: [(&str, &str); 3] = [
     (
         "compiler",
-        "source error arena token reserved ast unit guard dfa grammar parse spec predicate linear \
+        "source error arena token reserved ast unit bdd dfa grammar parse spec predicate linear \
          arithmetic check translate minimize factor judge compile hoa tables emit",
     ),
     ("macros", "tokens expand"),

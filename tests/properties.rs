@@ -4,9 +4,9 @@ use std::collections::BTreeSet;
 
 use proptest::prelude::*;
 use tltl::Acceptor;
+use tltl_compiler::bdd::Cube;
 use tltl_compiler::check;
 use tltl_compiler::dfa::{Dfa, Guards, State};
-use tltl_compiler::guard::Cube;
 use tltl_compiler::minimize::minimize;
 use tltl_compiler::source::Source;
 use tltl_compiler::spec::Spec;

@@ -55,6 +55,7 @@ impl<A: Id, B: Id> Key for (A, B) {
 
 /// A map from ids, or pairs of them, to ids. Of whatever kinds these are, one type of table is
 /// behind it, for each more would be built into every crate that uses the macros.
+#[derive(Clone, Debug)]
 pub(crate) struct Memo<K, V> {
     known: FxHashMap<u64, u32>,
     kinds: PhantomData<fn(K) -> V>,

@@ -18,9 +18,8 @@
 mod form;
 mod relation;
 
-use crate::arena::Memo;
-use crate::dfa::{Dfa, Diagram, Target};
-use crate::guard::{Guard, Store};
+use crate::bdd::{Bdd, Diagram};
+use crate::dfa::Dfa;
 use crate::predicate::{ConditionId, Module, PredicateId, Task};
 
 use relation::Analysis;
@@ -32,8 +31,8 @@ pub const CELL_LIMIT: usize = 1 << 12;
 
 /// The letters of a task that can occur.
 pub struct Possible {
-    store: Store,
-    letters: Guard,
+    diagram: Diagram,
+    letters: Bdd,
 }
 
 /// The letters that can occur: those valuations of the task's propositions that some state has.
@@ -48,10 +47,10 @@ pub fn possible(module: &Module, task: &Task) -> Possible {
 #[must_use]
 pub fn possible_conditions(module: &Module, roots: &[ConditionId]) -> Possible {
     let analysis = Analysis::new(module);
-    let mut possible = Possible { store: Store::default(), letters: Guard::TRUE };
+    let mut possible = Possible { diagram: Diagram::default(), letters: Bdd::TRUE };
     for component in analysis.components(roots) {
-        if let Some(letters) = analysis.relate(roots, &component, &mut possible.store) {
-            possible.letters = possible.store.and(possible.letters, letters);
+        if let Some(letters) = analysis.relate(roots, &component, &mut possible.diagram) {
+            possible.letters = possible.diagram.and(possible.letters, letters);
         }
     }
     possible
@@ -61,16 +60,16 @@ impl Possible {
     /// Whether every letter can occur.
     #[must_use]
     pub fn all(&self) -> bool {
-        self.letters == Guard::TRUE
+        self.letters == Bdd::TRUE
     }
 
     /// Whether a proposition can be true, and whether it can be false.
     #[must_use]
     pub fn values(&mut self, proposition: u32) -> (bool, bool) {
-        let holds = self.store.variable(proposition);
-        let yes = self.store.and(self.letters, holds);
-        let no = self.store.minus(self.letters, holds);
-        (yes != Guard::FALSE, no != Guard::FALSE)
+        let holds = self.diagram.variable(proposition);
+        let yes = self.diagram.and(self.letters, holds);
+        let no = self.diagram.minus(self.letters, holds);
+        (yes != Bdd::FALSE, no != Bdd::FALSE)
     }
 
     /// Whether no letter has all of these values.
@@ -78,13 +77,13 @@ impl Possible {
     pub fn excludes(&mut self, literals: &[(u32, bool)]) -> bool {
         let mut letters = self.letters;
         for &(proposition, value) in literals {
-            let holds = self.store.variable(proposition);
+            let holds = self.diagram.variable(proposition);
             letters = match value {
-                true => self.store.and(letters, holds),
-                false => self.store.minus(letters, holds),
+                true => self.diagram.and(letters, holds),
+                false => self.diagram.minus(letters, holds),
             };
         }
-        letters == Guard::FALSE
+        letters == Bdd::FALSE
     }
 
     /// The automaton without the edges that only impossible letters take. States and the
@@ -93,35 +92,29 @@ impl Possible {
     /// diagrams of two states are equal iff they are on all of those.
     #[must_use]
     pub fn restrict(&self, dfa: &Dfa) -> Dfa {
-        let mut restriction = Restriction {
-            possible: self,
-            dfa,
-            diagram: Diagram::default(),
-            known: Memo::default(),
-        };
-        let restricted: Vec<_> = dfa
-            .transitions
-            .iter()
-            .map(|&target| restriction.target(target, self.letters).unwrap_or(target))
-            .collect();
-        let mut dfa = Dfa {
+        let mut diagram = dfa.diagram.clone();
+        let letters = diagram.import(&self.diagram, self.letters);
+        let roots: Vec<Bdd> =
+            dfa.transitions.iter().map(|&root| diagram.constrain(root, letters)).collect();
+        let (diagram, transitions) = diagram.map_leaves(&roots, &Bdd::leaf);
+        let mut restricted = Dfa {
             propositions: dfa.propositions.clone(),
-            diagram: restriction.diagram,
-            transitions: restricted,
+            diagram,
+            transitions,
             accepting: dfa.accepting,
             trap: dfa.trap,
             possible: None,
         };
-        self.settle_initial(&mut dfa);
-        dfa
+        self.settle_initial(&mut restricted);
+        restricted
     }
 
     /// The state before the first letter counts as accepting if every possible letter accepts.
     fn settle_initial(&self, dfa: &mut Dfa) {
         if let Some(accepting) = dfa.accepting
-            && dfa.transitions[0] == Target::to_state(accepting)
+            && dfa.transitions[0] == Bdd::leaf(accepting)
         {
-            dfa.transitions[0] = Target::to_state(0);
+            dfa.transitions[0] = Bdd::leaf(0);
             dfa.accepting = Some(0);
         }
     }
@@ -129,57 +122,7 @@ impl Possible {
     /// Writes the possible letters into an automaton, for its guards.
     pub fn attach(&self, dfa: &mut Dfa) {
         if !self.all() {
-            let mut known = Memo::default();
-            dfa.possible = Some(self.copy(self.letters, &mut dfa.diagram, &mut known));
+            dfa.possible = Some(dfa.diagram.import(&self.diagram, self.letters));
         }
-    }
-
-    fn copy(&self, f: Guard, diagram: &mut Diagram, known: &mut Memo<Guard, Target>) -> Target {
-        if f == Guard::TRUE || f == Guard::FALSE {
-            return Target::to_state(u32::from(f == Guard::TRUE));
-        }
-        if let Some(target) = known.get(f) {
-            return target;
-        }
-        let (low, high) = self.store.branches(f);
-        let (low, high) = (self.copy(low, diagram, known), self.copy(high, diagram, known));
-        let target = diagram.node(self.store.level(f), low, high);
-        known.insert(f, target);
-        target
-    }
-}
-
-struct Restriction<'a> {
-    possible: &'a Possible,
-    dfa: &'a Dfa,
-    diagram: Diagram,
-    known: Memo<(Target, Guard), Target>,
-}
-
-impl Restriction<'_> {
-    /// The target on the letters of `on`; `None` if there are none.
-    fn target(&mut self, target: Target, on: Guard) -> Option<Target> {
-        if on == Guard::FALSE {
-            return None;
-        }
-        if target.state().is_some() {
-            return Some(target);
-        }
-        if let Some(known) = self.known.get((target, on)) {
-            return Some(known);
-        }
-        let store = &self.possible.store;
-        let asked = self.dfa.diagram.proposition(target).unwrap_or(u32::MAX);
-        let proposition = asked.min(store.level(on));
-        let (low, high) = self.dfa.diagram.split(target, proposition);
-        let (on_low, on_high) =
-            if store.level(on) == proposition { store.branches(on) } else { (on, on) };
-        let (low, high) = (self.target(low, on_low), self.target(high, on_high));
-        let restricted = match (low, high) {
-            (Some(low), Some(high)) => self.diagram.node(proposition, low, high),
-            (one, other) => one.or(other)?,
-        };
-        self.known.insert((target, on), restricted);
-        Some(restricted)
     }
 }

@@ -162,7 +162,7 @@ fn check_size(dfa: &Dfa, budget: Budget) -> Result<(), Exceeded> {
     }
     let mut edges = 0;
     for &target in &dfa.transitions {
-        edges += dfa.leaves(target).len();
+        edges += dfa.diagram.leaves(target).len();
         if edges > budget.edges {
             return Err(Exceeded { what: Resource::Edges, limit: budget.edges });
         }

@@ -2,111 +2,17 @@
 //! their transition function.
 //!
 //! A [`Dfa`] may be raw (as translated) or canonical (as [`minimize`](crate::minimize::minimize)
-//! leaves it): complete, reachable, states numbered breadth-first,
-//! letters in lexicographic order (proposition 0 first, false before true).
+//! leaves it): complete, reachable, states numbered breadth-first, letters in lexicographic order
+//! (proposition 0 first, false before true), the nodes of the diagram in postorder.
 
 mod edge;
 
-use rustc_hash::{FxHashMap, FxHashSet};
-
-use crate::arena::{self, Memo};
-use crate::guard::{Cube, Guard, Store};
+use crate::bdd::{Bdd, Cube, Diagram, Literal};
 
 pub use edge::Edge;
 
 /// A state of an automaton; the initial one is 0.
 pub type State = u32;
-
-/// Where a transition goes: to a state, or first to a node that asks one more proposition.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Target(u32);
-
-arena::id! { Target }
-
-impl Target {
-    const LEAF: u32 = 1 << 31;
-
-    /// The state itself, whatever the remaining propositions.
-    #[must_use]
-    pub fn to_state(state: State) -> Self {
-        Self(Self::LEAF | state)
-    }
-
-    /// A node of the automaton's diagram.
-    #[must_use]
-    pub fn to_node(index: u32) -> Self {
-        Self(index)
-    }
-
-    /// The state, if no proposition is left to ask.
-    #[must_use]
-    pub fn state(self) -> Option<State> {
-        (self.0 >= Self::LEAF).then_some(self.0 & !Self::LEAF)
-    }
-
-    /// The node's index, if one is to be asked.
-    #[must_use]
-    pub fn node(self) -> Option<u32> {
-        (self.0 < Self::LEAF).then_some(self.0)
-    }
-}
-
-/// A node: asks one proposition. Lower-numbered propositions are asked first: formulas are mostly
-/// written in the order in which things shall happen, and then later goals share the diagrams of
-/// earlier ones (the opposite order makes nested goals cubic).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Node {
-    /// The proposition.
-    pub proposition: u32,
-    /// If it is false.
-    pub low: Target,
-    /// If it is true.
-    pub high: Target,
-}
-
-/// The nodes of a transition function: reduced, shared, children before parents.
-#[derive(Clone, Debug, Default)]
-pub struct Diagram {
-    nodes: Vec<Node>,
-    unique: FxHashMap<Node, Target>,
-}
-
-impl Diagram {
-    /// All nodes, children before parents.
-    #[must_use]
-    pub fn nodes(&self) -> &[Node] {
-        &self.nodes
-    }
-
-    /// The target that asks `proposition`, which must be lower than all that `low` and `high` ask.
-    pub fn node(&mut self, proposition: u32, low: Target, high: Target) -> Target {
-        if low == high {
-            return low;
-        }
-        let fresh = Target(u32::try_from(self.nodes.len()).expect("fewer than 2^31 nodes"));
-        let node = Node { proposition, low, high };
-        *self.unique.entry(node).or_insert_with(|| {
-            self.nodes.push(node);
-            fresh
-        })
-    }
-
-    /// The proposition that a target asks first.
-    #[must_use]
-    pub fn proposition(&self, target: Target) -> Option<u32> {
-        target.node().map(|index| self.nodes[index as usize].proposition)
-    }
-
-    /// What a target becomes when `proposition` is false, and true; it must be the first that the
-    /// target asks, or lower.
-    #[must_use]
-    pub fn split(&self, target: Target, proposition: u32) -> (Target, Target) {
-        match target.node().map(|index| self.nodes[index as usize]) {
-            Some(node) if node.proposition == proposition => (node.low, node.high),
-            _ => (target, target),
-        }
-    }
-}
 
 /// A complete deterministic automaton with at most one accepting state and at most one trap, both
 /// absorbing.
@@ -114,17 +20,18 @@ impl Diagram {
 pub struct Dfa {
     /// The propositions; bit i of a letter is proposition i.
     pub propositions: Vec<String>,
-    /// The nodes that the transitions of all states share.
+    /// The nodes that the transitions of all states share. Levels are propositions: formulas are
+    /// mostly written in the order in which things shall happen, and then later goals share the
+    /// diagrams of earlier ones (the opposite order makes nested goals cubic).
     pub diagram: Diagram,
-    /// The transitions of each state.
-    pub transitions: Vec<Target>,
+    /// The transition function of each state, whose leaves are states.
+    pub transitions: Vec<Bdd>,
     /// The accepting state, if there is one.
     pub accepting: Option<State>,
     /// The rejecting trap, if there is one.
     pub trap: Option<State>,
-    /// The letters that can occur, as transitions to state 1 (possible) or 0 (impossible);
-    /// `None` if all can.
-    pub possible: Option<Target>,
+    /// The letters that can occur, as a Boolean function; `None` if all can.
+    pub possible: Option<Bdd>,
 }
 
 /// The two automata of a task.
@@ -174,38 +81,14 @@ impl Dfa {
     /// # Panics
     /// If `q` is not a state.
     pub fn next(&self, q: State, holds: impl Fn(u32) -> bool) -> State {
-        let mut at = self.transitions[q as usize];
-        while let Some(index) = at.node() {
-            let node = &self.diagram.nodes[index as usize];
-            at = if holds(node.proposition) { node.high } else { node.low };
-        }
-        at.state().expect("a target is a node or a state")
+        self.diagram.evaluate(self.transitions[q as usize], &holds)
     }
 
     /// The states that `q` can move to, itself included where it can stay; by rising number.
     #[must_use]
     pub fn successors(&self, q: State) -> Vec<State> {
-        let mut found = self.leaves(self.transitions[q as usize]);
+        let mut found = self.diagram.leaves(self.transitions[q as usize]);
         found.sort_unstable();
-        found
-    }
-
-    /// The distinct states that a target leads to, in lexicographic order of the first letter that
-    /// does.
-    #[must_use]
-    pub fn leaves(&self, from: Target) -> Vec<State> {
-        let mut seen = FxHashSet::default();
-        let mut found = Vec::new();
-        let mut stack = vec![from];
-        while let Some(target) = stack.pop() {
-            if !seen.insert(target.0) {
-                continue;
-            }
-            match target.node().map(|index| self.diagram.nodes[index as usize]) {
-                Some(node) => stack.extend([node.high, node.low]),
-                None => found.extend(target.state()),
-            }
-        }
         found
     }
 
@@ -220,7 +103,7 @@ impl Dfa {
             trap: self.trap.is_some(),
         };
         for q in self.states() {
-            for to in self.leaves(self.transitions[q as usize]) {
+            for to in self.diagram.leaves(self.transitions[q as usize]) {
                 size.self_loops += usize::from(to == q);
                 size.edges += usize::from(to != q);
                 size.into_trap += usize::from(to != q && self.trap == Some(to));
@@ -257,82 +140,72 @@ impl Dfa {
 /// The guards of an automaton, each as an irredundant sum of products.
 pub struct Guards<'a> {
     dfa: &'a Dfa,
-    store: Store,
-    possible: Guard,
+    /// Boolean functions of the propositions.
+    diagram: Diagram,
+    possible: Bdd,
+    /// For each node of the automaton's diagram the states that it leads to, and when: computed
+    /// once for all states that share the node.
+    indicators: Vec<Vec<(State, Bdd)>>,
 }
 
 impl<'a> Guards<'a> {
     /// Guards of `dfa`; letters that cannot occur are used to shorten them.
     #[must_use]
     pub fn new(dfa: &'a Dfa) -> Self {
-        let mut guards = Self { dfa, store: Store::default(), possible: Guard::TRUE };
-        if let Some(possible) = dfa.possible {
-            guards.possible = guards.when(possible, &|leaf| leaf == 1);
-        }
-        guards
+        let mut diagram = Diagram::default();
+        let possible = dfa.possible.map_or(Bdd::TRUE, |f| diagram.import(&dfa.diagram, f));
+        let indicators = dfa.diagram.indicators(&mut diagram);
+        Self { dfa, diagram, possible, indicators }
     }
 
     /// ψ_{q,to}: when `q` moves to `to`. Literals are `(proposition, value)`, by rising
     /// proposition.
     pub fn edge(&mut self, q: State, to: State) -> Vec<Cube> {
-        self.cubes(q, &|leaf| leaf == to, usize::MAX).unwrap_or_default()
+        self.cubes(self.moves(q, to), usize::MAX).unwrap_or_default()
     }
 
     /// D_φ^q: when `q` moves to another state that is not the trap (paper, Eq. 3A3).
     pub fn progress(&mut self, q: State) -> Vec<Cube> {
-        let trap = self.dfa.trap;
-        self.cubes(q, &|leaf| leaf != q && Some(leaf) != trap, usize::MAX).unwrap_or_default()
+        let progresses = self.progresses(q);
+        self.cubes(progresses, usize::MAX).unwrap_or_default()
     }
 
     /// Whether no guard has more than `most` products.
     pub fn are_below(&mut self, most: usize) -> bool {
         let dfa = self.dfa;
         dfa.states().all(|q| {
-            let progress = |leaf| leaf != q && Some(leaf) != dfa.trap;
-            let mut successors = dfa.successors(q).into_iter();
-            successors.all(|to| self.cubes(q, &|leaf| leaf == to, most).is_some())
-                && self.cubes(q, &progress, most).is_some()
+            let mut functions: Vec<Bdd> =
+                dfa.successors(q).into_iter().map(|to| self.moves(q, to)).collect();
+            functions.push(self.progresses(q));
+            functions.into_iter().all(|when| self.cubes(when, most).is_some())
         })
     }
 
-    fn cubes(
-        &mut self,
-        q: State,
-        select: &dyn Fn(State) -> bool,
-        most: usize,
-    ) -> Option<Vec<Cube>> {
-        let when = self.when(self.dfa.transitions[q as usize], select);
-        let lower = self.store.and(when, self.possible);
-        let impossible = self.store.not(self.possible);
-        let upper = self.store.or(when, impossible);
-        let mut cubes = self.store.sum_of_products(lower, upper, most)?;
-        cubes.sort_by_key(|cube| cube.iter().map(|&(p, value)| (p, !value)).collect::<Vec<_>>());
+    /// The letters under which `q` moves to `to`.
+    fn moves(&self, q: State, to: State) -> Bdd {
+        let root = self.dfa.transitions[q as usize];
+        let Some(node) = root.index() else { return Bdd::leaf(u32::from(root == Bdd::leaf(to))) };
+        let known = &self.indicators[node as usize];
+        let place = known.binary_search_by_key(&to, |&(leaf, _)| leaf);
+        place.map_or(Bdd::FALSE, |place| known[place].1)
+    }
+
+    /// The letters under which `q` moves on, and not into the trap.
+    fn progresses(&mut self, q: State) -> Bdd {
+        let trapped = self.dfa.trap.map_or(Bdd::FALSE, |trap| self.moves(q, trap));
+        let stays = self.diagram.or(self.moves(q, q), trapped);
+        self.diagram.not(stays)
+    }
+
+    /// A sum of products that is `when` on all possible letters, the products in the lexicographic
+    /// order of their literals, true before false.
+    fn cubes(&mut self, when: Bdd, most: usize) -> Option<Vec<Cube>> {
+        let lower = self.diagram.and(when, self.possible);
+        let impossible = self.diagram.not(self.possible);
+        let upper = self.diagram.or(when, impossible);
+        let mut cubes = self.diagram.sum_of_products(lower, upper, most)?;
+        let key = |&(proposition, value): &Literal| (proposition, !value);
+        cubes.sort_by(|a, b| a.iter().map(key).cmp(b.iter().map(key)));
         Some(cubes)
-    }
-
-    /// The letters under which a target leads to a selected state; levels are propositions.
-    fn when(&mut self, target: Target, select: &dyn Fn(State) -> bool) -> Guard {
-        let mut memo = Memo::default();
-        self.build(target, select, &mut memo)
-    }
-
-    fn build(
-        &mut self,
-        target: Target,
-        select: &dyn Fn(State) -> bool,
-        memo: &mut Memo<Target, Guard>,
-    ) -> Guard {
-        if let Some(state) = target.state() {
-            return if select(state) { Guard::TRUE } else { Guard::FALSE };
-        }
-        if let Some(known) = memo.get(target) {
-            return known;
-        }
-        let proposition = self.dfa.diagram.proposition(target).expect("a node asks");
-        let (low, high) = self.dfa.diagram.split(target, proposition);
-        let (low, high) = (self.build(low, select, memo), self.build(high, select, memo));
-        let guard = self.store.node(proposition, low, high);
-        memo.insert(target, guard);
-        guard
     }
 }

@@ -10,6 +10,10 @@ use crate::spec::{Formula, FormulaId, Spec};
 use crate::translate::{Budget, Exceeded, translate};
 
 /// What the joint automaton of conjuncts that share propositions may need.
+///
+/// Eight goals with one hazard in common have 257 states and run apart, seven have 129 and run as
+/// one. A try that fails costs an unoptimised macro at most a fifth of a second (30 such goals: 0.1 s);
+/// with [`Budget::EMITTED`] it would cost these 3.4 s.
 pub const PART: Budget = Budget { states: 256, nodes: 1 << 16, ..Budget::EMITTED };
 
 /// One part: its formula, and the propositions of the whole that its own ones are.

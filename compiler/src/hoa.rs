@@ -47,7 +47,7 @@ pub fn read(source: &Source) -> Result<Automaton, Error> {
     let mut header = header::read(&mut tokens)?;
     let body = body::read(&mut tokens, &mut header)?;
     tokens.finish()?;
-    let dfa = accept::finish(&header, body)?;
+    let dfa = accept::finish(&mut header, body)?;
     Ok(Automaton { name: header.name, dfa: minimize(&dfa) })
 }
 

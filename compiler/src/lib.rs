@@ -38,13 +38,13 @@
 mod arena;
 pub mod arithmetic;
 pub mod ast;
+pub mod bdd;
 pub mod check;
 pub mod compile;
 pub mod dfa;
 pub mod emit;
 pub mod error;
 pub mod factor;
-pub mod guard;
 #[cfg(feature = "hoa")]
 pub mod hoa;
 pub mod judge;

@@ -8,7 +8,8 @@
 //! languages over equal propositions give equal automata, byte for byte.
 
 use crate::arena::Memo;
-use crate::dfa::{Dfa, Diagram, State, Target};
+use crate::bdd::{Bdd, Diagram, Node};
+use crate::dfa::{Dfa, State};
 
 /// The minimal complete automaton with the same language, in canonical numbering.
 ///
@@ -32,10 +33,11 @@ pub fn canonical_order(dfa: &Dfa) -> (Dfa, Vec<State>) {
 /// equivalent states share: in a sequence of goals these alone tell all states apart, and without
 /// them it would take as many rounds as there are goals.
 fn classes(dfa: &Dfa) -> Vec<State> {
+    let order = dfa.diagram.postorder(&dfa.transitions);
     let mut classes = distances(dfa);
     let mut count = 0;
     loop {
-        let (refined, refined_count) = refine(dfa, &classes);
+        let (refined, refined_count) = refine(dfa, &order, &classes);
         if refined_count == count {
             return refined;
         }
@@ -51,17 +53,17 @@ fn distances(dfa: &Dfa) -> Vec<State> {
     let mut distances = vec![never; dfa.len()];
     let above = above(dfa);
     let mut frontier: Vec<State> = dfa.accepting.into_iter().collect();
-    if dfa.accepting.is_some_and(|q| dfa.transitions[0] == Target::to_state(q)) {
+    if dfa.accepting.is_some_and(|q| dfa.transitions[0] == Bdd::leaf(q)) {
         frontier.push(0);
     }
     frontier.iter().for_each(|&q| distances[q as usize] = 0);
     let mut seen = vec![false; dfa.diagram.nodes().len()];
     let mut stack = Vec::new();
     for distance in 1.. {
-        stack.extend(frontier.drain(..).map(Target::to_state));
+        stack.extend(frontier.drain(..).map(Bdd::leaf));
         while let Some(target) = stack.pop() {
             for &parent in above.of(target) {
-                match (parent.node(), parent.state()) {
+                match (parent.index(), parent.value()) {
                     (Some(node), _) if !std::mem::replace(&mut seen[node as usize], true) => {
                         stack.push(parent);
                     }
@@ -85,18 +87,18 @@ struct Above {
     states: usize,
     /// Where the parents of each begin, states first.
     starts: Vec<u32>,
-    parents: Vec<Target>,
+    parents: Vec<Bdd>,
 }
 
 impl Above {
-    fn place(states: usize, target: Target) -> usize {
-        match target.node() {
+    fn place(states: usize, target: Bdd) -> usize {
+        match target.index() {
             Some(node) => states + node as usize,
-            None => target.state().expect("a node or a state") as usize,
+            None => target.value().expect("a node or a state") as usize,
         }
     }
 
-    fn of(&self, target: Target) -> &[Target] {
+    fn of(&self, target: Bdd) -> &[Bdd] {
         let place = Self::place(self.states, target);
         &self.parents[self.starts[place] as usize..self.starts[place + 1] as usize]
     }
@@ -104,10 +106,10 @@ impl Above {
 
 fn above(dfa: &Dfa) -> Above {
     let states = dfa.len();
-    let nodes = (0..).zip(dfa.diagram.nodes()).flat_map(|(index, node)| {
-        [node.low, node.high].map(|child| (child, Target::to_node(index)))
-    });
-    let roots = (0..).zip(&dfa.transitions).map(|(q, &root)| (root, Target::to_state(q)));
+    let nodes = (0..)
+        .zip(dfa.diagram.nodes())
+        .flat_map(|(index, node)| [node.low, node.high].map(|child| (child, Bdd::node(index))));
+    let roots = (0..).zip(&dfa.transitions).map(|(q, &root)| (root, Bdd::leaf(q)));
     let pairs: Vec<_> = roots.chain(nodes).collect();
     let mut starts = vec![0; states + dfa.diagram.nodes().len() + 1];
     pairs.iter().for_each(|&(child, _)| starts[Above::place(states, child)] += 1);
@@ -116,7 +118,7 @@ fn above(dfa: &Dfa) -> Above {
         total += *start;
         *start = total;
     }
-    let mut parents = vec![Target::to_state(0); pairs.len()];
+    let mut parents = vec![Bdd::leaf(0); pairs.len()];
     for (child, parent) in pairs {
         let start = &mut starts[Above::place(states, child)];
         *start -= 1;
@@ -125,37 +127,20 @@ fn above(dfa: &Dfa) -> Above {
     Above { states, starts, parents }
 }
 
-fn refine(dfa: &Dfa, classes: &[State]) -> (Vec<State>, usize) {
-    let rewritten = rewrite(&dfa.diagram, |state| classes[state as usize]).1;
-    let mut known: Memo<(State, Target), State> = Memo::default();
-    let refined = dfa
-        .states()
-        .map(|q| {
-            let target =
-                relocate(dfa.transitions[q as usize], &rewritten, |state| classes[state as usize]);
-            let fresh = known.len() as State;
-            known.get_or_insert((classes[q as usize], target), fresh)
-        })
-        .collect();
-    (refined, known.len())
-}
-
-/// A diagram with its states renamed, reduced again, and where each of its nodes went.
-fn rewrite(diagram: &Diagram, rename: impl Fn(State) -> State + Copy) -> (Diagram, Vec<Target>) {
+fn refine(dfa: &Dfa, order: &[u32], classes: &[State]) -> (Vec<State>, usize) {
     let mut rewritten = Diagram::default();
-    let mut moved = Vec::with_capacity(diagram.nodes().len());
-    for node in diagram.nodes() {
-        let (low, high) = (relocate(node.low, &moved, rename), relocate(node.high, &moved, rename));
-        moved.push(rewritten.node(node.proposition, low, high));
-    }
-    (rewritten, moved)
-}
-
-fn relocate(target: Target, moved: &[Target], rename: impl Fn(State) -> State) -> Target {
-    match target.node() {
-        Some(index) => moved[index as usize],
-        None => Target::to_state(rename(target.state().expect("a node or a state"))),
-    }
+    let class = |state: State| Bdd::leaf(classes[state as usize]);
+    let images = dfa
+        .diagram
+        .fold(order, &class, &mut |Node { level, low, high }| rewritten.node(level, low, high));
+    let mut known: Memo<(State, Bdd), State> = Memo::default();
+    let refined = dfa.states().map(|q| {
+        let fresh = known.len() as State;
+        let image = images.of(dfa.transitions[q as usize]);
+        known.get_or_insert((classes[q as usize], image), fresh)
+    });
+    let refined = refined.collect();
+    (refined, known.len())
 }
 
 fn renumber(dfa: &Dfa, classes: &[State]) -> Dfa {
@@ -166,12 +151,12 @@ fn renumber(dfa: &Dfa, classes: &[State]) -> Dfa {
     let mut number = vec![0; count];
     (0..).zip(&order).for_each(|(fresh, &class)| number[class as usize] = fresh);
     let rename = |state: State| number[classes[state as usize] as usize];
-    let roots = order.iter().map(|&class| dfa.transitions[representative[class as usize] as usize]);
-    let (diagram, transitions) = lay_out(&dfa.diagram, roots, rename);
+    let root = |&class: &State| dfa.transitions[representative[class as usize] as usize];
+    let roots: Vec<Bdd> = order.iter().map(root).collect();
+    let (diagram, transitions) = dfa.diagram.map_leaves(&roots, &|q| Bdd::leaf(rename(q)));
     let kept = |state: &State| order.contains(&classes[*state as usize]);
     let accepting = dfa.accepting.filter(kept).map(rename);
-    let is_trap =
-        |&q: &State| accepting != Some(q) && transitions[q as usize] == Target::to_state(q);
+    let is_trap = |&q: &State| accepting != Some(q) && transitions[q as usize] == Bdd::leaf(q);
     Dfa {
         propositions: dfa.propositions.clone(),
         accepting,
@@ -192,55 +177,14 @@ fn breadth_first(dfa: &Dfa, classes: &[State], representative: &[State]) -> Vec<
     let mut at = 0;
     while let Some(&class) = order.get(at) {
         at += 1;
-        let mut stack = vec![dfa.transitions[representative[class as usize] as usize]];
-        while let Some(target) = stack.pop() {
-            if let Some(index) = target.node() {
-                if !std::mem::replace(&mut walked[index as usize], true) {
-                    let node = dfa.diagram.nodes()[index as usize];
-                    stack.extend([node.high, node.low]);
-                }
-            } else if let Some(state) = target.state() {
-                let to = classes[state as usize];
-                if !std::mem::replace(&mut seen[to as usize], true) {
-                    order.push(to);
-                }
+        let root = dfa.transitions[representative[class as usize] as usize];
+        let enter = &mut |index| !std::mem::replace(&mut walked[index as usize], true);
+        dfa.diagram.walk(root, enter, &mut |state| {
+            let to = classes[state as usize];
+            if !std::mem::replace(&mut seen[to as usize], true) {
+                order.push(to);
             }
-        }
+        });
     }
     order
-}
-
-/// The part of a diagram that the roots need, with states renamed, in the order in which a walk
-/// from the first root to the last finishes its nodes.
-fn lay_out(
-    diagram: &Diagram,
-    roots: impl Iterator<Item = Target>,
-    rename: impl Fn(State) -> State + Copy,
-) -> (Diagram, Vec<Target>) {
-    let mut fresh = Diagram::default();
-    let mut moved = Memo::default();
-    let roots = roots.map(|root| copy(diagram, root, &mut fresh, &mut moved, rename)).collect();
-    (fresh, roots)
-}
-
-fn copy(
-    diagram: &Diagram,
-    target: Target,
-    fresh: &mut Diagram,
-    moved: &mut Memo<Target, Target>,
-    rename: impl Fn(State) -> State + Copy,
-) -> Target {
-    if let Some(state) = target.state() {
-        return Target::to_state(rename(state));
-    }
-    if let Some(known) = moved.get(target) {
-        return known;
-    }
-    let proposition = diagram.proposition(target).expect("a node asks");
-    let (low, high) = diagram.split(target, proposition);
-    let low = copy(diagram, low, fresh, moved, rename);
-    let high = copy(diagram, high, fresh, moved, rename);
-    let copied = fresh.node(proposition, low, high);
-    moved.insert(target, copied);
-    copied
 }

@@ -6,8 +6,8 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::dfa::{Dfa, Guards, State, Target};
-use crate::guard::Cube;
+use crate::bdd::Cube;
+use crate::dfa::{Dfa, Guards, State};
 use crate::spec::{Formula, Spec};
 
 /// A dense table has up to this many entries; a larger automaton keeps its decision diagram. 16 KB
@@ -192,12 +192,7 @@ fn dense(dfa: &Dfa) -> Option<Transitions> {
 fn diagram(dfa: &Dfa) -> Transitions {
     let nodes = dfa.diagram.nodes().iter();
     Transitions::Diagram {
-        nodes: nodes.map(|n| [n.proposition, reference(n.low), reference(n.high)]).collect(),
-        roots: dfa.transitions.iter().map(|&root| reference(root)).collect(),
+        nodes: nodes.map(|n| [n.level, n.low.code(), n.high.code()]).collect(),
+        roots: dfa.transitions.iter().map(|root| root.code()).collect(),
     }
-}
-
-fn reference(target: Target) -> u32 {
-    let state = target.state().map(|state| Transitions::LEAF + state);
-    target.node().or(state).expect("a target is a node or a state")
 }

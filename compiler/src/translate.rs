@@ -3,8 +3,8 @@
 //! What a formula asks of a trajectory from here on is split into what it asks of this state and
 //! what of the rest: its *expansion*, a Boolean function of the propositions (read now) and of
 //! *obligations* (subformulas that must hold at the next state, which must exist). One diagram
-//! store holds both, propositions above obligations, so an expansion cut at the boundary is a
-//! transition function whose targets are Boolean functions of obligations. Those are the automaton's states:
+//! holds both, propositions above obligations, so an expansion cut at the boundary is a transition
+//! function whose leaves are Boolean functions of obligations. Those are the automaton's states:
 //! ⊤ is acceptance, ⊥ the trap. A state expands by putting the expansion of each of its
 //! obligations in its place. Obligations are strong: `X true` is one, and not ⊤.
 //!
@@ -19,8 +19,8 @@ use std::fmt;
 use rustc_hash::FxHashSet;
 
 use crate::arena::Memo;
-use crate::dfa::{Dfa, Diagram, State, Target};
-use crate::guard::{Guard, Store};
+use crate::bdd::{Bdd, Diagram, Node};
+use crate::dfa::{Dfa, State};
 use crate::spec::{Formula, FormulaId, Spec};
 
 /// Bounds on the work of a translation. They count, they never look at a clock: the same source
@@ -105,7 +105,8 @@ pub fn translate(spec: &Spec, budget: Budget) -> Result<Dfa, Exceeded> {
 struct Translation<'a> {
     spec: &'a Spec,
     budget: Budget,
-    store: Store,
+    /// Expansions, and functions of obligations alone.
+    functions: Diagram,
     /// The number of propositions: lower levels are propositions, higher ones obligations.
     propositions: u32,
     /// The level of the obligation that a formula is, if it can be one.
@@ -113,16 +114,18 @@ struct Translation<'a> {
     /// The formula of each obligation, by level above the propositions.
     obligations: Vec<FormulaId>,
     /// What each formula asks of this state and of the rest.
-    expansion: Vec<Guard>,
+    expansion: Vec<Bdd>,
     /// The expansion of each function of obligations met so far.
-    expanded: Memo<Guard, Guard>,
+    expanded: Memo<Bdd, Bdd>,
     /// The state that an expansion is.
-    states: Memo<Guard, State>,
+    states: Memo<Bdd, State>,
     /// The expansion of each state, in order of discovery.
-    roots: Vec<Guard>,
+    roots: Vec<Bdd>,
     accepting: Option<State>,
-    diagram: Diagram,
-    targets: Memo<Guard, Target>,
+    /// The transition function so far.
+    transitions: Diagram,
+    /// Where each expansion, or part of one above the obligations, went in it.
+    targets: Memo<Bdd, Bdd>,
 }
 
 impl<'a> Translation<'a> {
@@ -130,16 +133,16 @@ impl<'a> Translation<'a> {
         let mut translation = Self {
             spec,
             budget,
-            store: Store::with_limit(budget.nodes),
+            functions: Diagram::with_limit(budget.nodes),
             propositions: spec.propositions().len() as u32,
             level: vec![u32::MAX; spec.formulas().len()],
             obligations: Vec::new(),
-            expansion: vec![Guard::FALSE; spec.formulas().len()],
+            expansion: vec![Bdd::FALSE; spec.formulas().len()],
             expanded: Memo::default(),
             states: Memo::default(),
             roots: Vec::new(),
             accepting: None,
-            diagram: Diagram::default(),
+            transitions: Diagram::default(),
             targets: Memo::default(),
         };
         translation.number_obligations()?;
@@ -167,7 +170,7 @@ impl<'a> Translation<'a> {
             self.obligations.push(id);
         }
         let levels = self.propositions as usize + self.obligations.len();
-        self.check(Resource::Operators, levels, Store::MAX_LEVELS as usize)
+        self.check(Resource::Operators, levels, Diagram::MAX_LEVELS as usize)
     }
 
     fn expand_formulas(&mut self) -> Result<(), Exceeded> {
@@ -216,66 +219,63 @@ impl<'a> Translation<'a> {
         operands
     }
 
-    fn expansion_of(&mut self, id: FormulaId, formula: Formula) -> Guard {
+    fn expansion_of(&mut self, id: FormulaId, formula: Formula) -> Bdd {
         let of = |this: &Self, a: FormulaId| this.expansion[a.0 as usize];
         match formula {
-            Formula::True => Guard::TRUE,
-            Formula::False => Guard::FALSE,
+            Formula::True => Bdd::TRUE,
+            Formula::False => Bdd::FALSE,
             Formula::Literal { proposition, negated } => {
-                self.store.literal((proposition, !negated))
+                self.functions.literal((proposition, !negated))
             }
             // From the right: what is written later mostly stands lower in the diagram, and each
             // step then touches only the top of what is there.
-            Formula::And(..) => self.chain(id).iter().rev().fold(Guard::TRUE, |rest, &operand| {
-                self.store.and(self.expansion[operand.0 as usize], rest)
+            Formula::And(..) => self.chain(id).iter().rev().fold(Bdd::TRUE, |rest, &operand| {
+                self.functions.and(self.expansion[operand.0 as usize], rest)
             }),
-            Formula::Or(..) => self.chain(id).iter().rev().fold(Guard::FALSE, |rest, &operand| {
-                self.store.or(self.expansion[operand.0 as usize], rest)
+            Formula::Or(..) => self.chain(id).iter().rev().fold(Bdd::FALSE, |rest, &operand| {
+                self.functions.or(self.expansion[operand.0 as usize], rest)
             }),
-            Formula::Next(a) => self.store.variable(self.level[a.0 as usize]),
+            Formula::Next(a) => self.functions.variable(self.level[a.0 as usize]),
             Formula::Eventually(a) => {
-                let again = self.store.variable(self.level[id.0 as usize]);
+                let again = self.functions.variable(self.level[id.0 as usize]);
                 let now = of(self, a);
-                self.store.or(now, again)
+                self.functions.or(now, again)
             }
             Formula::Until(a, b) => {
-                let again = self.store.variable(self.level[id.0 as usize]);
+                let again = self.functions.variable(self.level[id.0 as usize]);
                 let (hold, done) = (of(self, a), of(self, b));
-                let later = self.store.and(hold, again);
-                self.store.or(done, later)
+                let later = self.functions.and(hold, again);
+                self.functions.or(done, later)
             }
             Formula::Then(a, b) => {
-                let again = self.store.variable(self.level[id.0 as usize]);
-                let second = self.store.variable(self.level[b.0 as usize]);
+                let again = self.functions.variable(self.level[id.0 as usize]);
+                let second = self.functions.variable(self.level[b.0 as usize]);
                 let first = of(self, a);
-                let first = self.store.and(first, second);
-                self.store.or(first, again)
+                let first = self.functions.and(first, second);
+                self.functions.or(first, again)
             }
         }
     }
 
     /// Puts the expansion of every obligation of `f` in its place. Functions of obligations are
     /// monotone, so a node is `low ∨ (obligation ∧ high)`.
-    fn expand(&mut self, f: Guard) -> Guard {
-        if f == Guard::TRUE || f == Guard::FALSE {
-            return f;
-        }
+    fn expand(&mut self, f: Bdd) -> Bdd {
+        let Some(Node { level, low, high }) = self.functions.get(f) else { return f };
         if let Some(known) = self.expanded.get(f) {
             return known;
         }
-        let (low, high) = self.store.branches(f);
         let (low, high) = (self.expand(low), self.expand(high));
-        let due = self.obligations[(self.store.level(f) - self.propositions) as usize];
+        let due = self.obligations[(level - self.propositions) as usize];
         let due = self.expansion[due.0 as usize];
-        let high = self.store.and(due, high);
-        let expansion = self.store.or(low, high);
+        let high = self.functions.and(due, high);
+        let expansion = self.functions.or(low, high);
         self.expanded.insert(f, expansion);
         expansion
     }
 
     fn explore(mut self) -> Result<Dfa, Exceeded> {
         let root = self.expansion[self.spec.root().0 as usize];
-        if root == Guard::TRUE {
+        if root == Bdd::TRUE {
             self.accepting_state();
         } else {
             self.state(root);
@@ -289,29 +289,29 @@ impl<'a> Translation<'a> {
         }
         Ok(Dfa {
             propositions: self.spec.propositions().to_vec(),
-            diagram: self.diagram,
+            diagram: self.transitions,
             transitions,
             accepting: self.accepting,
-            trap: self.states.get(Guard::FALSE),
+            trap: self.states.get(Bdd::FALSE),
             possible: None,
         })
     }
 
     /// The transitions of an expansion: its part above the obligations.
-    fn target(&mut self, f: Guard) -> Target {
+    fn target(&mut self, f: Bdd) -> Bdd {
         if let Some(known) = self.targets.get(f) {
             return known;
         }
-        let level = self.store.level(f);
-        let target = if level < self.propositions {
-            let (low, high) = self.store.branches(f);
-            let (low, high) = (self.target(low), self.target(high));
-            self.diagram.node(level, low, high)
-        } else if f == Guard::TRUE {
-            Target::to_state(self.accepting_state())
-        } else {
-            let expansion = self.expand(f);
-            Target::to_state(self.state(expansion))
+        let target = match self.functions.get(f) {
+            Some(Node { level, low, high }) if level < self.propositions => {
+                let (low, high) = (self.target(low), self.target(high));
+                self.transitions.node(level, low, high)
+            }
+            None if f == Bdd::TRUE => Bdd::leaf(self.accepting_state()),
+            _ => {
+                let expansion = self.expand(f);
+                Bdd::leaf(self.state(expansion))
+            }
         };
         self.targets.insert(f, target);
         target
@@ -321,12 +321,12 @@ impl<'a> Translation<'a> {
         let fresh = self.roots.len() as State;
         let state = *self.accepting.get_or_insert(fresh);
         if state == fresh {
-            self.roots.push(Guard::TRUE);
+            self.roots.push(Bdd::TRUE);
         }
         state
     }
 
-    fn state(&mut self, expansion: Guard) -> State {
+    fn state(&mut self, expansion: Bdd) -> State {
         let fresh = self.roots.len() as State;
         let state = self.states.get_or_insert(expansion, fresh);
         if state == fresh {
@@ -336,7 +336,7 @@ impl<'a> Translation<'a> {
     }
 
     fn check_nodes(&self) -> Result<(), Exceeded> {
-        self.check(Resource::Nodes, self.store.len(), self.budget.nodes)
+        self.check(Resource::Nodes, self.functions.nodes().len(), self.budget.nodes)
     }
 
     fn check(&self, what: Resource, count: usize, limit: usize) -> Result<(), Exceeded> {

@@ -11,8 +11,9 @@ use std::fmt;
 use crate::emit::sum::{Notation, Sum, label};
 use crate::emit::text;
 use crate::trace::{Trace, shortest};
+use tltl_compiler::bdd::Bdd;
 use tltl_compiler::dfa::Edge;
-use tltl_compiler::dfa::{Dfa, Guards, Size, State, Target};
+use tltl_compiler::dfa::{Dfa, Guards, Size, State};
 use tltl_compiler::spec::Spec;
 
 /// A task explained.
@@ -125,12 +126,12 @@ fn needs(dfa: &Dfa, q: State) -> Vec<String> {
 fn reaches(dfa: &Dfa, q: State, (proposition, value): (u32, bool)) -> bool {
     let mut seen_states = vec![false; dfa.len()];
     let mut seen_nodes = vec![false; dfa.diagram.nodes().len()];
-    let mut stack = vec![Target::to_state(q)];
-    while let Some(target) = stack.pop() {
-        match (target.node(), target.state()) {
+    let mut stack = vec![Bdd::leaf(q)];
+    while let Some(f) = stack.pop() {
+        match (f.index(), f.value()) {
             (Some(index), _) if !std::mem::replace(&mut seen_nodes[index as usize], true) => {
                 let node = dfa.diagram.nodes()[index as usize];
-                match node.proposition == proposition {
+                match node.level == proposition {
                     true => stack.push(if value { node.high } else { node.low }),
                     false => stack.extend([node.low, node.high]),
                 }

@@ -8,7 +8,8 @@
 
 use rustc_hash::FxHashMap;
 
-use tltl_compiler::dfa::{Dfa, Diagram, State, Target};
+use tltl_compiler::bdd::{Bdd, Diagram, Node, Operation};
+use tltl_compiler::dfa::{Dfa, State};
 use tltl_compiler::minimize::canonical_order;
 
 /// How the verdicts of the operands become one.
@@ -44,166 +45,120 @@ pub fn product(operator: Operator, operands: &[&Dfa]) -> Product {
 }
 
 fn pair(operator: Operator, left: &Product, right: &Dfa) -> Product {
-    let mut propositions = left.dfa.propositions.clone();
-    for name in &right.propositions {
-        if !propositions.contains(name) {
-            propositions.push(name.clone());
-        }
+    let propositions = union(&left.dfa.propositions, &right.propositions);
+    let mut diagram = Diagram::default();
+    let sides = [&left.dfa, right].map(|dfa| Aligned::new(dfa, &propositions, &mut diagram));
+    let mut pairing =
+        Pairing { operator, sides, pairs: Pairs::default(), accepting: None, trap: None };
+    let operation = Operation::new(propositions.len() as u32);
+    let mut transitions = Vec::new();
+    pairing.state([0, 0]);
+    while let Some([p, q]) = pairing.pairs.known.get(transitions.len()).copied() {
+        let here = Some(transitions.len() as State);
+        let [a, b] = &pairing.sides;
+        let (f, g) = (a.transitions[p as usize], b.transitions[q as usize]);
+        transitions.push(match pairing.accepting == here || pairing.trap == here {
+            true => Bdd::leaf(transitions.len() as State),
+            false => diagram.apply(operation, f, g, &mut |_, f, g| {
+                Some(Bdd::leaf(pairing.state([f.value()?, g.value()?])))
+            }),
+        });
     }
-    let sides = [align(&left.dfa, &propositions), align(right, &propositions)];
-    let mut pairing = Pairing { operator, sides, ..Pairing::default() };
-    pairing.explore();
-    pairing.finish(propositions, &left.components)
+    let Pairing { pairs, accepting, trap, .. } = pairing;
+    let raw = Dfa { propositions, diagram, transitions, accepting, trap, possible: None };
+    let (dfa, order) = canonical_order(&raw);
+    let components = order.iter().map(|&q| {
+        let [a, b] = pairs.get(q);
+        let mut components = left.components[a as usize].clone();
+        components.push(b);
+        components
+    });
+    let components = components.collect();
+    Product { dfa, components }
 }
 
+/// Names in order of first appearance.
+pub(crate) fn union(first: &[String], second: &[String]) -> Vec<String> {
+    let mut names = first.to_vec();
+    names.extend(second.iter().filter(|name| !first.contains(name)).cloned());
+    names
+}
+
+/// Pairs of states, numbered in order of discovery.
 #[derive(Default)]
+pub(crate) struct Pairs {
+    known: Vec<[State; 2]>,
+    numbers: FxHashMap<[State; 2], State>,
+}
+
+impl Pairs {
+    pub(crate) fn get(&self, number: State) -> [State; 2] {
+        self.known[number as usize]
+    }
+
+    pub(crate) fn number(&mut self, pair: [State; 2]) -> State {
+        *self.numbers.entry(pair).or_insert_with(|| {
+            self.known.push(pair);
+            self.known.len() as State - 1
+        })
+    }
+}
+
 struct Pairing {
     operator: Operator,
     sides: [Aligned; 2],
-    diagram: Diagram,
-    known: FxHashMap<(Target, Target), Target>,
-    states: FxHashMap<[State; 2], State>,
-    /// The pair of each state, in order of discovery.
-    pairs: Vec<[State; 2]>,
-    accepting: Option<State>,
-    trap: Option<State>,
-}
-
-impl Default for Operator {
-    /// Conjunction, the paper's product.
-    fn default() -> Self {
-        Self::And
-    }
-}
-
-/// An automaton over a longer list of propositions.
-#[derive(Default)]
-struct Aligned {
-    diagram: Diagram,
-    transitions: Vec<Target>,
+    pairs: Pairs,
     accepting: Option<State>,
     trap: Option<State>,
 }
 
 impl Pairing {
-    fn explore(&mut self) {
-        let mut transitions = Vec::new();
-        self.state([0, 0]);
-        while let Some(&[a, b]) = self.pairs.get(transitions.len()) {
-            let here = transitions.len() as State;
-            let target = if self.accepting == Some(here) || self.trap == Some(here) {
-                Target::to_state(here)
-            } else {
-                let sides = &self.sides;
-                let (a, b) = (sides[0].transitions[a as usize], sides[1].transitions[b as usize]);
-                self.target(a, b)
-            };
-            transitions.push(target);
-        }
-        self.sides[0].transitions = transitions;
-    }
-
-    fn target(&mut self, a: Target, b: Target) -> Target {
-        if let (Some(a), Some(b)) = (a.state(), b.state()) {
-            return Target::to_state(self.state([a, b]));
-        }
-        if let Some(&known) = self.known.get(&(a, b)) {
-            return known;
-        }
-        let [left, right] = &self.sides;
-        let asked = [left.diagram.proposition(a), right.diagram.proposition(b)];
-        let proposition = asked.into_iter().flatten().min().expect("one of the two asks");
-        let (a0, a1) = left.diagram.split(a, proposition);
-        let (b0, b1) = right.diagram.split(b, proposition);
-        let (low, high) = (self.target(a0, b0), self.target(a1, b1));
-        let target = self.diagram.node(proposition, low, high);
-        self.known.insert((a, b), target);
-        target
-    }
-
+    /// The state that a pair is. All pairs in which the verdict has fallen are the first of them.
     fn state(&mut self, pair: [State; 2]) -> State {
-        let fresh = self.pairs.len() as State;
         let accepts = |side: usize| self.sides[side].accepting == Some(pair[side]);
         let lost = |side: usize| self.sides[side].trap == Some(pair[side]);
         let (accepted, trapped) = match self.operator {
             Operator::And => (accepts(0) && accepts(1), lost(0) || lost(1)),
             Operator::Or => (accepts(0) || accepts(1), lost(0) && lost(1)),
         };
-        let state = if accepted {
-            *self.accepting.get_or_insert(fresh)
-        } else if trapped {
-            *self.trap.get_or_insert(fresh)
-        } else {
-            *self.states.entry(pair).or_insert(fresh)
-        };
-        if state == fresh {
-            self.pairs.push(pair);
+        let pairs = &mut self.pairs;
+        match (accepted, trapped) {
+            (true, _) => *self.accepting.get_or_insert_with(|| pairs.number(pair)),
+            (_, true) => *self.trap.get_or_insert_with(|| pairs.number(pair)),
+            _ => pairs.number(pair),
         }
-        state
     }
+}
 
-    fn finish(self, propositions: Vec<String>, left: &[Vec<State>]) -> Product {
-        let [Aligned { transitions, .. }, _] = self.sides;
-        let raw = Dfa {
-            propositions,
-            diagram: self.diagram,
-            transitions,
-            accepting: self.accepting,
-            trap: self.trap,
-            possible: None,
-        };
-        let (dfa, order) = canonical_order(&raw);
-        let components = order.iter().map(|&q| {
-            let [a, b] = self.pairs[q as usize];
-            let mut components = left[a as usize].clone();
-            components.push(b);
-            components
+/// An automaton over a longer list of propositions, in a diagram that others may share.
+pub(crate) struct Aligned {
+    pub(crate) transitions: Vec<Bdd>,
+    pub(crate) possible: Bdd,
+    pub(crate) accepting: Option<State>,
+    trap: Option<State>,
+}
+
+impl Aligned {
+    pub(crate) fn new(dfa: &Dfa, propositions: &[String], diagram: &mut Diagram) -> Self {
+        let place = |name| propositions.iter().position(|other| other == name);
+        let places: Vec<_> =
+            dfa.propositions.iter().filter_map(place).map(|place| place as u32).collect();
+        let mut roots = dfa.transitions.clone();
+        roots.push(dfa.possible.unwrap_or(Bdd::TRUE));
+        let order = dfa.diagram.postorder(&roots);
+        let images = dfa.diagram.fold(&order, &Bdd::leaf, &mut |Node { level, low, high }| {
+            select(diagram, places[level as usize], low, high)
         });
-        let components = components.collect();
-        Product { dfa, components }
+        let mut transitions: Vec<Bdd> = roots.into_iter().map(|root| images.of(root)).collect();
+        let possible = transitions.pop().unwrap_or(Bdd::TRUE);
+        Self { transitions, possible, accepting: dfa.accepting, trap: dfa.trap }
     }
 }
 
-/// Renumbers the propositions of an automaton to their places in a longer list.
-fn align(dfa: &Dfa, propositions: &[String]) -> Aligned {
-    let place = |name: &String| propositions.iter().position(|other| other == name);
-    let places: Vec<u32> = dfa.propositions.iter().filter_map(place).map(|i| i as u32).collect();
-    let mut diagram = Diagram::default();
-    let mut moved: Vec<Target> = Vec::with_capacity(dfa.diagram.nodes().len());
-    let mut known = FxHashMap::default();
-    let at = |target: Target, moved: &[Target]| match target.node() {
-        Some(index) => moved[index as usize],
-        None => target,
-    };
-    for node in dfa.diagram.nodes() {
-        let (low, high) = (at(node.low, &moved), at(node.high, &moved));
-        let place = places[node.proposition as usize];
-        moved.push(select(&mut diagram, &mut known, place, low, high));
-    }
-    let transitions = dfa.transitions.iter().map(|&target| at(target, &moved)).collect();
-    Aligned { diagram, transitions, accepting: dfa.accepting, trap: dfa.trap }
-}
-
-/// `high` where `proposition` is true and `low` where it is false, wherever it stands in the order.
-fn select(
-    diagram: &mut Diagram,
-    known: &mut FxHashMap<(u32, Target, Target), Target>,
-    proposition: u32,
-    low: Target,
-    high: Target,
-) -> Target {
-    let asked = [diagram.proposition(low), diagram.proposition(high)];
-    let Some(first) = asked.into_iter().flatten().min().filter(|&first| first < proposition) else {
-        return diagram.node(proposition, low, high);
-    };
-    if let Some(&target) = known.get(&(proposition, low, high)) {
-        return target;
-    }
-    let (low0, low1) = diagram.split(low, first);
-    let (high0, high1) = diagram.split(high, first);
-    let below = select(diagram, known, proposition, low0, high0);
-    let above = select(diagram, known, proposition, low1, high1);
-    let target = diagram.node(first, below, above);
-    known.insert((proposition, low, high), target);
-    target
+/// `high` where `level` is true and `low` where it is false, wherever it stands in the order.
+fn select(diagram: &mut Diagram, level: u32, low: Bdd, high: Bdd) -> Bdd {
+    diagram.apply(Operation::new(level), low, high, &mut |diagram, low, high| {
+        let first = diagram.level(low).min(diagram.level(high));
+        (level < first).then(|| diagram.node(level, low, high))
+    })
 }

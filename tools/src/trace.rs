@@ -5,7 +5,8 @@ use std::fmt;
 
 use rustc_hash::FxHashSet;
 
-use tltl_compiler::dfa::{Dfa, State, Target};
+use tltl_compiler::bdd::{Bdd, Diagram};
+use tltl_compiler::dfa::{Dfa, State};
 
 /// The values of all propositions at one instant.
 pub type Letter = Vec<bool>;
@@ -31,70 +32,57 @@ impl fmt::Display for Trace {
     }
 }
 
-/// The first letter, in lexicographic order (false before true), that can occur and under which
-/// `from` leads to a selected state.
+/// The leaves that letters of `possible` lead to from `f`, each with the first of these letters, in
+/// their lexicographic order (proposition 0 first, false before true). A letter has `width`
+/// propositions.
 #[must_use]
-pub fn letter(dfa: &Dfa, from: Target, select: &dyn Fn(State) -> bool) -> Option<Letter> {
-    let mut letter = vec![false; dfa.propositions.len()];
-    let possible = dfa.possible.unwrap_or(Target::to_state(1));
-    let mut failed = FxHashSet::default();
-    walk(dfa, from, possible, select, &mut letter, &mut failed).then_some(letter)
-}
-
-fn walk(
-    dfa: &Dfa,
-    from: Target,
-    possible: Target,
-    select: &dyn Fn(State) -> bool,
-    letter: &mut Letter,
-    failed: &mut FxHashSet<(Target, Target)>,
-) -> bool {
-    if possible.state() == Some(0) {
-        return false;
-    }
-    let asked = [dfa.diagram.proposition(from), dfa.diagram.proposition(possible)];
-    let Some(proposition) = asked.into_iter().flatten().min() else {
-        return from.state().is_some_and(select);
-    };
-    if !failed.insert((from, possible)) {
-        return false;
-    }
-    let (from0, from1) = dfa.diagram.split(from, proposition);
-    let (possible0, possible1) = dfa.diagram.split(possible, proposition);
-    for (value, from, possible) in [(false, from0, possible0), (true, from1, possible1)] {
-        letter[proposition as usize] = value;
-        if walk(dfa, from, possible, select, letter, failed) {
-            return true;
+pub fn first_letters(diagram: &Diagram, width: usize, f: Bdd, possible: Bdd) -> Vec<(u32, Letter)> {
+    let mut seen = FxHashSet::default();
+    let mut found = Vec::new();
+    let mut stack = vec![(f, possible, vec![false; width])];
+    while let Some((f, possible, letter)) = stack.pop() {
+        if possible == Bdd::FALSE || !seen.insert((f, possible)) {
+            continue;
         }
+        if let (Some(leaf), Bdd::TRUE) = (f.value(), possible) {
+            found.push((leaf, letter));
+            continue;
+        }
+        let level = diagram.level(f).min(diagram.level(possible));
+        let (f0, f1) = diagram.cofactors(f, level);
+        let (possible0, possible1) = diagram.cofactors(possible, level);
+        let mut above = letter.clone();
+        above[level as usize] = true;
+        stack.extend([(f1, possible1, above), (f0, possible0, letter)]);
     }
-    letter[proposition as usize] = false;
-    false
+    found
 }
 
 /// The shortest trace of at least one letter after which `goal` holds of the state reached from
 /// `from`; among equally short ones that with the lowest states and letters.
 #[must_use]
 pub fn shortest(dfa: &Dfa, from: State, goal: &dyn Fn(State) -> bool) -> Option<Trace> {
-    let mut parents: Vec<Option<State>> = vec![None; dfa.len()];
-    let mut queue = VecDeque::from([from]);
+    let width = dfa.propositions.len();
+    let possible = dfa.possible.unwrap_or(Bdd::TRUE);
+    let mut before: Vec<Option<(State, Letter)>> = vec![None; dfa.len()];
     let mut seen = vec![false; dfa.len()];
     seen[from as usize] = true;
+    let mut queue = VecDeque::from([from]);
     while let Some(q) = queue.pop_front() {
-        let target = dfa.transitions[q as usize];
-        if let Some(last) = letter(dfa, target, goal) {
-            let mut letters = vec![last];
-            let mut at = q;
-            while let (false, Some(before)) = (at == from, parents[at as usize]) {
-                letters.extend(letter(dfa, dfa.transitions[before as usize], &|to| to == at));
-                at = before;
-            }
+        let mut moves = first_letters(&dfa.diagram, width, dfa.transitions[q as usize], possible);
+        if let Some((_, last)) = moves.iter().find(|(to, _)| goal(*to)) {
+            let steps = std::iter::successors(before[q as usize].as_ref(), |(before_, _)| {
+                before[*before_ as usize].as_ref()
+            });
+            let mut letters: Vec<Letter> = steps.map(|(_, letter)| letter.clone()).collect();
             letters.reverse();
+            letters.push(last.clone());
             return Some(Trace { propositions: dfa.propositions.clone(), letters });
         }
-        for to in dfa.successors(q) {
-            if !seen[to as usize] && letter(dfa, target, &|leaf| leaf == to).is_some() {
-                seen[to as usize] = true;
-                parents[to as usize] = Some(q);
+        moves.sort_unstable_by_key(|(to, _)| *to);
+        for (to, letter) in moves {
+            if !std::mem::replace(&mut seen[to as usize], true) {
+                before[to as usize] = Some((q, letter));
                 queue.push_back(to);
             }
         }

@@ -1,7 +1,7 @@
 //! How the propositions of a task are related by what they compare.
 
 use crate::arena::{self, Memo};
-use crate::guard::{Guard, Store};
+use crate::bdd::{Bdd, Diagram, Node};
 use crate::linear::{Form, Inequality, feasible};
 use crate::predicate::{Condition, ConditionId, Module};
 
@@ -61,8 +61,8 @@ impl<'a> Analysis<'a> {
         &self,
         roots: &[ConditionId],
         places: &[usize],
-        result: &mut Store,
-    ) -> Option<Guard> {
+        result: &mut Diagram,
+    ) -> Option<Bdd> {
         let conditions: Vec<ConditionId> = places.iter().map(|&place| roots[place]).collect();
         let needed = self.module.conditions_of(conditions.clone());
         let mut relation = Relation::new(self, places.len() as u32, &needed)?;
@@ -70,22 +70,21 @@ impl<'a> Analysis<'a> {
         let mut related = relation.cells();
         for (level, condition) in (0..places.len() as u32).zip(&conditions).rev() {
             let holds = meaning.get(*condition).expect("all that is needed has a meaning");
-            let low = relation.store.minus(related, holds);
-            let high = relation.store.and(related, holds);
-            related = relation.store.node(level, low, high);
-            if relation.store.len() > NODE_LIMIT {
+            let low = relation.diagram.minus(related, holds);
+            let high = relation.diagram.and(related, holds);
+            related = relation.diagram.node(level, low, high);
+            if relation.diagram.is_exhausted() {
                 return None;
             }
         }
-        let mut known = Memo::default();
-        Some(relation.project(related, places, result, &mut known))
+        Some(relation.project(related, places, result))
     }
 }
 
 /// Propositions above, cuts and opaque conditions below.
 struct Relation<'a> {
     analysis: &'a Analysis<'a>,
-    store: Store,
+    diagram: Diagram,
     propositions: u32,
     /// The forms that are compared, rising, and what they are compared with.
     chains: Vec<Chain>,
@@ -113,11 +112,11 @@ impl<'a> Relation<'a> {
             chain.level = level;
             level += chain.cuts.len() as u32;
         }
-        let fits = level as usize + opaque.len() < Store::MAX_LEVELS as usize;
+        let fits = level as usize + opaque.len() < Diagram::MAX_LEVELS as usize;
         let first_opaque = level;
         fits.then(|| Self {
             analysis,
-            store: Store::default(),
+            diagram: Diagram::with_limit(NODE_LIMIT),
             propositions,
             chains,
             opaque,
@@ -126,8 +125,8 @@ impl<'a> Relation<'a> {
     }
 
     /// What each condition says of the cuts.
-    fn meanings(&mut self, needed: &[ConditionId]) -> Memo<ConditionId, Guard> {
-        let mut meaning: Memo<ConditionId, Guard> = Memo::default();
+    fn meanings(&mut self, needed: &[ConditionId]) -> Memo<ConditionId, Bdd> {
+        let mut meaning: Memo<ConditionId, Bdd> = Memo::default();
         let mut pending = needed.to_vec();
         // A predicate may refer to a condition that stands later in the arena.
         while !pending.is_empty() {
@@ -145,58 +144,58 @@ impl<'a> Relation<'a> {
         meaning
     }
 
-    fn meaning(&mut self, id: ConditionId, condition: &Condition, operands: &[Guard]) -> Guard {
+    fn meaning(&mut self, id: ConditionId, condition: &Condition, operands: &[Bdd]) -> Bdd {
         match (condition, operands) {
-            (Condition::Truth(true), _) => Guard::TRUE,
-            (Condition::Truth(false), _) => Guard::FALSE,
-            (Condition::Not(_), &[a]) => self.store.not(a),
-            (Condition::And(..), &[a, b]) => self.store.and(a, b),
-            (Condition::Or(..), &[a, b]) => self.store.or(a, b),
+            (Condition::Truth(true), _) => Bdd::TRUE,
+            (Condition::Truth(false), _) => Bdd::FALSE,
+            (Condition::Not(_), &[a]) => self.diagram.not(a),
+            (Condition::And(..), &[a, b]) => self.diagram.and(a, b),
+            (Condition::Or(..), &[a, b]) => self.diagram.or(a, b),
             (Condition::Is(_) | Condition::Apply { .. }, &[a]) => a,
             _ => self.atom(id),
         }
     }
 
-    fn atom(&mut self, id: ConditionId) -> Guard {
+    fn atom(&mut self, id: ConditionId) -> Bdd {
         let analysis = self.analysis;
         match &analysis.atoms[id.0 as usize] {
-            Atom::Constant(value) => [Guard::FALSE, Guard::TRUE][usize::from(*value)],
+            Atom::Constant(value) => [Bdd::FALSE, Bdd::TRUE][usize::from(*value)],
             Atom::Below(form, cut) => self.cut(form, *cut),
             Atom::Above(form, cut) => {
                 let below = self.cut(form, *cut);
-                self.store.not(below)
+                self.diagram.not(below)
             }
             Atom::At(form, at) => self.at(form, *at),
             Atom::Off(form, at) => {
                 let at = self.at(form, *at);
-                self.store.not(at)
+                self.diagram.not(at)
             }
             Atom::Opaque => {
                 let place = self.opaque.binary_search(&id).expect("an opaque condition");
-                self.store.variable(self.first_opaque + place as u32)
+                self.diagram.variable(self.first_opaque + place as u32)
             }
         }
     }
 
-    fn cut(&mut self, form: &Form, cut: Cut) -> Guard {
+    fn cut(&mut self, form: &Form, cut: Cut) -> Bdd {
         let chain = &self.chains[find(&self.chains, form).expect("a form that is compared")];
         let place = chain.cuts.binary_search(&cut).expect("a cut of the form");
-        self.store.variable(chain.level + place as u32)
+        self.diagram.variable(chain.level + place as u32)
     }
 
-    fn at(&mut self, form: &Form, at: Rational) -> Guard {
+    fn at(&mut self, form: &Form, at: Rational) -> Bdd {
         let (before, through) = (self.cut(form, (at, false)), self.cut(form, (at, true)));
-        self.store.minus(through, before)
+        self.diagram.minus(through, before)
     }
 
     /// The combinations of cells that are not empty: below one cut is below all later ones, a form
     /// of integers or of a bounded type has no value in some cells, and forms that share variables
     /// exclude each other's.
-    fn cells(&mut self) -> Guard {
+    fn cells(&mut self) -> Bdd {
         let variables = |chain: &Chain| chain.form.iter().map(|(term, _)| term.0).collect();
         let ties: Vec<Vec<u32>> = self.chains.iter().map(variables).collect();
         let chains = std::mem::take(&mut self.chains);
-        let mut all = Guard::TRUE;
+        let mut all = Bdd::TRUE;
         for group in arena::groups(&ties) {
             let module = self.analysis.module;
             let group: Vec<&Chain> = group.iter().map(|&place| &chains[place]).collect();
@@ -207,7 +206,7 @@ impl<'a> Relation<'a> {
                 Some(cells) => cells,
                 None => self.apart(&group),
             };
-            all = self.store.and(all, cells);
+            all = self.diagram.and(all, cells);
         }
         self.chains = chains;
         all
@@ -220,10 +219,10 @@ impl<'a> Relation<'a> {
         group: &[&Chain],
         system: &mut Vec<Inequality>,
         left: &mut usize,
-    ) -> Option<Guard> {
-        let Some((chain, others)) = group.split_first() else { return Some(Guard::TRUE) };
+    ) -> Option<Bdd> {
+        let Some((chain, others)) = group.split_first() else { return Some(Bdd::TRUE) };
         let range = Range::of(self.analysis.module, &chain.form);
-        let mut cells = Guard::FALSE;
+        let mut cells = Bdd::FALSE;
         for k in 0..=chain.cuts.len() {
             let (after, until) = chain.ends(k);
             if !range.is_inhabited(after, until) {
@@ -237,8 +236,8 @@ impl<'a> Relation<'a> {
             if alone || feasible(system) != Some(false) {
                 let rest = self.joint(others, system, left)?;
                 let cell = self.cell(chain, k);
-                let cell = self.store.and(cell, rest);
-                cells = self.store.or(cells, cell);
+                let cell = self.diagram.and(cell, rest);
+                cells = self.diagram.or(cells, cell);
             }
             system.truncate(known);
         }
@@ -246,54 +245,41 @@ impl<'a> Relation<'a> {
     }
 
     /// The cells of each form of a group, whatever the others are.
-    fn apart(&mut self, group: &[&Chain]) -> Guard {
-        let mut all = Guard::TRUE;
+    fn apart(&mut self, group: &[&Chain]) -> Bdd {
+        let mut all = Bdd::TRUE;
         for chain in group {
             let range = Range::of(self.analysis.module, &chain.form);
-            let mut cells = Guard::FALSE;
+            let mut cells = Bdd::FALSE;
             for k in 0..=chain.cuts.len() {
                 let (after, until) = chain.ends(k);
                 if range.is_inhabited(after, until) {
                     let cell = self.cell(chain, k);
-                    cells = self.store.or(cells, cell);
+                    cells = self.diagram.or(cells, cell);
                 }
             }
-            all = self.store.and(all, cells);
+            all = self.diagram.and(all, cells);
         }
         all
     }
 
-    fn cell(&mut self, chain: &Chain, k: usize) -> Guard {
-        let mut all = Guard::TRUE;
+    fn cell(&mut self, chain: &Chain, k: usize) -> Bdd {
+        let mut all = Bdd::TRUE;
         for i in (0..chain.cuts.len()).rev() {
-            let (low, high) = if i >= k { (Guard::FALSE, all) } else { (all, Guard::FALSE) };
-            all = self.store.node(chain.level + i as u32, low, high);
+            let (low, high) = if i >= k { (Bdd::FALSE, all) } else { (all, Bdd::FALSE) };
+            all = self.diagram.node(chain.level + i as u32, low, high);
         }
         all
     }
 
     /// The propositional part: true where anything is left below. Levels become those of the
     /// propositions at `places`.
-    fn project(
-        &self,
-        f: Guard,
-        places: &[usize],
-        result: &mut Store,
-        known: &mut Memo<Guard, Guard>,
-    ) -> Guard {
-        let level = self.store.level(f);
-        if level >= self.propositions {
-            return if f == Guard::FALSE { f } else { Guard::TRUE };
-        }
-        if let Some(guard) = known.get(f) {
-            return guard;
-        }
-        let (low, high) = self.store.branches(f);
-        let low = self.project(low, places, result, known);
-        let high = self.project(high, places, result, known);
-        let guard = result.node(places[level as usize] as u32, low, high);
-        known.insert(f, guard);
-        guard
+    fn project(&self, f: Bdd, places: &[usize], result: &mut Diagram) -> Bdd {
+        let order = self.diagram.postorder(&[f]);
+        let mut node = |Node { level, low, high }| match level < self.propositions {
+            true => result.node(places[level as usize] as u32, low, high),
+            false => Bdd::TRUE,
+        };
+        self.diagram.fold(&order, &Bdd::leaf, &mut node).of(f)
     }
 }
 

@@ -1,7 +1,7 @@
 //! The edges of an automaton with their guards, as every drawing and table lists them.
 
 use super::{Dfa, Guards, State};
-use crate::guard::Cube;
+use crate::bdd::Cube;
 
 /// All transitions from one state to one state.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -3,19 +3,19 @@
 use super::body::{Body, Described};
 use super::header::{Acceptance, Header};
 use super::refused;
-use crate::dfa::{Dfa, State, Target};
+use crate::bdd::Bdd;
+use crate::dfa::{Dfa, State};
 use crate::error::Error;
 
 /// The automaton with one accepting state for all, and a trap for missing transitions.
-pub(super) fn finish(header: &Header, body: Body) -> Result<Dfa, Error> {
-    let Body { diagram, states, .. } = body;
-    let states: Vec<Described> = states.into_iter().flatten().collect();
+pub(super) fn finish(header: &mut Header, body: Body) -> Result<Dfa, Error> {
+    let states: Vec<Described> = body.states.into_iter().flatten().collect();
     let trap = states.len() as State;
-    let mut transitions: Vec<Target> = states.iter().map(|state| state.transitions).collect();
-    transitions.push(Target::to_state(trap));
+    let mut transitions: Vec<Bdd> = states.iter().map(|state| state.transitions).collect();
+    transitions.push(Bdd::leaf(trap));
     let dfa = Dfa {
         propositions: header.propositions.clone(),
-        diagram,
+        diagram: std::mem::take(&mut header.labels.diagram),
         transitions,
         accepting: None,
         trap: None,
@@ -58,7 +58,7 @@ fn closed(dfa: &Dfa, states: &[Described], good: &dyn Fn(&Described) -> bool) ->
     let mut before = vec![Vec::new(); states.len()];
     let mut lost = Vec::new();
     for (q, state) in (0..).zip(states) {
-        for to in dfa.leaves(state.transitions) {
+        for to in dfa.diagram.leaves(state.transitions) {
             match before.get_mut(to as usize) {
                 Some(before) => before.push(q),
                 None => kept[q] = false,
@@ -87,7 +87,7 @@ fn ambiguous(span: crate::source::Span) -> Error {
 /// Refuses an accepting state that can be left.
 fn check(dfa: &Dfa, states: &[Described], accepting: &[bool]) -> Result<(), Error> {
     for (state, _) in states.iter().zip(accepting).filter(|(_, accepts)| **accepts) {
-        for to in dfa.leaves(state.transitions) {
+        for to in dfa.diagram.leaves(state.transitions) {
             let message = match states.get(to as usize) {
                 Some(_) if accepting[to as usize] => continue,
                 Some(to) => format!(
@@ -120,22 +120,12 @@ fn merge(mut dfa: Dfa, accepting: &[bool]) -> Dfa {
         Some(false) => state,
         None => trap,
     };
-    let mut diagram = crate::dfa::Diagram::default();
-    let mut moved: Vec<Target> = Vec::with_capacity(dfa.diagram.nodes().len());
-    let place = |target: Target, moved: &[Target]| match (target.node(), target.state()) {
-        (Some(node), _) => moved[node as usize],
-        (_, state) => Target::to_state(rename(state.unwrap_or(trap))),
-    };
-    for node in dfa.diagram.nodes() {
-        let (low, high) = (place(node.low, &moved), place(node.high, &moved));
-        moved.push(diagram.node(node.proposition, low, high));
-    }
-    dfa.transitions = dfa.transitions.iter().map(|&target| place(target, &moved)).collect();
-    dfa.diagram = diagram;
+    let renamed = |state| Bdd::leaf(rename(state));
+    (dfa.diagram, dfa.transitions) = dfa.diagram.map_leaves(&dfa.transitions, &renamed);
     dfa.accepting = first;
-    if first.is_some_and(|first| dfa.transitions[0] == Target::to_state(first)) {
+    if first.is_some_and(|first| dfa.transitions[0] == Bdd::leaf(first)) {
         dfa.accepting = Some(0);
-        dfa.transitions[0] = Target::to_state(0);
+        dfa.transitions[0] = Bdd::leaf(0);
     }
     dfa
 }

@@ -4,9 +4,9 @@ use super::header::Header;
 use super::token::{Token, Tokens};
 use super::{MOST_NODES, refused, syntax};
 use crate::arena::Memo;
-use crate::dfa::{Diagram, State, Target};
+use crate::bdd::{Bdd, Diagram, Operation};
+use crate::dfa::State;
 use crate::error::Error;
-use crate::guard::{Guard, Store};
 use crate::source::Span;
 
 /// An edge's destination and marks.
@@ -25,7 +25,7 @@ pub(super) struct Described {
     pub(super) number: u32,
     pub(super) marks: Vec<u32>,
     pub(super) edges: Vec<Edge>,
-    pub(super) transitions: Target,
+    pub(super) transitions: Bdd,
     pub(super) span: Span,
 }
 
@@ -33,7 +33,6 @@ pub(super) struct Described {
 /// in the text; missing transitions lead to [`Body::NOWHERE`].
 #[derive(Default)]
 pub(super) struct Body {
-    pub(super) diagram: Diagram,
     pub(super) states: Vec<Option<Described>>,
     numbers: Memo<u32, State>,
     /// For each state its number in the text and where it is named first.
@@ -90,13 +89,8 @@ fn state(tokens: &mut Tokens, header: &mut Header, body: &mut Body) -> Result<()
     if body.states[here as usize].is_some() {
         return Err(syntax(format!("state {number} is described twice"), span));
     }
-    let described = Described {
-        number,
-        marks,
-        edges: Vec::new(),
-        transitions: Target::to_state(Body::NOWHERE),
-        span,
-    };
+    let described =
+        Described { number, marks, edges: Vec::new(), transitions: Bdd::leaf(Body::NOWHERE), span };
     let described = edges(tokens, header, body, described, label)?;
     body.states[here as usize] = Some(described);
     Ok(())
@@ -107,7 +101,7 @@ fn edges(
     header: &mut Header,
     body: &mut Body,
     mut state: Described,
-    label: Option<Guard>,
+    label: Option<Bdd>,
 ) -> Result<Described, Error> {
     let count = header.propositions.len();
     let mut implicit = Vec::new();
@@ -124,18 +118,17 @@ fn edges(
             }
             (None, None) => implicit.push(edge.to),
             (Some(guard), _) | (_, Some(guard)) => {
-                let mut overlay = Overlay::new(&header.labels.store, &mut body.diagram, edge.to);
-                let laid = overlay.lay(state.transitions, guard);
+                let laid = lay(&mut header.labels.diagram, state.transitions, guard, edge.to);
                 state.transitions = laid.ok_or_else(|| nondeterministic(&state, start))?;
             }
         }
         state.edges.push(edge);
-        if body.diagram.nodes().len() > MOST_NODES {
+        if header.labels.diagram.nodes().len() > MOST_NODES {
             return Err(refused("the transitions are too complex", start));
         }
     }
     if !implicit.is_empty() {
-        state.transitions = table(body, &state, &implicit, count)?;
+        state.transitions = table(&mut header.labels.diagram, &state, &implicit, count)?;
     }
     Ok(state)
 }
@@ -174,11 +167,11 @@ fn nondeterministic(state: &Described, span: Span) -> Error {
 
 /// Transitions of edges without labels: one for each letter, proposition 0 changing fastest.
 fn table(
-    body: &mut Body,
+    diagram: &mut Diagram,
     state: &Described,
     implicit: &[State],
     count: usize,
-) -> Result<Target, Error> {
+) -> Result<Bdd, Error> {
     if implicit.len() < state.edges.len() {
         return Err(syntax("some edges of this state have labels and some have none", state.span));
     }
@@ -192,51 +185,28 @@ fn table(
         );
         return Err(syntax(message, state.span));
     }
-    let mut row: Vec<Target> = implicit.iter().map(|&to| Target::to_state(to)).collect();
+    let mut row: Vec<Bdd> = implicit.iter().map(|&to| Bdd::leaf(to)).collect();
     // The last proposition tells the first half of the row from the second.
     for proposition in (0..count as u32).rev() {
         let (low, high) = row.split_at(row.len() / 2);
-        let join = |(&low, &high)| body.diagram.node(proposition, low, high);
+        let join = |(&low, &high)| diagram.node(proposition, low, high);
         row = low.iter().zip(high).map(join).collect();
     }
     Ok(row[0])
 }
 
-/// Lays an edge over the transitions that are there.
-struct Overlay<'a> {
-    store: &'a Store,
-    diagram: &'a mut Diagram,
-    to: State,
-    known: Memo<(Target, Guard), Target>,
-}
-
-impl<'a> Overlay<'a> {
-    fn new(store: &'a Store, diagram: &'a mut Diagram, to: State) -> Self {
-        Self { store, diagram, to, known: Memo::default() }
-    }
-
-    /// The transitions with the edge where `guard` holds; none if another edge is in its way.
-    fn lay(&mut self, below: Target, guard: Guard) -> Option<Target> {
-        if guard == Guard::FALSE || below.state() == Some(self.to) {
+/// Transitions with an edge to `to` laid over them where `guard` holds; none if another edge is in
+/// its way.
+fn lay(diagram: &mut Diagram, below: Bdd, guard: Bdd, to: State) -> Option<Bdd> {
+    let edge = Bdd::leaf(to);
+    let mut is_free = true;
+    let laid = diagram.apply(Operation::new(to), below, guard, &mut |_, below, guard| {
+        if guard == Bdd::FALSE || below == edge {
             return Some(below);
         }
-        let asked = self.diagram.proposition(below);
-        if guard == Guard::TRUE && asked.is_none() {
-            return (below.state() == Some(Body::NOWHERE)).then(|| Target::to_state(self.to));
-        }
-        if let Some(known) = self.known.get((below, guard)) {
-            return Some(known);
-        }
-        let proposition = asked.unwrap_or(u32::MAX).min(self.store.level(guard));
-        let (below0, below1) = self.diagram.split(below, proposition);
-        let (guard0, guard1) = if self.store.level(guard) == proposition {
-            self.store.branches(guard)
-        } else {
-            (guard, guard)
-        };
-        let (low, high) = (self.lay(below0, guard0)?, self.lay(below1, guard1)?);
-        let laid = self.diagram.node(proposition, low, high);
-        self.known.insert((below, guard), laid);
-        Some(laid)
-    }
+        let meets = guard == Bdd::TRUE && below.value().is_some();
+        is_free &= !meets || below == Bdd::leaf(Body::NOWHERE);
+        meets.then_some(edge)
+    });
+    is_free.then_some(laid)
 }

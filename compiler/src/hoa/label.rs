@@ -4,15 +4,15 @@ use rustc_hash::FxHashMap;
 
 use super::token::{Token, Tokens};
 use super::{MOST_NODES, refused, syntax};
+use crate::bdd::{Bdd, Diagram};
 use crate::error::Error;
-use crate::guard::{Guard, Store};
 use crate::source::Span;
 
 /// The functions that labels are, and the aliases.
 #[derive(Default)]
 pub(super) struct Labels {
-    pub(super) store: Store,
-    aliases: FxHashMap<String, Guard>,
+    pub(super) diagram: Diagram,
+    aliases: FxHashMap<String, Bdd>,
     /// The highest proposition that a label names, and where.
     pub(super) highest: Option<(u32, Span)>,
 }
@@ -21,19 +21,19 @@ pub(super) struct Labels {
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Pending {
     Open(Span),
-    Or(Guard),
-    And(Guard),
+    Or(Bdd),
+    And(Bdd),
     Not,
 }
 
 impl Labels {
     /// Gives a function a name; whether it is new.
-    pub(super) fn name(&mut self, name: &str, guard: Guard) -> bool {
+    pub(super) fn name(&mut self, name: &str, guard: Bdd) -> bool {
         self.aliases.insert(name.to_owned(), guard).is_none()
     }
 
     /// Reads `[label]`.
-    pub(super) fn bracketed(&mut self, tokens: &mut Tokens, count: usize) -> Result<Guard, Error> {
+    pub(super) fn bracketed(&mut self, tokens: &mut Tokens, count: usize) -> Result<Bdd, Error> {
         tokens.expect('[')?;
         let guard = self.expression(tokens, count)?;
         tokens.expect(']')?;
@@ -41,7 +41,7 @@ impl Labels {
     }
 
     /// Reads an expression over `count` propositions: `!`, `&`, `|`, brackets, with a stack of its own.
-    pub(super) fn expression(&mut self, tokens: &mut Tokens, count: usize) -> Result<Guard, Error> {
+    pub(super) fn expression(&mut self, tokens: &mut Tokens, count: usize) -> Result<Bdd, Error> {
         let mut pending = Vec::new();
         loop {
             while matches!(tokens.peek(), Token::Symbol('!' | '(')) {
@@ -81,33 +81,33 @@ impl Labels {
     fn reduce(
         &mut self,
         pending: &mut Vec<Pending>,
-        mut value: Guard,
+        mut value: Bdd,
         loosest: bool,
         span: Span,
-    ) -> Result<Guard, Error> {
+    ) -> Result<Bdd, Error> {
         while let Some(&last) = pending.last() {
             value = match last {
-                Pending::Not => self.store.not(value),
-                Pending::And(left) => self.store.and(left, value),
-                Pending::Or(left) if loosest => self.store.or(left, value),
+                Pending::Not => self.diagram.not(value),
+                Pending::And(left) => self.diagram.and(left, value),
+                Pending::Or(left) if loosest => self.diagram.or(left, value),
                 _ => break,
             };
             pending.pop();
-            if self.store.len() > MOST_NODES {
+            if self.diagram.nodes().len() > MOST_NODES {
                 return Err(refused("the labels are too complex", span));
             }
         }
         Ok(value)
     }
 
-    fn operand(&mut self, tokens: &mut Tokens, count: usize) -> Result<Guard, Error> {
+    fn operand(&mut self, tokens: &mut Tokens, count: usize) -> Result<Bdd, Error> {
         let span = tokens.span();
         let guard = match tokens.peek() {
-            Token::Word("t") => Guard::TRUE,
-            Token::Word("f") => Guard::FALSE,
+            Token::Word("t") => Bdd::TRUE,
+            Token::Word("f") => Bdd::FALSE,
             Token::Number(number) if (*number as usize) < count => {
                 self.highest = self.highest.max(Some((*number, span)));
-                self.store.variable(*number)
+                self.diagram.variable(*number)
             }
             Token::Number(number) => {
                 return Err(no_proposition(*number, count, span));

@@ -1,0 +1,140 @@
+//! Walks over diagrams: what a function leads to, and functions rewritten bottom-up.
+
+use rustc_hash::FxHashSet;
+
+use super::{Bdd, Diagram, Node};
+
+/// What a [fold](Diagram::fold) made of each function.
+pub struct Images<'a> {
+    leaf: &'a dyn Fn(u32) -> Bdd,
+    nodes: Vec<Bdd>,
+}
+
+impl Images<'_> {
+    /// The image of `f`.
+    #[must_use]
+    pub fn of(&self, f: Bdd) -> Bdd {
+        match self.nodes.get(f.0 as usize) {
+            Some(&image) => image,
+            None => (self.leaf)(f.0 & !Bdd::LEAF),
+        }
+    }
+}
+
+impl Diagram {
+    /// The leaves of `f`, each once, in the lexicographic order of the first valuations that lead
+    /// to them (level 0 first, false before true).
+    #[must_use]
+    pub fn leaves(&self, f: Bdd) -> Vec<u32> {
+        let [mut nodes, mut leaves] = [(); 2].map(|()| FxHashSet::default());
+        let mut found = Vec::new();
+        self.walk(f, &mut |node| nodes.insert(node), &mut |leaf| {
+            if leaves.insert(leaf) {
+                found.push(leaf);
+            }
+        });
+        found
+    }
+
+    /// Visits what is below `f` depth-first, low before high. `enter` is asked for each node,
+    /// by its place, whether to go below it; `leaf` gets each leaf that is met.
+    pub fn walk(&self, f: Bdd, enter: &mut dyn FnMut(u32) -> bool, leaf: &mut dyn FnMut(u32)) {
+        let mut stack = vec![f];
+        while let Some(f) = stack.pop() {
+            match self.get(f) {
+                Some(node) if enter(f.0) => stack.extend([node.high, node.low]),
+                Some(_) => {}
+                None => leaf(f.0 & !Bdd::LEAF),
+            }
+        }
+    }
+
+    /// The places of the nodes that `roots` need, in the order in which a depth-first walk from the
+    /// first root to the last, low before high, leaves them: children before parents.
+    #[must_use]
+    pub fn postorder(&self, roots: &[Bdd]) -> Vec<u32> {
+        let mut seen = vec![false; self.nodes.len()];
+        let mut order = Vec::new();
+        let mut stack = Vec::new();
+        for &root in roots {
+            stack.push((root, false));
+            while let Some((f, is_left)) = stack.pop() {
+                let Some(node) = self.get(f) else { continue };
+                if is_left {
+                    order.push(f.0);
+                } else if !std::mem::replace(&mut seen[f.0 as usize], true) {
+                    stack.extend([(f, true), (node.high, false), (node.low, false)]);
+                }
+            }
+        }
+        order
+    }
+
+    /// Rewrites functions bottom-up: `leaf` makes the images of leaves, and `node` those of nodes,
+    /// whose children it gets as images. `order` holds the places of nodes after those of their
+    /// children, as [`postorder`](Self::postorder) has them; other nodes have no image.
+    #[must_use]
+    pub fn fold<'a>(
+        &self,
+        order: &[u32],
+        leaf: &'a dyn Fn(u32) -> Bdd,
+        node: &mut dyn FnMut(Node) -> Bdd,
+    ) -> Images<'a> {
+        let mut images = Images { leaf, nodes: vec![Bdd::FALSE; self.nodes.len()] };
+        for &place in order {
+            let Node { level, low, high } = self.nodes[place as usize];
+            let (low, high) = (images.of(low), images.of(high));
+            images.nodes[place as usize] = node(Node { level, low, high });
+        }
+        images
+    }
+
+    /// The functions `roots` with other leaves, in a diagram of their own. Its nodes stand in the
+    /// order of [`postorder`](Self::postorder): equal functions give equal diagrams, byte for byte.
+    #[must_use]
+    pub fn map_leaves(&self, roots: &[Bdd], leaf: &dyn Fn(u32) -> Bdd) -> (Self, Vec<Bdd>) {
+        let mut mapped = Self::default();
+        let order = self.postorder(roots);
+        let node = &mut |Node { level, low, high }| mapped.node(level, low, high);
+        let images = self.fold(&order, leaf, node);
+        let roots = roots.iter().map(|&root| images.of(root)).collect();
+        (mapped, roots)
+    }
+
+    /// The function `f` of another diagram, in this one.
+    pub fn import(&mut self, from: &Self, f: Bdd) -> Bdd {
+        let order = from.postorder(&[f]);
+        let node = &mut |Node { level, low, high }| self.node(level, low, high);
+        from.fold(&order, &Bdd::leaf, node).of(f)
+    }
+
+    /// For each node of `self`, its leaves, rising, each with the function in `into` that is true
+    /// where the node leads to it. Cost: the number of the pairs.
+    #[must_use]
+    pub fn indicators(&self, into: &mut Self) -> Vec<Vec<(u32, Bdd)>> {
+        let mut all: Vec<Vec<(u32, Bdd)>> = Vec::with_capacity(self.nodes.len());
+        for &Node { level, low, high } in &self.nodes {
+            let [low, high] = [low, high].map(|child| match all.get(child.0 as usize) {
+                Some(known) => known.clone(),
+                None => vec![(child.0 & !Bdd::LEAF, Bdd::TRUE)],
+            });
+            all.push(into.join(level, &low, &high));
+        }
+        all
+    }
+
+    /// The indicators of a node from those of its children.
+    fn join(&mut self, level: u32, low: &[(u32, Bdd)], high: &[(u32, Bdd)]) -> Vec<(u32, Bdd)> {
+        let (mut low, mut high) = (low.iter().peekable(), high.iter().peekable());
+        let mut joined = Vec::new();
+        while let Some(&leaf) =
+            [low.peek(), high.peek()].into_iter().flatten().map(|(leaf, _)| leaf).min()
+        {
+            let [on_low, on_high] = [&mut low, &mut high].map(|side| {
+                side.next_if(|(other, _)| *other == leaf).map_or(Bdd::FALSE, |(_, f)| *f)
+            });
+            joined.push((leaf, self.node(level, on_low, on_high)));
+        }
+        joined
+    }
+}
