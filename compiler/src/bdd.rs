@@ -16,10 +16,10 @@
 //! let both = diagram.and(a, b);
 //! let not_both = diagram.not(both);
 //! assert_eq!(diagram.and(either, both), both);
-//! // a ∧ ¬b, or ¬a ∧ b
+//! // One of the two: a ∧ ¬b ∨ ¬a ∧ b.
 //! let one = diagram.and(either, not_both);
-//! let sum = diagram.sum_of_products(one, one, usize::MAX).unwrap();
-//! assert_eq!(sum, [[(0, false), (1, true)], [(0, true), (1, false)]]);
+//! let sum = diagram.sum_of_products(one, one);
+//! assert_eq!(sum, [[(0, true), (1, false)], [(0, false), (1, true)]]);
 //! // A transition function: to state 7 where exactly one holds, else to state 3.
 //! let (states, moves) = diagram.map_leaves(&[one], &|leaf| Bdd::leaf(if leaf == 1 { 7 } else { 3 }));
 //! assert_eq!(states.leaves(moves[0]), [3, 7]);
@@ -179,13 +179,8 @@ impl Diagram {
     /// are arbitrary and [`is_exhausted`](Self::is_exhausted) says so. No operation can run away.
     #[must_use]
     pub fn with_limit(limit: usize) -> Self {
-        Self {
-            nodes: Vec::new(),
-            unique: vec![Bdd::FALSE; 1 << 8],
-            cache: Vec::new(),
-            covers: Covers::default(),
-            limit,
-        }
+        let unique = vec![Bdd::FALSE; 1 << 8];
+        Self { nodes: Vec::new(), unique, cache: Vec::new(), covers: Covers::default(), limit }
     }
 
     /// Whether the limit has been passed, and results are arbitrary.

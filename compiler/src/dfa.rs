@@ -7,7 +7,7 @@
 
 mod edge;
 
-use crate::bdd::{Bdd, Cube, Diagram, Literal};
+use crate::bdd::{Bdd, Cube, Diagram};
 
 pub use edge::Edge;
 
@@ -143,9 +143,9 @@ pub struct Guards<'a> {
     /// Boolean functions of the propositions.
     diagram: Diagram,
     possible: Bdd,
-    /// For each node of the automaton's diagram the states that it leads to, and when: computed
-    /// once for all states that share the node.
-    indicators: Vec<Vec<(State, Bdd)>>,
+    /// For each state the states that it moves to, rising, and when: what states share of their
+    /// transition functions is looked at once.
+    moves: Vec<Vec<(State, Bdd)>>,
 }
 
 impl<'a> Guards<'a> {
@@ -154,58 +154,58 @@ impl<'a> Guards<'a> {
     pub fn new(dfa: &'a Dfa) -> Self {
         let mut diagram = Diagram::default();
         let possible = dfa.possible.map_or(Bdd::TRUE, |f| diagram.import(&dfa.diagram, f));
-        let indicators = dfa.diagram.indicators(&mut diagram);
-        Self { dfa, diagram, possible, indicators }
+        let moves = dfa.diagram.indicators(&dfa.transitions, &mut diagram);
+        Self { dfa, diagram, possible, moves }
     }
 
     /// ψ_{q,to}: when `q` moves to `to`. Literals are `(proposition, value)`, by rising
     /// proposition.
     pub fn edge(&mut self, q: State, to: State) -> Vec<Cube> {
-        self.cubes(self.moves(q, to), usize::MAX).unwrap_or_default()
+        let when = self.when(q, to);
+        self.sum(when)
     }
 
     /// D_φ^q: when `q` moves to another state that is not the trap (paper, Eq. 3A3).
     pub fn progress(&mut self, q: State) -> Vec<Cube> {
-        let progresses = self.progresses(q);
-        self.cubes(progresses, usize::MAX).unwrap_or_default()
+        let when = self.progresses(q);
+        self.sum(when)
     }
 
     /// Whether no guard has more than `most` products.
     pub fn are_below(&mut self, most: usize) -> bool {
-        let dfa = self.dfa;
-        dfa.states().all(|q| {
-            let mut functions: Vec<Bdd> =
-                dfa.successors(q).into_iter().map(|to| self.moves(q, to)).collect();
-            functions.push(self.progresses(q));
-            functions.into_iter().all(|when| self.cubes(when, most).is_some())
+        self.dfa.states().all(|q| {
+            let mut guards = self.moves[q as usize].clone();
+            guards.push((q, self.progresses(q)));
+            guards.iter().all(|&(_, when)| {
+                let (lower, upper) = self.bounds(when);
+                self.diagram.count_products(lower, upper) <= most
+            })
         })
     }
 
     /// The letters under which `q` moves to `to`.
-    fn moves(&self, q: State, to: State) -> Bdd {
-        let root = self.dfa.transitions[q as usize];
-        let Some(node) = root.index() else { return Bdd::leaf(u32::from(root == Bdd::leaf(to))) };
-        let known = &self.indicators[node as usize];
-        let place = known.binary_search_by_key(&to, |&(leaf, _)| leaf);
-        place.map_or(Bdd::FALSE, |place| known[place].1)
+    fn when(&self, q: State, to: State) -> Bdd {
+        let moves = &self.moves[q as usize];
+        let place = moves.binary_search_by_key(&to, |&(state, _)| state);
+        place.map_or(Bdd::FALSE, |place| moves[place].1)
     }
 
     /// The letters under which `q` moves on, and not into the trap.
     fn progresses(&mut self, q: State) -> Bdd {
-        let trapped = self.dfa.trap.map_or(Bdd::FALSE, |trap| self.moves(q, trap));
-        let stays = self.diagram.or(self.moves(q, q), trapped);
-        self.diagram.not(stays)
+        let falls = self.dfa.trap.map_or(Bdd::FALSE, |trap| self.when(q, trap));
+        let rests = self.diagram.or(self.when(q, q), falls);
+        self.diagram.not(rests)
     }
 
-    /// A sum of products that is `when` on all possible letters, the products in the lexicographic
-    /// order of their literals, true before false.
-    fn cubes(&mut self, when: Bdd, most: usize) -> Option<Vec<Cube>> {
-        let lower = self.diagram.and(when, self.possible);
+    /// What a sum of products must cover, and what it may: all letters of `when` that can occur,
+    /// and besides them any that cannot.
+    fn bounds(&mut self, when: Bdd) -> (Bdd, Bdd) {
         let impossible = self.diagram.not(self.possible);
-        let upper = self.diagram.or(when, impossible);
-        let mut cubes = self.diagram.sum_of_products(lower, upper, most)?;
-        let key = |&(proposition, value): &Literal| (proposition, !value);
-        cubes.sort_by(|a, b| a.iter().map(key).cmp(b.iter().map(key)));
-        Some(cubes)
+        (self.diagram.and(when, self.possible), self.diagram.or(when, impossible))
+    }
+
+    fn sum(&mut self, when: Bdd) -> Vec<Cube> {
+        let (lower, upper) = self.bounds(when);
+        self.diagram.sum_of_products(lower, upper)
     }
 }

@@ -42,25 +42,35 @@ impl Covers {
     /// The place of the set of the cube without literals.
     const EMPTY_CUBE: u32 = 1;
 
+    /// The two sets that all others are made of.
+    fn new() -> Self {
+        let cover = Cover { level: u32::MAX, parts: [0; 3], count: 0, function: Bdd::FALSE };
+        let empty_cube = Cover { count: 1, function: Bdd::TRUE, ..cover };
+        Self { known: Memo::default(), sets: vec![cover, empty_cube] }
+    }
+
     fn get(&self, set: u32) -> Cover {
         self.sets[set as usize]
     }
 
     /// Adds a set, and returns its place.
     fn add(&mut self, level: u32, parts: [u32; 3], function: Bdd) -> u32 {
-        let counts = parts.map(|part| self.get(part).count);
-        let count = counts.into_iter().fold(0, usize::saturating_add);
+        let [low, high, rest] = parts;
+        let asking = self.get(low).count.saturating_add(self.get(high).count);
+        let count = asking.saturating_add(self.get(rest).count);
         self.sets.push(Cover { level, parts, count, function });
         self.sets.len() as u32 - 1
     }
 
+    /// Writes out the cubes of a set in order: what asks the level comes first, for no cube of an
+    /// irredundant sum is the beginning of another.
     fn write(&self, set: u32, prefix: &mut Cube, cubes: &mut Vec<Cube>) {
         match set {
             Self::NONE => {}
             Self::EMPTY_CUBE => cubes.push(prefix.clone()),
             _ => {
                 let Cover { level, parts: [low, high, rest], .. } = self.get(set);
-                for (value, part) in [(false, low), (true, high)] {
+                for (value, part) in [(true, high), (false, low)] {
                     prefix.push((level, value));
                     self.write(part, prefix, cubes);
                     prefix.pop();
@@ -73,25 +83,28 @@ impl Covers {
 
 impl Diagram {
     /// An irredundant sum of products between `lower` and `upper`, of which the first implies the
-    /// second: every cube is needed, and no literal of it can be dropped. The sum is determined by
-    /// the two functions and the order of the levels. `None` if it has more than `most` cubes.
-    pub fn sum_of_products(&mut self, lower: Bdd, upper: Bdd, most: usize) -> Option<Vec<Cube>> {
-        if self.covers.sets.is_empty() || self.covers.sets.len() > MOST_COVERS {
-            self.covers = Covers::default();
-            for count in [Covers::NONE, Covers::EMPTY_CUBE] {
-                let function = Bdd::leaf(count);
-                let cover =
-                    Cover { level: u32::MAX, parts: [0; 3], count: count as usize, function };
-                self.covers.sets.push(cover);
-            }
-        }
-        let set = self.cover(lower, upper);
-        if self.covers.get(set).count > most {
-            return None;
-        }
+    /// second: every cube is needed, and no literal of it can be dropped. The cubes stand in the
+    /// lexicographic order of their literals, lower levels first, true before false. The sum is
+    /// determined by the two functions and the order of the levels.
+    pub fn sum_of_products(&mut self, lower: Bdd, upper: Bdd) -> Vec<Cube> {
+        let set = self.sum(lower, upper);
         let mut cubes = Vec::new();
         self.covers.write(set, &mut Cube::new(), &mut cubes);
-        Some(cubes)
+        cubes
+    }
+
+    /// The number of cubes of [`sum_of_products`](Self::sum_of_products), none of which is written
+    /// out. Saturating.
+    pub fn count_products(&mut self, lower: Bdd, upper: Bdd) -> usize {
+        let set = self.sum(lower, upper);
+        self.covers.get(set).count
+    }
+
+    fn sum(&mut self, lower: Bdd, upper: Bdd) -> u32 {
+        if self.covers.sets.is_empty() || self.covers.sets.len() > MOST_COVERS {
+            self.covers = Covers::new();
+        }
+        self.cover(lower, upper)
     }
 
     /// The place of the set of cubes of a sum.
@@ -111,7 +124,7 @@ impl Diagram {
         // What only cubes that ask the level can cover.
         let (only0, only1) = (self.minus(lower0, upper1), self.minus(lower1, upper0));
         let (low, high) = (self.cover(only0, upper0), self.cover(only1, upper1));
-        let [on_low, on_high] = [low, high].map(|set| self.covers.get(set).function);
+        let (on_low, on_high) = (self.covers.get(low).function, self.covers.get(high).function);
         let (rest0, rest1) = (self.minus(lower0, on_low), self.minus(lower1, on_high));
         let (rest, both) = (self.or(rest0, rest1), self.and(upper0, upper1));
         let rest = self.cover(rest, both);

@@ -26,7 +26,8 @@ impl Diagram {
     /// to them (level 0 first, false before true).
     #[must_use]
     pub fn leaves(&self, f: Bdd) -> Vec<u32> {
-        let [mut nodes, mut leaves] = [(); 2].map(|()| FxHashSet::default());
+        let mut nodes = FxHashSet::default();
+        let mut leaves = FxHashSet::default();
         let mut found = Vec::new();
         self.walk(f, &mut |node| nodes.insert(node), &mut |leaf| {
             if leaves.insert(leaf) {
@@ -108,33 +109,48 @@ impl Diagram {
         from.fold(&order, &Bdd::leaf, node).of(f)
     }
 
-    /// For each node of `self`, its leaves, rising, each with the function in `into` that is true
-    /// where the node leads to it. Cost: the number of the pairs.
+    /// For each of `roots` its leaves, rising, each with the function in `into` that is true where
+    /// the root leads to it. Cost: the number of pairs of a node and a leaf that it leads to.
     #[must_use]
-    pub fn indicators(&self, into: &mut Self) -> Vec<Vec<(u32, Bdd)>> {
-        let mut all: Vec<Vec<(u32, Bdd)>> = Vec::with_capacity(self.nodes.len());
-        for &Node { level, low, high } in &self.nodes {
-            let [low, high] = [low, high].map(|child| match all.get(child.0 as usize) {
-                Some(known) => known.clone(),
-                None => vec![(child.0 & !Bdd::LEAF, Bdd::TRUE)],
-            });
-            all.push(into.join(level, &low, &high));
+    pub fn indicators(&self, roots: &[Bdd], into: &mut Self) -> Vec<Vec<(u32, Bdd)>> {
+        let mut known: Vec<Vec<(u32, Bdd)>> = vec![Vec::new(); self.nodes.len()];
+        let of = |f: Bdd, known: &[Vec<(u32, Bdd)>]| match known.get(f.0 as usize) {
+            Some(indicators) => indicators.clone(),
+            None => vec![(f.0 & !Bdd::LEAF, Bdd::TRUE)],
+        };
+        for place in self.postorder(roots) {
+            let Node { level, low, high } = self.nodes[place as usize];
+            let (low, high) = (of(low, &known), of(high, &known));
+            known[place as usize] = into.join(level, &low, &high);
         }
-        all
+        roots.iter().map(|&root| of(root, &known)).collect()
     }
 
     /// The indicators of a node from those of its children.
-    fn join(&mut self, level: u32, low: &[(u32, Bdd)], high: &[(u32, Bdd)]) -> Vec<(u32, Bdd)> {
-        let (mut low, mut high) = (low.iter().peekable(), high.iter().peekable());
-        let mut joined = Vec::new();
-        while let Some(&leaf) =
-            [low.peek(), high.peek()].into_iter().flatten().map(|(leaf, _)| leaf).min()
-        {
-            let [on_low, on_high] = [&mut low, &mut high].map(|side| {
-                side.next_if(|(other, _)| *other == leaf).map_or(Bdd::FALSE, |(_, f)| *f)
-            });
+    fn join(
+        &mut self,
+        level: u32,
+        mut low: &[(u32, Bdd)],
+        mut high: &[(u32, Bdd)],
+    ) -> Vec<(u32, Bdd)> {
+        let mut joined = Vec::with_capacity(low.len().max(high.len()));
+        let first = |side: &[(u32, Bdd)]| side.first().map_or(u32::MAX, |&(leaf, _)| leaf);
+        while !low.is_empty() || !high.is_empty() {
+            let leaf = first(low).min(first(high));
+            let (on_low, on_high) = (take(&mut low, leaf), take(&mut high, leaf));
             joined.push((leaf, self.node(level, on_low, on_high)));
         }
         joined
+    }
+}
+
+/// Takes the indicator of `leaf` if it comes first; else the leaf is never met.
+fn take(side: &mut &[(u32, Bdd)], leaf: u32) -> Bdd {
+    match **side {
+        [(first, indicator), ref rest @ ..] if first == leaf => {
+            *side = rest;
+            indicator
+        }
+        _ => Bdd::FALSE,
     }
 }

@@ -28,11 +28,15 @@ impl Dfa {
     #[must_use]
     pub fn edges(&self) -> Vec<Edge> {
         let mut guards = Guards::new(self);
-        let pairs =
-            self.states().flat_map(|q| self.successors(q).into_iter().map(move |to| (q, to)));
-        pairs
-            .map(|(from, to)| Edge { from, to, guard: guards.edge(from, to) })
-            .filter(|edge| !edge.guard.is_empty())
-            .collect()
+        let mut edges = Vec::new();
+        for from in self.states() {
+            for (to, when) in guards.moves[from as usize].clone() {
+                let guard = guards.sum(when);
+                if !guard.is_empty() {
+                    edges.push(Edge { from, to, guard });
+                }
+            }
+        }
+        edges
     }
 }
