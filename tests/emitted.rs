@@ -18,7 +18,7 @@ enum Value {
 
 /// The tables of the automaton that the code for `dfa` makes.
 pub(crate) fn emitted(dfa: &Dfa) -> Tables {
-    let code: Expr = syn::parse2(emit::automaton(&tables(dfa), "tltl")).unwrap();
+    let code: Expr = syn::parse2(emit::automaton(&tables(dfa), &quote::quote! { tltl })).unwrap();
     let value = read(&code);
     let optional = |name: &str| match value.field(name) {
         Value::Made(some, fields) if some == "Some" => Some(fields["0"].number() as u32),

@@ -1,18 +1,18 @@
 //! What the macros do, testable without a compiler around it.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use proc_macro2::{Span, TokenStream, TokenTree};
+use proc_macro2::{Ident, Span, TokenStream, TokenTree};
 use quote::{quote, quote_spanned};
 use tltl_compiler::compile::{self, Compiled};
 #[cfg(feature = "hoa")]
 use tltl_compiler::emit::foreign;
-use tltl_compiler::emit::rust::{self, Options};
+use tltl_compiler::emit::rust::{self, Options, Place};
 use tltl_compiler::error::{Error, Errors, Kind, Style};
 use tltl_compiler::source::Source;
 use tltl_compiler::translate::Budget;
 
-use crate::tokens::Flat;
+use crate::tokens::{Flat, visible};
 
 /// `tltl!{ … }`
 pub(crate) fn inline(input: TokenStream) -> TokenStream {
@@ -21,7 +21,10 @@ pub(crate) fn inline(input: TokenStream) -> TokenStream {
     let source = Source::new("tltl!", flat.text.clone());
     let host = |span| flat.tokens(span);
     match compile::fragment(&source, Budget::default()) {
-        Ok(compiled) => emit(&compiled, &Options { runtime, state: None, host: &host }),
+        Ok(compiled) => {
+            let options = Options { runtime, state: None, host: &host, place: Place::Scope };
+            rust::code(&compiled, &options)
+        }
         Err(errors) => {
             // rustc would show a warning as one more error.
             let errors = errors.iter().filter(|error| !error.is_warning());
@@ -40,30 +43,45 @@ pub(crate) fn inline(input: TokenStream) -> TokenStream {
 pub(crate) fn include(input: TokenStream) -> TokenStream {
     let arguments = match Arguments::parse(input) {
         Ok(arguments) => arguments,
-        Err((message, span)) => {
-            return quote_spanned! { span => ::core::compile_error! { #message } };
-        }
+        Err((message, span)) => return refusal(&message, span),
     };
-    let span = arguments.span;
-    let root = std::env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from).unwrap_or_default();
-    let text = match std::fs::read_to_string(root.join(&arguments.path)) {
+    let file = arguments.file();
+    let text = match std::fs::read_to_string(&file) {
         Ok(text) => text,
         Err(error) => {
             let message = format!("cannot read the task file `{}`: {error}", arguments.path);
-            return quote_spanned! { span => ::core::compile_error! { #message } };
+            return refusal(&message, arguments.span);
         }
     };
     let source = Source::new(arguments.path.as_str(), text);
-    let options =
-        |host| Options { runtime: arguments.runtime.clone(), state: arguments.state.clone(), host };
-    if arguments.path.ends_with(".hoa") {
-        return arguments.module(&automaton(&source, &arguments));
-    }
-    let code = match compile::file(&source, Budget::default()) {
-        Ok(compiled) => emit(&compiled, &options(&|_| TokenStream::new())),
-        Err(errors) => failure(&errors, &source, span),
+    let code = if arguments.path.ends_with(".hoa") {
+        automaton(&source, &arguments)
+    } else {
+        tasks(&source, &arguments)
     };
-    arguments.module(&code)
+    arguments.module(&file, &code)
+}
+
+/// The tasks of a file.
+fn tasks(source: &Source, arguments: &Arguments) -> TokenStream {
+    let compiled = match compile::file(source, Budget::default()) {
+        Ok(compiled) => compiled,
+        Err(errors) => return failure(&errors, source, arguments.span),
+    };
+    if let Some((name, span)) = arguments.hidden(&compiled) {
+        let message = format!(
+            "`{name}` is declared in `{}` too, and hides this: give it another name here, as in `use {name} as Other`",
+            source.name()
+        );
+        return refusal(&message, span);
+    }
+    let options = Options {
+        runtime: arguments.runtime(),
+        state: arguments.state.clone(),
+        host: &|_| TokenStream::new(),
+        place: arguments.place(),
+    };
+    rust::code(&compiled, &options)
 }
 
 /// An automaton in HOA as a task.
@@ -72,7 +90,7 @@ fn automaton(source: &Source, arguments: &Arguments) -> TokenStream {
     match tltl_compiler::hoa::read(source) {
         Ok(read) => {
             let name = read.name.unwrap_or_else(|| arguments.stem());
-            foreign::automaton(&name, &read.dfa, &arguments.runtime)
+            foreign::automaton(&name, &read.dfa, &arguments.runtime(), arguments.place())
         }
         Err(error) => failure(&Errors::from(error), source, arguments.span),
     }
@@ -85,21 +103,16 @@ fn automaton(source: &Source, arguments: &Arguments) -> TokenStream {
         "`{}` is an automaton: to read it, turn on the feature `hoa` of the crate `tltl`",
         source.name()
     );
-    quote_spanned! { arguments.span => ::core::compile_error! { #message } }
+    refusal(&message, arguments.span)
 }
 
 /// The mistakes of a file, with its own lines and carets, at the path that names it.
 fn failure(errors: &Errors, source: &Source, span: Span) -> TokenStream {
-    let message = format!("\n{}", errors.render(source, Style::Plain));
-    quote_spanned! { span => ::core::compile_error! { #message } }
+    refusal(&format!("\n{}", errors.render(source, Style::Plain)), span)
 }
 
-/// A bare formula is an expression, declarations are items.
-fn emit(compiled: &Compiled, options: &Options<'_>) -> TokenStream {
-    let module = &compiled.module;
-    let mut tasks = module.tasks.iter().chain(compiled.factored.iter().map(|part| &part.task));
-    let bare = tasks.next().is_some_and(|task| task.name.is_none());
-    if bare { rust::expression(compiled, options) } else { rust::items(compiled, options) }
+fn refusal(message: &str, span: Span) -> TokenStream {
+    quote_spanned! { span => ::core::compile_error! { #message } }
 }
 
 /// Whether a source that does not compile was meant as declarations.
@@ -139,11 +152,11 @@ fn message(error: &Error, source: &Source, flat: &Flat) -> TokenStream {
 
 /// The path of the runtime: `::tltl`, or what `#![crate = path]` at the start of the input says.
 fn runtime_path(input: TokenStream) -> (TokenStream, TokenStream) {
-    let trees: Vec<TokenTree> = input.clone().into_iter().collect();
+    let trees = visible(input.clone());
     if let [TokenTree::Punct(hash), TokenTree::Punct(bang), TokenTree::Group(group), rest @ ..] =
         trees.as_slice()
     {
-        let inner: Vec<TokenTree> = group.stream().into_iter().collect();
+        let inner = visible(group.stream());
         if let (('#', '!'), [TokenTree::Ident(name), TokenTree::Punct(_), path @ ..]) =
             ((hash.as_char(), bang.as_char()), inner.as_slice())
             && name == "crate"
@@ -160,7 +173,7 @@ struct Arguments {
     span: Span,
     state: Option<TokenStream>,
     name: Option<TokenStream>,
-    runtime: TokenStream,
+    runtime: Option<TokenStream>,
 }
 
 impl Arguments {
@@ -175,9 +188,7 @@ impl Arguments {
             let span = first.first().map_or_else(Span::call_site, TokenTree::span);
             return Err(("include_tltl! takes the path of a task file, as a string".into(), span));
         };
-        let path = path.text;
-        let mut arguments =
-            Self { path, span, state: None, name: None, runtime: quote! { ::tltl } };
+        let mut arguments = Self { path: path.text, span, state: None, name: None, runtime: None };
         for part in parts.filter(|part| !part.is_empty()) {
             arguments.option(&part)?;
         }
@@ -192,9 +203,9 @@ impl Arguments {
             _ => (String::new(), ' ', TokenStream::new()),
         };
         match (name.as_str(), equals) {
-            ("state", '=') => self.state = Some(value),
+            ("state", '=') => self.state = Some(outward(value)),
             ("mod", '=') => self.name = Some(value),
-            ("crate", '=') => self.runtime = value,
+            ("crate", '=') => self.runtime = Some(outward(value)),
             _ => {
                 let span = part.first().map_or_else(Span::call_site, TokenTree::span);
                 let message = "after the path come `state = Type`, `mod = name` or `crate = path`";
@@ -204,37 +215,94 @@ impl Arguments {
         Ok(())
     }
 
+    /// Where the file is.
+    fn file(&self) -> PathBuf {
+        let root = std::env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from).unwrap_or_default();
+        let file = root.join(&self.path);
+        std::path::absolute(&file).unwrap_or(file)
+    }
+
+    fn runtime(&self) -> TokenStream {
+        self.runtime.clone().unwrap_or_else(|| quote! { ::tltl })
+    }
+
+    /// The module sees what is around it only where it must find what a path there names.
+    fn place(&self) -> Place {
+        let sees = self.state.is_some() || self.runtime.is_some();
+        if sees { Place::Scope } else { Place::Module }
+    }
+
+    /// The first word of a path in the arguments that means something else within the module.
+    fn hidden(&self, compiled: &Compiled) -> Option<(String, Span)> {
+        let module = &compiled.module;
+        let factored = compiled.factored.iter().map(|factored| &factored.task);
+        let tasks = module.tasks.iter().chain(factored).filter_map(|task| task.name.as_ref());
+        let predicates = module.predicates.iter().filter(|known| known.declared);
+        let types = module.enums.iter().map(|known| &known.name);
+        let types = types.chain(module.structs.iter().map(|known| &known.name));
+        let names: Vec<_> = types.chain(predicates.map(|known| &known.name)).chain(tasks).collect();
+        let paths = [&self.state, &self.runtime].into_iter().flatten();
+        let words = paths.flat_map(|path| first_words(path.clone()));
+        let named = |word: &Ident| names.iter().any(|name| *word == name);
+        words.into_iter().find(named).map(|word| (word.to_string(), word.span()))
+    }
+
     /// The module around the code, which cargo rebuilds when the file changes.
-    fn module(&self, code: &TokenStream) -> TokenStream {
-        let name = self.name.clone().unwrap_or_else(|| {
-            let name = rust::identifier(&self.stem());
-            quote! { #name }
-        });
-        let (path, about) = (&self.path, format!("The tasks of `{}`.", self.path));
-        let tracked = format!("/{path}");
+    fn module(&self, file: &Path, code: &TokenStream) -> TokenStream {
+        let stem = rust::module_name(&self.stem());
+        let name = self.name.clone().unwrap_or_else(|| quote! { #stem });
+        let about = format!("The tasks of `{}`.", self.path);
+        let file = file.to_string_lossy();
+        let around = (self.place() == Place::Scope).then(|| quote! { use super::*; });
         quote! {
             #[doc = #about]
-            #[allow(unused_imports)]
             pub mod #name {
-                use super::*;
-                const _: &[u8] = include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), #tracked));
+                #around
+                const _: &[::core::primitive::u8] = ::core::include_bytes!(#file);
                 #code
             }
         }
     }
 
-    /// The file's name without its extension, as far as it can be a name in Rust.
+    /// The file's name without its extension.
     fn stem(&self) -> String {
-        let stem = std::path::Path::new(&self.path).file_stem().unwrap_or_default();
-        let stem = stem.to_string_lossy().replace(|c: char| !c.is_alphanumeric(), "_");
-        if stem.starts_with(|c: char| c.is_alphabetic()) { stem } else { format!("_{stem}") }
+        let stem = Path::new(&self.path).file_stem().unwrap_or_default();
+        stem.to_string_lossy().into_owned()
     }
+}
+
+/// A path as it is seen from the module within.
+fn outward(path: TokenStream) -> TokenStream {
+    let mut trees = path.clone().into_iter();
+    match trees.next() {
+        Some(TokenTree::Ident(first)) if first == "super" => quote! { super::#path },
+        Some(TokenTree::Ident(first)) if first == "self" => {
+            let rest: TokenStream = trees.collect();
+            quote_spanned! { first.span() => super #rest }
+        }
+        _ => path,
+    }
+}
+
+/// The words of a type or a path that are looked up where they stand.
+fn first_words(stream: TokenStream) -> Vec<Ident> {
+    let mut words = Vec::new();
+    let mut within = false;
+    for tree in stream {
+        match &tree {
+            TokenTree::Ident(word) if !within => words.push(word.clone()),
+            TokenTree::Group(group) => words.extend(first_words(group.stream())),
+            _ => {}
+        }
+        within = matches!(&tree, TokenTree::Punct(punct) if punct.as_char() == ':');
+    }
+    words
 }
 
 /// The parts between commas.
 fn split(input: TokenStream) -> Vec<Vec<TokenTree>> {
     let mut parts = vec![Vec::new()];
-    for tree in input {
+    for tree in visible(input) {
         match (&tree, parts.last_mut()) {
             (TokenTree::Punct(punct), _) if punct.as_char() == ',' => parts.push(Vec::new()),
             (_, Some(part)) => part.push(tree),

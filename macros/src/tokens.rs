@@ -20,7 +20,7 @@ pub(crate) struct Flat {
 impl Flat {
     /// Flattens what stands in the macro's brackets: a formula, or one string literal that holds it.
     pub(crate) fn new(input: TokenStream) -> Self {
-        let mut trees: Vec<TokenTree> = input.clone().into_iter().collect();
+        let mut trees = visible(input.clone());
         if let [TokenTree::Literal(literal)] = trees.as_slice()
             && let Some(text) = unquote(&literal.to_string())
         {
@@ -34,7 +34,7 @@ impl Flat {
 
     fn stream(&mut self, stream: TokenStream) {
         let mut before: Option<TokenTree> = None;
-        let mut trees = stream.into_iter().peekable();
+        let mut trees = visible(stream).into_iter().peekable();
         while let Some(tree) = trees.next() {
             if let (true, Some(line)) = (is_hash(&tree), trees.peek().and_then(doc_line)) {
                 // rustc has turned the comment into an attribute; here it is a comment again.
@@ -83,7 +83,9 @@ impl Flat {
     pub(crate) fn tokens(&self, span: source::Span) -> TokenStream {
         if self.literal {
             let text = self.text.get(span.start..span.end).unwrap_or_default();
-            return text.parse().unwrap_or_default();
+            let literal =
+                self.places.first().map_or_else(Span::call_site, |(.., tree)| tree.span());
+            return placed(text.parse().unwrap_or_default(), literal);
         }
         let mut at = span.start;
         let within = self.places.iter().filter(|(start, end, _)| {
@@ -130,14 +132,56 @@ fn doc_line(tree: &TokenTree) -> Option<String> {
     }
 }
 
-/// The brackets of a group; the invisible ones that a macro's argument carries become round.
+/// The tokens without the invisible brackets that a macro's argument carries, where there is but
+/// one token in them, or a path: text has no such brackets, and needs none there.
+pub(crate) fn visible(stream: TokenStream) -> Vec<TokenTree> {
+    let mut trees = Vec::new();
+    for tree in stream {
+        match &tree {
+            TokenTree::Group(group) if group.delimiter() == Delimiter::None => {
+                let within = visible(group.stream());
+                let whole = within.len() < 2 || within.iter().all(is_of_a_path);
+                if whole { trees.extend(within) } else { trees.push(tree) }
+            }
+            _ => trees.push(tree),
+        }
+    }
+    trees
+}
+
+fn is_of_a_path(tree: &TokenTree) -> bool {
+    match tree {
+        TokenTree::Ident(_) => true,
+        TokenTree::Punct(punct) => matches!(punct.as_char(), ':' | '$'),
+        _ => false,
+    }
+}
+
+/// The tokens, as if they stood at `span`.
+fn placed(stream: TokenStream, span: Span) -> TokenStream {
+    let placed = stream.into_iter().map(|mut tree| {
+        if let TokenTree::Group(group) = &tree {
+            let within = placed(group.stream(), span);
+            tree = TokenTree::Group(Group::new(group.delimiter(), within));
+        }
+        tree.set_span(span);
+        tree
+    });
+    placed.collect()
+}
+
+/// The brackets of a group. The invisible ones that a macro's argument carries become round, or
+/// braces around what begins like no formula: a closure, a reference.
 fn delimiters(group: &Group) -> (&'static str, &'static str) {
     match group.delimiter() {
         Delimiter::Parenthesis => ("(", ")"),
         Delimiter::Brace => ("{", "}"),
         Delimiter::Bracket => ("[", "]"),
-        Delimiter::None if group.stream().into_iter().count() > 1 => ("(", ")"),
-        Delimiter::None => ("", ""),
+        Delimiter::None => match group.stream().into_iter().next() {
+            Some(TokenTree::Punct(first)) if matches!(first.as_char(), '|' | '&') => ("{", "}"),
+            Some(TokenTree::Ident(first)) if first == "move" => ("{", "}"),
+            _ => ("(", ")"),
+        },
     }
 }
 

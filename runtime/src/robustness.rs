@@ -45,11 +45,35 @@ pub trait Predicate<S: ?Sized> {
     }
 }
 
-impl<S: ?Sized, F: Fn(&S) -> f64> Predicate<S> for F {
+impl<S: ?Sized, F: Fn(&S) -> R, R: Robustness> Predicate<S> for F {
     #[inline]
     fn robustness(&self, s: &S) -> f64 {
-        self(s)
+        self(s).value()
     }
+}
+
+/// What a function gives that is a predicate: an `f64`, and nothing else. It is a trait so that rustc
+/// says what to do with a function that gives a `bool`.
+#[diagnostic::on_unimplemented(
+    message = "a predicate gives its robustness as an `f64`, and this function gives `{Self}`",
+    label = "read by a function that gives `{Self}`",
+    note = "a function that gives a `bool` becomes a predicate by `tltl::Boolean::new(function)`"
+)]
+pub trait Robustness: sealed::Sealed {
+    #[doc(hidden)]
+    fn value(self) -> f64;
+}
+
+impl Robustness for f64 {
+    #[inline]
+    fn value(self) -> f64 {
+        self
+    }
+}
+
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for f64 {}
 }
 
 /// A Boolean function as a predicate: its robustness is `scale` where it is true, `-scale` where it

@@ -13,7 +13,7 @@ use libfuzzer_sys::fuzz_target;
 use proc_macro2::{TokenStream, TokenTree};
 use quote::quote;
 use tltl_compiler::compile::{self, Compiled};
-use tltl_compiler::emit::rust::{self, Options};
+use tltl_compiler::emit::rust::{self, Options, Place};
 use tltl_compiler::error::Errors;
 use tltl_compiler::source::{Source, Span};
 use tltl_compiler::translate::Budget;
@@ -77,12 +77,9 @@ fn is_token(tree: &TokenTree) -> bool {
 /// The code is that of the text, blanks aside.
 fn same_code(text: &str, compiled: &Compiled, shown: &str) {
     let host = |span: Span| text[span.start..span.end].parse().unwrap_or_default();
-    let options = Options { runtime: quote! { ::tltl }, state: None, host: &host };
-    let factored = compiled.factored.iter().map(|part| &part.task);
-    let mut tasks = compiled.module.tasks.iter().chain(factored);
-    let bare = tasks.next().is_some_and(|task| task.name.is_none());
-    let emit = if bare { rust::expression } else { rust::items };
-    assert_eq!(solid(&emit(compiled, &options).to_string()), solid(shown));
+    let options =
+        Options { runtime: quote! { ::tltl }, state: None, host: &host, place: Place::Scope };
+    assert_eq!(solid(&rust::code(compiled, &options).to_string()), solid(shown));
 }
 
 /// The mistakes are those of the text, blanks aside.

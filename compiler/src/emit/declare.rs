@@ -9,26 +9,41 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 use crate::dfa::Dfa;
-use crate::emit::predicates::ident as identifier;
+use crate::emit::names::{Place, ident};
 use crate::emit::rust::Emitter;
 use crate::predicate::{Enum, Parameter, ParameterType, Scalar, Struct, Type};
 use crate::unit::Unit;
 
 impl Emitter<'_> {
+    /// What something is measured in, as a sentence that starts with `subject`.
+    fn measured(&self, subject: &str, unit: &Unit) -> String {
+        match unit.is_plain() {
+            true => format!("{subject} a plain number."),
+            false => format!("{subject} in {}.", self.compiled.module.units.text(unit)),
+        }
+    }
+
+    /// What the parameters are measured in, a paragraph each.
+    pub(super) fn measures(&self, parameters: &[Parameter]) -> impl Iterator<Item = String> {
+        let units = parameters.iter().filter_map(|known| Some((&known.name, known.unit.as_ref()?)));
+        units.map(|(name, unit)| self.measured(&format!("`{name}` is"), unit))
+    }
+
     /// A struct of the source, or the state: fields with their units in the docs.
     pub(super) fn structure(&self, declared: &Struct) -> TokenStream {
-        let name = identifier(&declared.name);
-        let docs = documentation(&declared.docs, &[]);
+        let (name, lints) = (ident(&declared.name), self.options.place.lints());
+        let docs = self.described(&declared.docs, &declared.name, &[]);
         let fields = declared.fields.iter().map(|field| {
             let unit: Vec<_> = field.unit.iter().map(|unit| self.measured("It is", unit)).collect();
-            let docs = documentation(&field.docs, &unit);
-            let (name, ty) = (identifier(&field.name), self.ty(&field.ty));
+            let docs = self.described(&field.docs, &field.name, &unit);
+            let (name, ty) = (ident(&field.name), self.ty(&field.ty));
             quote! { #docs pub #name: #ty }
         });
+        let derive = derive(&["clone::Clone", "marker::Copy", "fmt::Debug", "cmp::PartialEq"]);
         quote! {
             #docs
-            #[allow(missing_docs, non_snake_case, non_camel_case_types)]
-            #[derive(Clone, Copy, Debug, PartialEq)]
+            #lints
+            #derive
             pub struct #name { #(#fields,)* }
         }
     }
@@ -36,17 +51,106 @@ impl Emitter<'_> {
     /// An enumeration of the source, with what a world needs to number its states: all values, and the
     /// number of each. These are `const`, so that arrays can be as long as an enumeration.
     pub(super) fn enumeration(&self, declared: &Enum) -> TokenStream {
-        let name = identifier(&declared.name);
-        let docs = documentation(&declared.docs, &[]);
-        let variants: Vec<_> = declared.variants.iter().map(|name| identifier(name)).collect();
-        let functions = numbers(&name, &variants);
+        let (name, lints) = (ident(&declared.name), self.options.place.lints());
+        let docs = self.described(&declared.docs, &declared.name, &[]);
+        let variants: Vec<_> = declared.variants.iter().map(|name| ident(name)).collect();
+        let values = declared.variants.iter().map(|name| self.described(&[], name, &[]));
+        let derive = derive(&[
+            "clone::Clone",
+            "marker::Copy",
+            "fmt::Debug",
+            "cmp::PartialEq",
+            "cmp::Eq",
+            "hash::Hash",
+            "cmp::PartialOrd",
+            "cmp::Ord",
+        ]);
+        let methods = self.numbering(declared, &variants);
         quote! {
             #docs
-            #[allow(missing_docs, non_camel_case_types)]
-            #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-            pub enum #name { #(#variants,)* }
+            #lints
+            #derive
+            pub enum #name { #(#values #variants,)* }
 
-            #functions
+            #lints
+            impl #name { #methods }
+        }
+    }
+
+    /// How the values of an enumeration are numbered. One that is called `ALL` is that.
+    fn numbering(&self, declared: &Enum, variants: &[Ident]) -> TokenStream {
+        let (count, index) =
+            (Literal::usize_unsuffixed(variants.len()), self.scope.names.local("index"));
+        let all = quote! { [#(Self::#variants,)*] };
+        let listed = (!declared.variants.iter().any(|name| name == "ALL")).then(|| {
+            quote! {
+                #[doc = " All values, in order."]
+                pub const ALL: [Self; #count] = #all;
+            }
+        });
+        quote! {
+            #listed
+
+            #[doc = " Which value it is, counted from 0."]
+            #[must_use]
+            pub const fn index(self) -> ::core::primitive::usize {
+                self as ::core::primitive::usize
+            }
+
+            #[doc = " The value of this index, if there is one."]
+            #[must_use]
+            pub const fn from_index(
+                #index: ::core::primitive::usize,
+            ) -> ::core::option::Option<Self> {
+                if #index < #count {
+                    ::core::option::Option::Some(#all[#index])
+                } else {
+                    ::core::option::Option::None
+                }
+            }
+        }
+    }
+
+    /// The documentation of what is called `name`. In a macro something is said of everything, for
+    /// a crate may forbid to say nothing.
+    fn described(&self, docs: &[String], name: &str, paragraphs: &[String]) -> TokenStream {
+        let named = (docs.is_empty() && self.options.place != Place::File)
+            .then(|| vec![format!("`{name}`")]);
+        documentation(named.as_deref().unwrap_or(docs), paragraphs)
+    }
+
+    /// The Rust type of a number, a truth value or a value of an enumeration.
+    fn scalar(&self, scalar: Scalar) -> TokenStream {
+        match scalar {
+            Scalar::Enum { of, optional } => {
+                let name = ident(&self.compiled.module.enums[of as usize].name);
+                match optional {
+                    true => quote! { ::core::option::Option<#name> },
+                    false => quote! { #name },
+                }
+            }
+            Scalar::Number(_) | Scalar::Bool => {
+                let name = ident(scalar.name());
+                quote! { ::core::primitive::#name }
+            }
+        }
+    }
+
+    /// What a predicate or a task takes, as names and types of Rust.
+    pub(super) fn parameters(&self, parameters: &[Parameter]) -> Parameters {
+        let ty = |parameter: &Parameter| match parameter.ty {
+            ParameterType::Scalar(scalar) => self.scalar(scalar),
+            ParameterType::Host(span) => (self.options.host)(span),
+        };
+        let of_rust = |parameter: &Parameter| matches!(parameter.ty, ParameterType::Host(_));
+        let names = || parameters.iter().map(|parameter| parameter.name.as_str());
+        let docs = |parameter: &Parameter| self.described(&[], &parameter.name, &[]);
+        Parameters {
+            docs: parameters.iter().map(docs).collect(),
+            fields: names().map(ident).collect(),
+            names: names().map(|name| self.scope.names.parameter(name)).collect(),
+            types: parameters.iter().map(ty).collect(),
+            printable: !parameters.iter().any(of_rust),
         }
     }
 
@@ -62,7 +166,7 @@ impl Emitter<'_> {
                 quote! { [#element; #length] }
             }
             Type::Struct(index) => {
-                let name = identifier(&module.structs[*index as usize].name);
+                let name = ident(&module.structs[*index as usize].name);
                 quote! { #name }
             }
             Type::Array(element, length) => {
@@ -71,58 +175,17 @@ impl Emitter<'_> {
             }
         }
     }
-
-    /// The Rust type of a number, a truth value or a value of an enumeration.
-    fn scalar(&self, scalar: Scalar) -> TokenStream {
-        match scalar {
-            Scalar::Enum { of, optional } => {
-                let name = identifier(&self.compiled.module.enums[of as usize].name);
-                match optional {
-                    true => quote! { ::core::option::Option<#name> },
-                    false => quote! { #name },
-                }
-            }
-            Scalar::Number(_) | Scalar::Bool => {
-                let name = identifier(scalar.name());
-                quote! { ::core::primitive::#name }
-            }
-        }
-    }
-
-    /// What a predicate or a task takes, as names and types of Rust.
-    pub(super) fn parameters(&self, parameters: &[Parameter]) -> Parameters {
-        let ty = |parameter: &Parameter| match parameter.ty {
-            ParameterType::Scalar(scalar) => self.scalar(scalar),
-            ParameterType::Host(span) => (self.options.host)(span),
-        };
-        let of_rust = |parameter: &Parameter| matches!(parameter.ty, ParameterType::Host(_));
-        Parameters {
-            names: parameters.iter().map(|parameter| identifier(&parameter.name)).collect(),
-            types: parameters.iter().map(ty).collect(),
-            printable: !parameters.iter().any(of_rust),
-        }
-    }
-
-    /// What something is measured in, as a sentence that starts with `subject`.
-    fn measured(&self, subject: &str, unit: &Unit) -> String {
-        match unit.is_plain() {
-            true => format!("{subject} a plain number."),
-            false => format!("{subject} in {}.", self.compiled.module.units.text(unit)),
-        }
-    }
-
-    /// What the parameters are measured in, a paragraph each.
-    pub(super) fn measures(&self, parameters: &[Parameter]) -> impl Iterator<Item = String> {
-        let units = parameters.iter().filter_map(|known| Some((&known.name, known.unit.as_ref()?)));
-        units.map(|(name, unit)| self.measured(&format!("`{name}` is"), unit))
-    }
 }
 
 /// The parameters of a predicate or a task: of one, they are arguments of a function and fields of the
 /// struct of the same name.
 pub(super) struct Parameters {
-    pub(super) names: Vec<Ident>,
-    pub(super) types: Vec<TokenStream>,
+    docs: Vec<TokenStream>,
+    /// What they are called where the source's names alone count.
+    pub(super) fields: Vec<Ident>,
+    /// What they are bound to.
+    names: Vec<Ident>,
+    types: Vec<TokenStream>,
     /// Whether the types are known to implement `Debug`: a type of the host may not.
     printable: bool,
 }
@@ -135,55 +198,41 @@ impl Parameters {
     }
 
     /// The struct `name` that holds them.
-    pub(super) fn structure(&self, name: &Ident, about: &str) -> TokenStream {
-        let Self { names, types, printable } = self;
-        let derive = match printable {
-            true => quote! { #[derive(Clone, Copy, Debug)] },
-            false => quote! { #[derive(Clone, Copy)] },
-        };
+    pub(super) fn structure(&self, name: &Ident, about: &str, lints: &TokenStream) -> TokenStream {
+        let Self { docs, fields, types, printable, .. } = self;
+        let debug = printable.then_some("fmt::Debug");
+        let traits: Vec<_> = ["clone::Clone", "marker::Copy"].into_iter().chain(debug).collect();
+        let derive = derive(&traits);
         quote! {
             #[doc = #about]
-            #[allow(missing_docs, non_camel_case_types)]
+            #lints
             #derive
-            pub struct #name { #(pub #names: #types),* }
+            pub struct #name { #(#docs pub #fields: #types),* }
         }
+    }
+
+    /// `a, Ok: Ok_`, as in a struct or a pattern of it.
+    pub(super) fn bound(&self) -> TokenStream {
+        let bound = self.fields.iter().zip(&self.names).map(|(field, name)| match field == name {
+            true => quote! { #name },
+            false => quote! { #field: #name },
+        });
+        quote! { #(#bound),* }
     }
 
     /// The statement that brings the fields into scope; none if there are none.
     pub(super) fn unpacked(&self) -> Option<TokenStream> {
-        let names = &self.names;
-        (!names.is_empty()).then(|| quote! { let Self { #(#names),* } = *self; })
+        let bound = self.bound();
+        (!self.names.is_empty()).then(|| quote! { let Self { #bound } = *self; })
     }
 }
 
-/// The functions of an enumeration from its values to numbers and back.
-fn numbers(name: &Ident, variants: &[Ident]) -> TokenStream {
-    let count = Literal::usize_unsuffixed(variants.len());
-    quote! {
-        #[allow(clippy::all)]
-        impl #name {
-            #[doc = " All values, in order."]
-            pub const ALL: [Self; #count] = [#(Self::#variants,)*];
-
-            #[doc = " Which value it is, counted from 0."]
-            #[must_use]
-            pub const fn index(self) -> ::core::primitive::usize {
-                self as ::core::primitive::usize
-            }
-
-            #[doc = " The value of this index, if there is one."]
-            #[must_use]
-            pub const fn from_index(
-                index: ::core::primitive::usize,
-            ) -> ::core::option::Option<Self> {
-                if index < #count {
-                    ::core::option::Option::Some(Self::ALL[index])
-                } else {
-                    ::core::option::Option::None
-                }
-            }
-        }
-    }
+/// The attribute that implements these traits of `core`, wherever it stands.
+fn derive(traits: &[&str]) -> TokenStream {
+    let paths = traits
+        .iter()
+        .map(|path| -> TokenStream { format!("::core::{path}").parse().expect("a path") });
+    quote! { #[derive(#(#paths),*)] }
 }
 
 /// Doc attributes: the author's lines, then what the compiler knows, each a paragraph of its own.

@@ -4,23 +4,23 @@
 //! generic in them, as a bare formula is in the values that it names.
 
 use proc_macro2::{Ident, TokenStream};
-use quote::{format_ident, quote};
+use quote::quote;
 
 use crate::dfa::Dfa;
 use crate::emit::declare::{documentation, sizes};
 use crate::emit::implementation::positional;
-use crate::emit::predicates::ident;
+use crate::emit::names::{Names, Place, ident};
 use crate::emit::tables as emit;
 use crate::tables::tables;
 
 /// The automaton as items: a function `task` that takes a predicate for each proposition, in
 /// order, and returns the task. `runtime` is the path of the runtime crate.
 #[must_use]
-pub fn automaton(name: &str, dfa: &Dfa, runtime: &TokenStream) -> TokenStream {
-    let path = runtime.to_string().replace(' ', "");
-    let table = emit::automaton(&tables(dfa), &path);
+pub fn automaton(name: &str, dfa: &Dfa, runtime: &TokenStream, place: Place) -> TokenStream {
+    let table = emit::automaton(&tables(dfa), runtime);
+    let names = Names::of_ours(place);
     let numbered = |prefix: &str| -> Vec<Ident> {
-        (0..dfa.propositions.len()).map(|i| format_ident!("{prefix}{i}")).collect()
+        (0..dfa.propositions.len()).map(|i| names.local(&format!("{prefix}{i}"))).collect()
     };
     let (types, arguments) = (numbered("P"), numbered("p"));
     let propositions: Vec<_> = dfa.propositions.iter().map(|p| format!("`{p}`")).collect();
@@ -28,7 +28,7 @@ pub fn automaton(name: &str, dfa: &Dfa, runtime: &TokenStream) -> TokenStream {
         format!("The task of the automaton `{name}`, over one predicate for each proposition:");
     let docs = documentation(&[about], &[propositions.join(", "), sizes(dfa)]);
     // Without a formula, robustness is that of the best run, which keeps a cell for each state.
-    let implementation = positional(&types, &ident("Predicates"), runtime, dfa.len());
+    let implementation = positional(&types, &ident("Predicates"), runtime, &names, dfa.len());
     quote! {
         #docs
         #[must_use]
@@ -47,7 +47,7 @@ pub fn automaton(name: &str, dfa: &Dfa, runtime: &TokenStream) -> TokenStream {
         }
 
         /// One predicate for each proposition.
-        #[derive(Clone, Copy, Debug)]
+        #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
         pub struct Predicates<#(#types),*>(#(#types),*);
 
         #implementation

@@ -4,22 +4,26 @@
 //! the robustness and once for the truth. After inlining this is the code that an author would write
 //! by hand for that task: no pointer to a function, no call that is not known when it is compiled.
 
-use proc_macro2::{Ident, Literal, TokenStream};
+use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 
-use crate::emit::predicates::ident;
+use crate::emit::names::{Names, Place};
 
 /// What an implementation is made of. For a file's task the state is one type, and the arms are the
 /// predicates' code; for a bare formula it is any type that all predicates read.
 pub(super) struct Implementation<'a> {
     /// The path of the runtime crate.
     pub(super) runtime: &'a TokenStream,
+    /// What locals are called.
+    pub(super) names: &'a Names,
+    /// What stands before it.
+    pub(super) lints: TokenStream,
     /// The generic parameters, in their brackets.
     pub(super) generics: TokenStream,
     /// The type of the state.
     pub(super) state: TokenStream,
-    /// What the arms call the state.
-    pub(super) argument: Ident,
+    /// The state as an argument, as the arms call it.
+    pub(super) argument: TokenStream,
     /// The type that implements.
     pub(super) name: TokenStream,
     /// The arms `number => robustness,`.
@@ -34,39 +38,41 @@ pub(super) struct Implementation<'a> {
 impl Implementation<'_> {
     /// The `impl` block.
     pub(super) fn tokens(&self) -> TokenStream {
-        let Self { runtime, generics, state, argument: s, name, robustness, holds, scratch } = self;
-        let scratch = Literal::usize_unsuffixed(*scratch);
+        let Self { runtime, lints, generics, state, argument: s, name, robustness, holds, .. } =
+            self;
+        let (i, f) = (self.names.local("i"), self.names.local("f"));
+        let scratch = Literal::usize_unsuffixed(self.scratch);
         quote! {
-            #[allow(unused_variables, clippy::all)]
+            #lints
             impl #generics #runtime::robustness::Predicates<#state> for #name {
                 #[inline]
-                fn robustness(&self, i: ::core::primitive::usize, #s: &#state) -> ::core::primitive::f64 {
-                    match i {
+                fn robustness(&self, #i: ::core::primitive::usize, #s: &#state) -> ::core::primitive::f64 {
+                    match #i {
                         #robustness
-                        _ => #runtime::private::no_predicate(i),
+                        _ => #runtime::private::no_predicate(#i),
                     }
                 }
                 #[inline]
                 fn holds(
                     &self,
-                    i: ::core::primitive::usize,
+                    #i: ::core::primitive::usize,
                     #s: &#state,
                 ) -> ::core::result::Result<::core::primitive::bool, #runtime::robustness::NotANumber> {
-                    match i {
+                    match #i {
                         #holds
-                        _ => #runtime::private::no_predicate(i),
+                        _ => #runtime::private::no_predicate(#i),
                     }
                 }
                 #[inline]
                 fn with_scratch<__R>(
                     &self,
                     _: ::core::primitive::usize,
-                    f: impl ::core::ops::FnOnce(
+                    #f: impl ::core::ops::FnOnce(
                         &mut [::core::primitive::f64],
                         &mut [::core::primitive::f64],
                     ) -> __R,
                 ) -> __R {
-                    f(&mut [0.0; #scratch], &mut [0.0; #scratch])
+                    #f(&mut [0.0; #scratch], &mut [0.0; #scratch])
                 }
             }
         }
@@ -79,18 +85,22 @@ pub(super) fn positional(
     types: &[Ident],
     name: &Ident,
     runtime: &TokenStream,
+    names: &Names,
     scratch: usize,
 ) -> TokenStream {
     let places: Vec<_> = (0..types.len()).map(Literal::usize_unsuffixed).collect();
+    let s = names.local("s");
     let arms = |method: &str| {
-        let method = ident(method);
-        quote! { #(#places => #runtime::Predicate::#method(&self.#places, s),)* }
+        let method = Ident::new(method, Span::call_site());
+        quote! { #(#places => #runtime::Predicate::#method(&self.#places, #s),)* }
     };
     Implementation {
         runtime,
-        generics: quote! { <__S: ?Sized, #(#types: #runtime::Predicate<__S>),*> },
+        names,
+        lints: Place::Scope.lints(),
+        generics: quote! { <__S: ?::core::marker::Sized, #(#types: #runtime::Predicate<__S>),*> },
         state: quote! { __S },
-        argument: ident("s"),
+        argument: quote! { #s },
         name: quote! { #name<#(#types),*> },
         robustness: arms("robustness"),
         holds: arms("holds"),

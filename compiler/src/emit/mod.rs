@@ -5,7 +5,8 @@
 //! | [`rust`] | all of a source: an expression, or items |
 //! | `foreign` | an automaton that came without a formula (feature `hoa`) |
 //! | `declare` | the types that a source declares |
-//! | [`predicates`] | conditions as expressions: robustness, and truth |
+//! | `names` | names: the source's, and our own |
+//! | `predicates` | conditions as expressions: robustness, and truth |
 //! | `implementation` | the runtime's trait `Predicates` for the predicates of one task |
 //! | [`tables`] | automata and formulas as constants |
 //!
@@ -16,6 +17,7 @@ mod declare;
 #[cfg(feature = "hoa")]
 pub mod foreign;
 mod implementation;
-pub mod predicates;
+mod names;
+mod predicates;
 pub mod rust;
 pub mod tables;

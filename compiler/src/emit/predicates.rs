@@ -9,17 +9,18 @@
 //! often, or lies deep, gets a `let` of its own. So the code is as long as the arena, however often
 //! something is used, and never nested beyond a fixed depth, however deep the author nests.
 
-use proc_macro2::{Ident, Literal, Span as TokenSpan, TokenStream, TokenTree};
-use quote::{format_ident, quote, quote_spanned};
+use proc_macro2::{Delimiter, Group, Ident, Literal, Span as TokenSpan, TokenStream, TokenTree};
+use quote::{quote, quote_spanned};
 use rustc_hash::FxHashMap;
 
 use crate::arena;
 use crate::ast::{Arithmetic, Comparison};
+use crate::emit::names::{Names, ident};
 use crate::predicate::{
     Binding, Condition, ConditionId, Module, Number, Numeric, ParameterType, PredicateId, Scalar,
     State, Step, Term, TermId,
 };
-use crate::reserved::is_keyword;
+use crate::reserved::rust_name;
 use crate::source::Span;
 
 /// Expressions deeper than this are cut by a `let`. rustc reads nested expressions by recursion; what
@@ -28,7 +29,7 @@ const DEPTH: u32 = 12;
 
 /// Which of the two readings of a condition is written.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub enum Reading {
+pub(super) enum Reading {
     /// `f64`: the robustness.
     Robustness,
     /// `bool`, in a function that returns a `Result`: whether it holds.
@@ -36,34 +37,61 @@ pub enum Reading {
 }
 
 /// What the written code refers to outside itself.
-pub struct Scope<'a> {
+pub(super) struct Scope<'a> {
     /// The module that declares the predicates.
-    pub module: &'a Module,
+    pub(super) module: &'a Module,
     /// The path of the runtime crate.
-    pub runtime: &'a TokenStream,
+    pub(super) runtime: TokenStream,
     /// The Rust tokens at a place of the source.
-    pub host: &'a dyn Fn(Span) -> TokenStream,
+    host: &'a dyn Fn(Span) -> TokenStream,
+    /// What locals and parameters are called.
+    pub(super) names: Names,
+    /// The name of the state: the author's own word, as Rust of the author's has it, or a local.
+    pub(super) state: Ident,
 }
 
-impl Scope<'_> {
-    /// The name of the state in the code: the one of the header, or one that no parameter has.
-    pub fn state(&self) -> Ident {
+impl<'a> Scope<'a> {
+    pub(super) fn new(
+        module: &'a Module,
+        runtime: TokenStream,
+        host: &'a dyn Fn(Span) -> TokenStream,
+        names: Names,
+    ) -> Self {
+        let state = match &module.state {
+            State::Host { name, span, .. } => word(&host(*span), name),
+            _ => names.local("s"),
+        };
+        Self { module, runtime, host, names, state }
+    }
+
+    /// The state as an argument. The author's own word is code of the author's to rustc, which
+    /// would say of it that it is not used.
+    pub(super) fn argument(&self) -> TokenStream {
+        let name = &self.state;
         match &self.module.state {
-            State::Host { name, .. } => ident(name),
-            _ => {
-                // A parameter may have the name.
-                let predicates = self.module.predicates.iter().flat_map(|known| &known.parameters);
-                let parameters = self.module.tasks.iter().flat_map(|task| &task.parameters);
-                let taken: Vec<_> = predicates.chain(parameters).map(|p| p.name.as_str()).collect();
-                let name = ["s", "state", "__s"].into_iter().find(|name| !taken.contains(name));
-                Ident::new(name.unwrap_or("__state"), TokenSpan::call_site())
+            State::Host { .. } => quote! { #[allow(unused_variables)] #name },
+            _ => quote! { #name },
+        }
+    }
+
+    /// The Rust of the author's at a place of the source. Braces around it all are ours, for rustc
+    /// says that they are not needed.
+    pub(super) fn rust(&self, span: Span) -> TokenStream {
+        let tokens = (self.host)(span);
+        let mut trees = tokens.clone().into_iter();
+        match (trees.next(), trees.next()) {
+            (Some(TokenTree::Group(group)), None) if group.delimiter() == Delimiter::Brace => {
+                let mut braces = Group::new(Delimiter::Brace, group.stream());
+                braces.set_span(group.span().resolved_at(TokenSpan::mixed_site()));
+                TokenTree::Group(braces).into()
             }
+            _ => tokens,
         }
     }
 
     /// A condition as statements and an expression: the body of a function that has the state, and for
     /// the truth one that returns a `Result`, because a comparison with NaN is an error (`?`).
-    pub fn condition(&self, id: ConditionId, reading: Reading) -> TokenStream {
+    pub(super) fn condition(&self, id: ConditionId, reading: Reading) -> TokenStream {
         let needed = arena::needed(vec![id.0], &mut |id, open| {
             let condition = self.module.arena.condition(ConditionId(id));
             open.extend(operands(condition).map(|operand| operand.0));
@@ -120,7 +148,7 @@ impl Writer<'_> {
             let (code, depth) = self.one(ConditionId(index));
             let whole = at + 1 == self.needed.len();
             let written = if !whole && (uses > 1 || depth > DEPTH) {
-                let name = format_ident!("c{index}");
+                let name = self.scope.names.local(&format!("c{index}"));
                 self.lets.extend(quote! { let #name = #code; });
                 (quote! { #name }, 0)
             } else {
@@ -143,8 +171,8 @@ impl Writer<'_> {
 
     /// The code of one condition, from that of its operands.
     fn one(&mut self, id: ConditionId) -> Written {
-        let runtime = self.scope.runtime;
-        let state = self.scope.state();
+        let runtime = &self.scope.runtime;
+        let state = &self.scope.state;
         let robust = self.reading == Reading::Robustness;
         match self.scope.module.arena.condition(id) {
             Condition::Truth(value) => (truth(*value, robust), 0),
@@ -172,7 +200,7 @@ impl Writer<'_> {
                 (if robust { rho } else { holds }, 0)
             }
             Condition::Value { span, bindings, .. } => {
-                let value = self.bound(bindings, (self.scope.host)(*span));
+                let value = self.bound(bindings, self.scope.rust(*span));
                 let rho = quote! { #runtime::Predicate::robustness(&(#value), #state) };
                 let holds = quote! { #runtime::Predicate::holds(&(#value), #state)? };
                 (if robust { rho } else { holds }, 0)
@@ -197,18 +225,20 @@ impl Writer<'_> {
         (ident(&predicate.name), given)
     }
 
-    /// A Rust expression with what the names of parameters in it stand for.
+    /// A Rust expression with what the names of parameters in it stand for: the author's own words
+    /// are bound, so that they mean this wherever a macro may have got them from. Each value is
+    /// read before any is bound, for one may be called like what another stands for.
     fn bound(&mut self, bindings: &[Binding], code: TokenStream) -> TokenStream {
-        let arena = &self.scope.module.arena;
-        let itself = |one: &Binding| matches!(arena.term(one.term), Term::Parameter { name, .. } if *name == one.name);
-        if bindings.iter().all(itself) {
+        if bindings.is_empty() {
             return code;
         }
-        // Each is read before any is bound, for one may be called like what another stands for.
-        let names = bindings.iter().map(|one| ident(&one.name));
-        let values = bindings.iter().map(|one| self.typed(one.term, one.scalar));
-        let values: Vec<_> = values.collect();
-        quote! { { let (#(#names,)*) = (#(#values,)*); #code } }
+        let names = bindings.iter().map(|one| word(&code, &one.name));
+        let values: Vec<_> = bindings.iter().map(|one| self.typed(one.term, one.scalar)).collect();
+        quote! {{
+            #[allow(non_snake_case, unused_variables)]
+            let (#(#names,)*) = (#(#values,)*);
+            #code
+        }}
     }
 
     /// A term as a value of this type; of its own type if none is given.
@@ -229,7 +259,7 @@ impl Writer<'_> {
             (_, Some(Scalar::Number(Numeric::F64))) => self.term(id).0,
             (_, Some(wanted @ Scalar::Number(numeric))) if own.is_some_and(|own| own != wanted) => {
                 let (name, value) = (ident(numeric.name()), self.leaf(id));
-                quote! { ::core::primitive::#name::from(#value) }
+                quote! { <::core::primitive::#name as ::core::convert::From<_>>::from(#value) }
             }
             (_, Some(Scalar::Enum { optional: true, .. })) if !self.is_optional(id) => {
                 let value = self.leaf(id);
@@ -259,7 +289,7 @@ impl Writer<'_> {
         function: &TokenStream,
         operator: &TokenStream,
     ) -> Written {
-        let runtime = self.scope.runtime;
+        let runtime = &self.scope.runtime;
         let ((a, deep_a), (b, deep_b)) = (self.operand(a), self.operand(b));
         let code = if self.reading == Reading::Robustness {
             quote! { #runtime::private::#function(#a, #b) }
@@ -277,7 +307,7 @@ impl Writer<'_> {
         }
         let ((a, deep_a), (b, deep_b)) = (self.term(a), self.term(b));
         let depth = deep_a.max(deep_b) + 1;
-        let runtime = self.scope.runtime;
+        let runtime = &self.scope.runtime;
         let private = quote! { #runtime::private };
         let code = if self.reading == Reading::Robustness {
             match comparison {
@@ -319,7 +349,7 @@ impl Writer<'_> {
             Comparison::Unequal => quote! { (#a != #b) },
             _ => quote! { (#a == #b) },
         };
-        let runtime = self.scope.runtime;
+        let runtime = &self.scope.runtime;
         match self.reading {
             Reading::Robustness => (quote! { #runtime::private::truth #code }, 0),
             Reading::Truth => (code, 0),
@@ -349,7 +379,7 @@ impl Writer<'_> {
         for id in needed.into_iter().map(TermId) {
             if !self.terms.contains_key(&id) {
                 let (code, depth) = self.one_term(id);
-                let name = format_ident!("t{}", id.0);
+                let name = self.scope.names.local(&format!("t{}", id.0));
                 let written = if depth > DEPTH {
                     self.lets.extend(quote! { let #name = #code; });
                     (quote! { #name }, 0)
@@ -364,7 +394,7 @@ impl Writer<'_> {
 
     /// The code of one term, as an `f64` if it is a number, from that of its operands.
     fn one_term(&mut self, id: TermId) -> Written {
-        let runtime = self.scope.runtime;
+        let runtime = &self.scope.runtime;
         match self.scope.module.arena.term(id) {
             Term::Number(Number(value)) => (number(*value), 0),
             Term::Place { scalar: Scalar::Number(Numeric::F64) | Scalar::Enum { .. }, .. }
@@ -381,9 +411,9 @@ impl Writer<'_> {
                 ..
             } => (self.leaf(id), 0),
             Term::Place { .. } | Term::Host { .. } | Term::Parameter { .. } => {
-                let place = self.leaf(id);
                 // Of the wrong type, rustc underlines the author's own expression.
-                let span = first_span(&place);
+                let span = self.span(id);
+                let place = self.leaf(id);
                 (quote_spanned! { span => #runtime::private::number(#place) }, 0)
             }
             // Only a bare formula has free variables, and it is never written as Rust.
@@ -413,17 +443,25 @@ impl Writer<'_> {
         }
     }
 
+    /// Where the author's tokens begin that a term is.
+    fn span(&self, id: TermId) -> TokenSpan {
+        match self.scope.module.arena.term(id) {
+            Term::Host { span, .. } => first_span(&(self.scope.host)(*span)),
+            _ => TokenSpan::call_site(),
+        }
+    }
+
     /// A place within the state, a value, or a Rust expression, of its own type.
     fn leaf(&mut self, id: TermId) -> TokenStream {
         let module = self.scope.module;
         match module.arena.term(id) {
             Term::Place { steps, .. } => {
-                let state = self.scope.state();
+                let state = &self.scope.state;
                 let steps: Vec<_> = steps.iter().map(|step| self.step(step)).collect();
                 quote! { #state #(#steps)* }
             }
             Term::Host { span, bindings, .. } => {
-                let host = (self.scope.host)(*span);
+                let host = self.scope.rust(*span);
                 self.bound(bindings, quote! { (#host) })
             }
             Term::Variant { of, name, .. } => {
@@ -433,7 +471,7 @@ impl Writer<'_> {
             Term::Absent => quote! { ::core::option::Option::None },
             Term::Truth(value) => quote! { #value },
             Term::Parameter { name, .. } => {
-                let name = ident(name);
+                let name = self.scope.names.parameter(name);
                 quote! { #name }
             }
             Term::Number(Number(value)) => number(*value),
@@ -460,7 +498,7 @@ impl Writer<'_> {
     }
 }
 
-/// Where the author's tokens begin, within the brackets that were put around them.
+/// Where tokens begin, within the brackets around them.
 fn first_span(tokens: &TokenStream) -> TokenSpan {
     match tokens.clone().into_iter().next() {
         Some(TokenTree::Group(group)) => first_span(&group.stream()),
@@ -503,15 +541,16 @@ fn whole(value: f64, name: &str) -> TokenStream {
     }
 }
 
-/// A name of the source as a Rust identifier, raw if Rust has taken the word.
-pub fn ident(name: &str) -> Ident {
-    let span = TokenSpan::call_site();
-    let name = name.strip_prefix("r#").unwrap_or(name);
-    if matches!(name, "self" | "Self" | "super" | "crate" | "_") {
-        format_ident!("{}_", name)
-    } else if is_keyword(name) {
-        Ident::new_raw(name, span)
-    } else {
-        Ident::new(name, span)
-    }
+/// The word `name` as it stands in Rust of the author's; in a macro of the author's two words of the
+/// same letters may be different names.
+fn word(code: &TokenStream, name: &str) -> Ident {
+    find(code, &rust_name(name)).unwrap_or_else(|| ident(name))
+}
+
+fn find(code: &TokenStream, name: &str) -> Option<Ident> {
+    code.clone().into_iter().find_map(|tree| match tree {
+        TokenTree::Group(group) => find(&group.stream(), name),
+        TokenTree::Ident(known) if rust_name(&known.to_string()) == name => Some(known),
+        _ => None,
+    })
 }

@@ -2,24 +2,28 @@
 //!
 //! A file becomes items: for every type of the source a Rust type, for every predicate a robustness
 //! function and a type that implements `Predicate`, for every task a `const fn` that returns the
-//! runtime's `Task`. A bare formula becomes one expression, a block that declares what it needs: its
+//! runtime's `Task`. A bare formula becomes one expression, which declares what it needs: its
 //! predicates are whatever values are in scope, so their types are inferred, as generic parameters.
 //!
 //! The code names the runtime and `core` by absolute paths, so that no name of the author's can take
 //! their place; it allocates nothing and parses nothing. The same source gives the same tokens.
+//!
+//! An item has no hygiene: within its block it hides what the author means. So each of ours that the
+//! source does not declare stands in a block where no code and no name of the author's does.
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use crate::compile::{Compiled, Factored, Part};
 use crate::dfa::Dfa;
-use crate::emit::declare::documentation;
 pub use crate::emit::declare::sizes;
+use crate::emit::declare::{Parameters, documentation};
 use crate::emit::implementation::{Implementation, positional};
-pub use crate::emit::predicates::ident as identifier;
+use crate::emit::names::{Names, ident};
+pub use crate::emit::names::{Place, module as module_name};
 use crate::emit::predicates::{Reading, Scope};
 use crate::emit::tables as emit;
-use crate::predicate::{Condition, PredicateId, State, Task};
+use crate::predicate::{Condition, Predicate, PredicateId, State, Task};
 use crate::source::Span;
 use crate::tables::{operators, tables};
 
@@ -31,14 +35,30 @@ pub struct Options<'a> {
     pub state: Option<TokenStream>,
     /// The Rust tokens at a place of the source, for what the source takes from Rust as it is.
     pub host: &'a dyn Fn(Span) -> TokenStream,
+    /// Where it stands.
+    pub place: Place,
+}
+
+/// A compiled source as Rust: a bare formula as an expression, declarations as items.
+#[must_use]
+pub fn code(compiled: &Compiled, options: &Options<'_>) -> TokenStream {
+    if is_bare(compiled) { expression(compiled, options) } else { items(compiled, options) }
+}
+
+/// Whether a source is a bare formula.
+#[must_use]
+pub fn is_bare(compiled: &Compiled) -> bool {
+    let factored = compiled.factored.iter().map(|factored| &factored.task);
+    let mut tasks = compiled.module.tasks.iter().chain(factored);
+    tasks.next().is_some_and(|task| task.name.is_none())
 }
 
 /// A bare formula as an expression: a `Task` over the predicates that are in scope.
 ///
 /// The task's function is a method of its predicates because only so can its result be named: the
 /// types of the predicates may be closures, which have no name. Its tables are statics all the same.
-#[must_use]
-pub fn expression(compiled: &Compiled, options: &Options<'_>) -> TokenStream {
+/// The predicates are arguments of the block that declares all this, for in it they would be hidden.
+fn expression(compiled: &Compiled, options: &Options<'_>) -> TokenStream {
     let emitter = Emitter::new(compiled, options);
     let runtime = &options.runtime;
     let value = quote! { self };
@@ -47,29 +67,29 @@ pub fn expression(compiled: &Compiled, options: &Options<'_>) -> TokenStream {
         ([], [factored, ..]) => (&factored.task, emitter.made_factored(factored, &value)),
         ([], []) => return TokenStream::new(),
     };
-    let Made { kind, statics, result } = made;
+    let Made { kind, result } = made;
     let values = task.predicates.iter().map(|&predicate| emitter.value(predicate));
-    let types: Vec<Ident> = (0..task.predicates.len()).map(|i| format_ident!("P{}", i)).collect();
-    let operators = operators(&task.spec).len();
-    let implementation = positional(&types, &identifier("__TltlPredicates"), runtime, operators);
-    quote! {{
-        #[derive(Clone, Copy)]
-        struct __TltlPredicates<#(#types),*>(#(#types),*);
-        #implementation
-        impl<#(#types),*> __TltlPredicates<#(#types),*> {
-            fn __tltl_task(self) -> #kind<Self> {
-                #statics
-                #result
+    let types: Vec<Ident> = (0..task.predicates.len()).map(|i| format_ident!("__P{}", i)).collect();
+    let name = ident("__Predicates");
+    let names = &emitter.scope.names;
+    let implementation = positional(&types, &name, runtime, names, operators(&task.spec).len());
+    quote! {
+        ({
+            #[derive(::core::clone::Clone, ::core::marker::Copy)]
+            struct #name<#(#types),*>(#(#types),*);
+            #implementation
+            impl<#(#types),*> #name<#(#types),*> {
+                fn task(self) -> #kind<Self> {
+                    #result
+                }
             }
-        }
-        __TltlPredicates(#(#values),*).__tltl_task()
-    }}
+            #name
+        })(#(#values),*).task()
+    }
 }
 
-/// A source of declarations as items: its types, its predicates, its tasks, each in the order of the
-/// source.
-#[must_use]
-pub fn items(compiled: &Compiled, options: &Options<'_>) -> TokenStream {
+/// A source of declarations as items: the state, the predicates and the tasks.
+fn items(compiled: &Compiled, options: &Options<'_>) -> TokenStream {
     let emitter = Emitter::new(compiled, options);
     let module = &compiled.module;
     let enums = module.enums.iter().map(|declared| emitter.enumeration(declared));
@@ -88,12 +108,10 @@ pub fn items(compiled: &Compiled, options: &Options<'_>) -> TokenStream {
     quote! { #(#enums)* #(#structs)* #state #(#predicates)* #(#tasks)* #(#factored)* }
 }
 
-/// The parts of the code of a task.
+/// A task in the making: its type, and the expression that is it.
 struct Made {
     /// Its type without the predicates: `Task` or `Factored`.
     kind: TokenStream,
-    /// The tables, as statics.
-    statics: TokenStream,
     /// The expression that is the task.
     result: TokenStream,
 }
@@ -103,19 +121,14 @@ pub(super) struct Emitter<'a> {
     pub(super) compiled: &'a Compiled,
     pub(super) options: &'a Options<'a>,
     runtime: &'a TokenStream,
-    /// The runtime's path as text, for the tables.
-    path: String,
+    pub(super) scope: Scope<'a>,
 }
 
 impl<'a> Emitter<'a> {
     fn new(compiled: &'a Compiled, options: &'a Options<'a>) -> Self {
-        let path = options.runtime.to_string().replace(' ', "");
-        Self { compiled, options, runtime: &options.runtime, path }
-    }
-
-    /// What predicates refer to outside themselves.
-    fn scope(&self) -> Scope<'_> {
-        Scope { module: &self.compiled.module, runtime: self.runtime, host: self.options.host }
+        let names = Names::new(compiled, options.place);
+        let scope = Scope::new(&compiled.module, options.runtime.clone(), options.host, names);
+        Self { compiled, options, runtime: &options.runtime, scope }
     }
 
     /// The type of the state.
@@ -123,7 +136,7 @@ impl<'a> Emitter<'a> {
         match (&self.options.state, &self.compiled.module.state) {
             (Some(state), _) => state.clone(),
             (None, State::Declared(state)) => {
-                let name = identifier(&state.name);
+                let name = ident(&state.name);
                 quote! { #name }
             }
             // A header says `&Type`.
@@ -141,16 +154,16 @@ impl<'a> Emitter<'a> {
         let module = &self.compiled.module;
         let condition = module.predicates[id.0 as usize].condition;
         if let Condition::Value { span, .. } = module.arena.condition(condition) {
-            return (self.options.host)(*span);
+            return self.scope.rust(*span);
         }
         let runtime = self.runtime;
-        let (name, state) = (self.scope().state(), self.state());
-        let robustness = self.scope().condition(condition, Reading::Robustness);
-        let holds = self.scope().condition(condition, Reading::Truth);
+        let (s, state) = (self.scope.argument(), self.state());
+        let robustness = self.scope.condition(condition, Reading::Robustness);
+        let holds = self.scope.condition(condition, Reading::Truth);
         quote! {
             #runtime::private::Closures(
-                |#name: &#state| -> ::core::primitive::f64 { #robustness },
-                |#name: &#state| {
+                |#s: &#state| -> ::core::primitive::f64 { #robustness },
+                |#s: &#state| {
                     ::core::result::Result::<_, #runtime::robustness::NotANumber>::Ok({ #holds })
                 },
             )
@@ -161,36 +174,47 @@ impl<'a> Emitter<'a> {
     /// the same name that implements `Predicate`, which formulas in Rust refer to.
     fn predicate(&self, id: PredicateId) -> TokenStream {
         let predicate = &self.compiled.module.predicates[id.0 as usize];
-        let (name, runtime) = (identifier(&predicate.name), self.runtime);
-        let (s, state) = (self.scope().state(), self.state());
-        let robustness = self.scope().condition(predicate.condition, Reading::Robustness);
-        let holds = self.scope().condition(predicate.condition, Reading::Truth);
+        let (name, lints) = (ident(&predicate.name), self.options.place.lints());
+        let (s, state) = (self.scope.argument(), self.state());
+        let robustness = self.scope.condition(predicate.condition, Reading::Robustness);
         let mut about = vec![format!("Robustness of the predicate `{}`.", predicate.name)];
         about.extend(self.measures(&predicate.parameters));
         let docs = documentation(&predicate.docs, &about);
-        let implementing = format!("The predicate `{}`.", predicate.name);
         let parameters = self.parameters(&predicate.parameters);
-        let (names, types) = (&parameters.names, &parameters.types);
-        let structure = parameters.structure(&name, &implementing);
-        let unpacked = parameters.unpacked();
+        let declared = parameters.declared();
+        let implementing = format!(" The predicate `{}`.", predicate.name);
+        let structure = parameters.structure(&name, &implementing, &lints);
+        let implementation = self.implementation(predicate, &parameters);
         quote! {
             #docs
-            #[allow(non_snake_case, unused_variables, clippy::all)]
+            #lints
             #[must_use]
-            pub fn #name(#s: &#state #(, #names: #types)*) -> ::core::primitive::f64 { #robustness }
+            pub fn #name(#s: &#state, #declared) -> ::core::primitive::f64 { #robustness }
 
             #structure
 
+            #implementation
+        }
+    }
+
+    /// The implementation of the runtime's `Predicate` for the struct of a predicate.
+    fn implementation(&self, predicate: &Predicate, parameters: &Parameters) -> TokenStream {
+        let (runtime, lints) = (self.runtime, self.options.place.lints());
+        let (name, state) = (ident(&predicate.name), self.state());
+        let (argument, s) = (self.scope.argument(), &self.scope.state);
+        let holds = self.scope.condition(predicate.condition, Reading::Truth);
+        let (fields, unpacked) = (&parameters.fields, parameters.unpacked());
+        quote! {
+            #lints
             impl #runtime::Predicate<#state> for #name {
                 #[inline]
-                fn robustness(&self, #s: &#state) -> ::core::primitive::f64 {
-                    #name(#s #(, self.#names)*)
+                fn robustness(&self, #argument: &#state) -> ::core::primitive::f64 {
+                    #name(#s #(, self.#fields)*)
                 }
                 #[inline]
-                #[allow(unused_variables, clippy::all)]
                 fn holds(
                     &self,
-                    #s: &#state,
+                    #argument: &#state,
                 ) -> ::core::result::Result<::core::primitive::bool, #runtime::robustness::NotANumber> {
                     #unpacked
                     ::core::result::Result::Ok({ #holds })
@@ -201,44 +225,45 @@ impl<'a> Emitter<'a> {
 
     /// A task of a file.
     fn task(&self, task: &Task, dfa: &Dfa) -> TokenStream {
-        let (function, names) = (self.function(task), self.parameters(&task.parameters).names);
-        let made = self.made(task, dfa, &quote! { #function { #(#names),* } });
+        let made = self.made(task, dfa, &self.packed(task));
         self.declaration(task, &[format!("`{}`", task.text), sizes(dfa)], made)
     }
 
     /// A factored task of a file.
     fn factored(&self, factored: &Factored) -> TokenStream {
         let task = &factored.task;
-        let (function, names) = (self.function(task), self.parameters(&task.parameters).names);
-        let made = self.made_factored(factored, &quote! { #function { #(#names),* } });
+        let made = self.made_factored(factored, &self.packed(task));
         let states: usize = factored.parts.iter().map(|part| part.automata.dfa.len()).sum();
         let size =
             format!("{} parts side by side, {states} states together.", factored.parts.len());
         self.declaration(task, &[format!("`{}`", task.text), size], made)
     }
 
-    /// The name of the function that returns a task, and of the type that is its predicates.
-    fn function(&self, task: &Task) -> Ident {
-        identifier(named(task))
+    /// The struct of a task's predicates, made of the arguments of the function.
+    fn packed(&self, task: &Task) -> TokenStream {
+        let (function, fields) = (function(task), self.parameters(&task.parameters).bound());
+        quote! { #function { #fields } }
     }
 
     /// The task whose predicates are `value`.
     fn made(&self, task: &Task, dfa: &Dfa, value: &TokenStream) -> Made {
         let runtime = self.runtime;
         let name = task.name.as_deref().unwrap_or(&task.text);
-        let formula = emit::formula(&task.spec, &task.text, &self.path);
-        let automaton = emit::automaton(&tables(dfa), &self.path);
+        let formula = emit::formula(&task.spec, &task.text, runtime);
+        let automaton = emit::automaton(&tables(dfa), runtime);
         Made {
             kind: quote! { #runtime::Task },
-            statics: quote! {
-                static __TLTL_FORMULA: #runtime::Formula = #formula;
-                static __TLTL_AUTOMATON: #runtime::Automaton = #automaton;
-            },
             result: quote! {
                 #runtime::Task::trusted(
                     #runtime::Shared::from_static(#name),
-                    #runtime::Shared::from_static(&__TLTL_FORMULA),
-                    #runtime::Shared::from_static(&__TLTL_AUTOMATON),
+                    #runtime::Shared::from_static({
+                        static FORMULA: #runtime::Formula = #formula;
+                        &FORMULA
+                    }),
+                    #runtime::Shared::from_static({
+                        static AUTOMATON: #runtime::Automaton = #automaton;
+                        &AUTOMATON
+                    }),
                     #value,
                 )
             },
@@ -254,14 +279,18 @@ impl<'a> Emitter<'a> {
         } else {
             quote! { NotSearched }
         };
+        let count = Literal::usize_unsuffixed(factored.parts.len());
+        let parts = factored.parts.iter().map(|part| self.part(part));
         Made {
             kind: quote! { #runtime::Factored },
-            statics: self.parts(&factored.parts),
             result: quote! {
                 #runtime::Factored::trusted(
                     #runtime::Shared::from_static(#name),
                     #runtime::Shared::from_static(#text),
-                    #runtime::Shared::from_static(&__TLTL_PARTS),
+                    #runtime::Shared::from_static({
+                        static PARTS: [#runtime::factored::Part; #count] = [#(#parts),*];
+                        &PARTS
+                    }),
                     #runtime::factored::JointDeadEnds::#joint,
                     #value,
                 )
@@ -269,47 +298,40 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// The statics of a factored task: one array of its parts, each with its tables by value.
-    fn parts(&self, parts: &[Part]) -> TokenStream {
+    /// A part of a factored task, as a constant.
+    fn part(&self, part: &Part) -> TokenStream {
         let runtime = self.runtime;
-        let count = Literal::usize_unsuffixed(parts.len());
-        let parts = parts.iter().map(|part| {
-            let formula = emit::formula(&part.task.spec, &part.task.text, &self.path);
-            let automaton = emit::automaton(&tables(&part.automata.dfa), &self.path);
-            let predicates = part.propositions.iter().map(|&p| Literal::u32_unsuffixed(p));
-            quote! {
-                #runtime::factored::Part {
-                    formula: #formula,
-                    automaton: #automaton,
-                    predicates: #runtime::Shared::from_static(&[#(#predicates),*]),
-                }
-            }
-        });
+        let formula = emit::formula(&part.task.spec, &part.task.text, runtime);
+        let automaton = emit::automaton(&tables(&part.automata.dfa), runtime);
+        let predicates = part.propositions.iter().map(|&p| Literal::u32_unsuffixed(p));
         quote! {
-            static __TLTL_PARTS: [#runtime::factored::Part; #count] = [#(#parts),*];
+            #runtime::factored::Part {
+                formula: #formula,
+                automaton: #automaton,
+                predicates: #runtime::Shared::from_static(&[#(#predicates),*]),
+            }
         }
     }
 
     /// The function that returns a task, and the type that is its predicates.
     fn declaration(&self, task: &Task, about_it: &[String], made: Made) -> TokenStream {
-        let Made { kind, statics, result } = made;
-        let function = self.function(task);
+        let Made { kind, result } = made;
+        let (function, lints) = (function(task), self.options.place.lints());
         let parameters = self.parameters(&task.parameters);
         let about_it: Vec<_> =
             about_it.iter().cloned().chain(self.measures(&task.parameters)).collect();
         let docs = documentation(&task.docs, &about_it);
-        let about = format!("The predicates of the task `{}`.", named(task));
+        let about = format!(" The predicates of the task `{}`.", named(task));
         let declared = parameters.declared();
-        let structure = parameters.structure(&function, &about);
-        let implementation = self.predicates(task, parameters.unpacked());
+        let structure = parameters.structure(&function, &about, &lints);
+        let implementation = self.predicates(task, &parameters);
         let (called, checks) = self.indices(task);
         quote! {
             #docs
-            #[allow(non_snake_case)]
+            #lints
             #called
             #[must_use]
             pub const fn #function(#declared) -> #kind<#function> {
-                #statics
                 #checks
                 #result
             }
@@ -320,9 +342,9 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// The implementation of the runtime's `Predicates` for the predicates of a task; `unpacked`
-    /// brings the task's parameters into scope.
-    fn predicates(&self, task: &Task, unpacked: Option<TokenStream>) -> TokenStream {
+    /// The implementation of the runtime's `Predicates` for the predicates of a task.
+    fn predicates(&self, task: &Task, parameters: &Parameters) -> TokenStream {
+        let (function, unpacked) = (function(task), parameters.unpacked());
         let of = |reading| {
             let arms = task.predicates.iter().enumerate().map(|(i, &id)| {
                 let place = Literal::usize_unsuffixed(i);
@@ -334,12 +356,13 @@ impl<'a> Emitter<'a> {
             });
             quote! { #(#arms,)* }
         };
-        let function = self.function(task);
         Implementation {
             runtime: self.runtime,
+            names: &self.scope.names,
+            lints: self.options.place.lints(),
             generics: TokenStream::new(),
             state: self.state(),
-            argument: self.scope().state(),
+            argument: self.scope.argument(),
             name: quote! { #function },
             robustness: of(Reading::Robustness),
             holds: of(Reading::Truth),
@@ -360,7 +383,8 @@ impl<'a> Emitter<'a> {
             let place = module.display_term(place);
             let message =
                 format!("`{name}` is an index of an array of {length} elements: `{place}`");
-            let (name, length) = (identifier(name), Literal::u32_unsuffixed(length));
+            let name = self.scope.names.parameter(name);
+            let length = Literal::u32_unsuffixed(length);
             checks.extend(quote! {
                 ::core::assert!((#name as ::core::primitive::usize) < #length, #message);
             });
@@ -375,17 +399,17 @@ impl<'a> Emitter<'a> {
     /// another.
     fn arm(&self, id: PredicateId, reading: Reading) -> TokenStream {
         let predicate = &self.compiled.module.predicates[id.0 as usize];
-        let (runtime, s) = (self.runtime, self.scope().state());
+        let (runtime, s) = (self.runtime, &self.scope.state);
         let robust = reading == Reading::Robustness;
         if predicate.declared {
-            let name = identifier(&predicate.name);
+            let name = ident(&predicate.name);
             return if robust {
                 quote! { #name(#s) }
             } else {
                 quote! { #runtime::Predicate::holds(&#name {}, #s) }
             };
         }
-        let code = self.scope().condition(predicate.condition, reading);
+        let code = self.scope.condition(predicate.condition, reading);
         if robust {
             quote! { { #code } }
         } else {
@@ -397,4 +421,9 @@ impl<'a> Emitter<'a> {
 /// What a task is called in Rust; one without a name stands alone in its file.
 fn named(task: &Task) -> &str {
     task.name.as_deref().unwrap_or("task")
+}
+
+/// The name of the function that returns a task, and of the type that is its predicates.
+fn function(task: &Task) -> Ident {
+    ident(named(task))
 }

@@ -13,19 +13,19 @@
 use std::fmt::{Debug, Write as _};
 
 use proc_macro2::TokenStream;
+use quote::quote;
 
 use crate::spec::Spec;
 use crate::tables::{Tables, Transitions, operators};
 
-/// The expression that is the runtime's `Automaton`; `path` names the runtime crate. It is a constant
-/// expression: it may stand in a `static`, a `const`, or an array of either.
+/// The expression that is the runtime's `Automaton`; `runtime` is the path of that crate. It is a
+/// constant expression: it may stand in a `static`, a `const`, or an array of either.
 #[must_use]
-pub fn automaton(tables: &Tables, path: &str) -> TokenStream {
+pub fn automaton(tables: &Tables, runtime: &TokenStream) -> TokenStream {
     let Tables { states, accepting, trap, .. } = tables;
     let mut text = format!(
-        "{{ use {path}::{{Shared, automaton::{{Tables, Transitions}}}}; \
-         {path}::Automaton::trusted(Tables {{ states: {states}, \
-         accepting: ::core::option::Option::{accepting:?}, trap: ::core::option::Option::{trap:?}, "
+        "Tables {{ states: {states}, accepting: ::core::option::Option::{accepting:?}, \
+         trap: ::core::option::Option::{trap:?}, "
     );
     names(&mut text, &tables.propositions);
     transitions(&mut text, &tables.transitions);
@@ -34,24 +34,28 @@ pub fn automaton(tables: &Tables, path: &str) -> TokenStream {
     table(&mut text, "guards", &tables.guards);
     table(&mut text, "literals", &tables.literals);
     table(&mut text, "distance", &tables.distance);
-    text.push_str("}) }");
-    tokens(&text)
+    text.push('}');
+    let tables = tokens(&text);
+    quote! {{
+        use #runtime::{Automaton, Shared, automaton::{Tables, Transitions}};
+        Automaton::trusted(#tables)
+    }}
 }
 
 /// The expression that is the runtime's `Formula`, with `written` as its text. The operators are those
 /// of `spec`, in negation normal form; an [`Operator`](crate::tables::Operator) prints as the
 /// runtime's `Op` of the same name.
 #[must_use]
-pub fn formula(spec: &Spec, written: &str, path: &str) -> TokenStream {
-    let mut text = format!(
-        "{{ use {path}::{{Shared, robustness::Op::*}}; \
-         {path}::Formula::trusted(Shared::from_static({written:?}), Shared::from_static(&["
-    );
+pub fn formula(spec: &Spec, written: &str, runtime: &TokenStream) -> TokenStream {
+    let mut text = String::new();
     for operator in operators(spec) {
         let _ = write!(text, "{operator:?}, ");
     }
-    text.push_str("])) }");
-    tokens(&text)
+    let operators = tokens(&text);
+    quote! {{
+        use #runtime::{Formula, Shared, robustness::Op::*};
+        Formula::trusted(Shared::from_static(#written), Shared::from_static(&[#operators]))
+    }}
 }
 
 /// The names of the propositions. A name is a value with a destructor (it could be owned), and a

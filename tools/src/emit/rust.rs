@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 use tltl_compiler::compile::Compiled;
-use tltl_compiler::emit::rust::{Options, items, sizes};
+use tltl_compiler::emit::rust::{Options, Place, code, is_bare, sizes};
 use tltl_compiler::emit::tables as emit;
 use tltl_compiler::tables::tables;
 
@@ -14,9 +14,9 @@ use tltl_compiler::tables::tables;
 #[must_use]
 pub fn file(compiled: &Compiled) -> String {
     let host = |_| TokenStream::new();
-    let options = Options { runtime: quote! { ::tltl }, state: None, host: &host };
-    let bare = compiled.module.tasks.iter().all(|task| task.name.is_none());
-    let tokens = if bare { statics(compiled) } else { items(compiled, &options) };
+    let options =
+        Options { runtime: quote! { ::tltl }, state: None, host: &host, place: Place::File };
+    let tokens = if is_bare(compiled) { statics(compiled) } else { code(compiled, &options) };
     match syn::parse2(tokens.clone()) {
         Ok(file) => prettyplease::unparse(&file),
         Err(_) => tokens.to_string(),
@@ -27,10 +27,11 @@ pub fn file(compiled: &Compiled) -> String {
 fn statics(compiled: &Compiled) -> TokenStream {
     let tasks = compiled.module.tasks.iter().zip(&compiled.automata);
     let tasks = tasks.map(|(task, automata)| {
-        let formula = emit::formula(&task.spec, &task.text, "::tltl");
-        let automaton = emit::automaton(&tables(&automata.dfa), "::tltl");
-        let about = format!("`{}`", task.text);
-        let size = sizes(&automata.dfa);
+        let runtime = quote! { ::tltl };
+        let formula = emit::formula(&task.spec, &task.text, &runtime);
+        let automaton = emit::automaton(&tables(&automata.dfa), &runtime);
+        let about = format!(" `{}`", task.text);
+        let size = format!(" {}", sizes(&automata.dfa));
         quote! {
             #[doc = #about]
             pub static FORMULA: ::tltl::Formula = #formula;
