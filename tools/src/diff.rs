@@ -1,8 +1,14 @@
-//! Whether two automata mean the same, and a shortest trace on which they differ.
+//! Compares two automata: whether they have the same meaning, and if not, a shortest trace on which
+//! they differ.
 //!
-//! Propositions are the same if they have the same name; one that only one automaton knows is free
-//! to the other. Both automata are brought over the union of the propositions, and pairs of states
-//! are searched breadth-first.
+//! Propositions are the same if they have the same name; a proposition of only one automaton is
+//! free in the other. Both automata are brought over the union of the propositions, and the pairs
+//! of states that can be reached are searched breadth-first until the verdicts of a pair differ.
+//! That pair is the nearest, so its trace is a shortest one.
+//!
+//! The search visits at most the product of the numbers of states. Hopcroft and Karp's union-find
+//! (1971) would visit at most their sum, and would not find a *shortest* trace; automata of tasks
+//! are small enough for the product.
 
 use std::fmt;
 
@@ -13,10 +19,13 @@ use crate::trace::{Letter, Trace, first_letters};
 use tltl_compiler::bdd::{Bdd, Diagram, Operation};
 use tltl_compiler::dfa::{Dfa, State};
 
-/// What the comparison found.
+/// The result of a comparison.
+///
+/// It prints one line if the automata are equal; else the trace, an instant a line, and both
+/// verdicts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Difference {
-    /// Every trace has the same verdict.
+    /// Every trace has the same verdict in both.
     None,
     /// A trace tells them apart.
     Trace {
@@ -46,7 +55,24 @@ impl fmt::Display for Difference {
     }
 }
 
-/// Compares two automata. Letters that cannot occur in one of them are left out.
+/// Compares two automata. Letters that arithmetic excludes in one of them are left out of the
+/// comparison.
+///
+/// ```
+/// use tltl_compiler::translate::Budget;
+/// use tltlc::diff::{Difference, diff};
+/// use tltlc::task::compile;
+///
+/// let [loose, strict] = ["F a && F b", "F (a && b)"].map(|f| compile(f, Budget::default()));
+/// let (loose, strict) = (loose?, strict?);
+/// let Difference::Trace { trace, first, second } = diff(loose.dfa(), strict.dfa()) else {
+///     panic!("they differ");
+/// };
+/// assert_eq!(trace.to_string(), "{b}; {a}");
+/// assert_eq!((first, second), (true, false));
+/// assert_eq!(diff(loose.dfa(), loose.dfa()), Difference::None);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn diff(first: &Dfa, second: &Dfa) -> Difference {
     let names = union(&first.propositions, &second.propositions);
@@ -57,6 +83,7 @@ pub fn diff(first: &Dfa, second: &Dfa) -> Difference {
     Search { names, diagram, sides, possible, pairs }.run()
 }
 
+/// The breadth-first search over pairs of states, one of each automaton.
 struct Search {
     names: Vec<String>,
     diagram: Diagram,
@@ -66,7 +93,7 @@ struct Search {
     pairs: Pairs,
 }
 
-/// A pair of states that was met, the step that it was met after, and the letter between.
+/// A pair of states that was met, the index of the step before it, and the letter between them.
 struct Step {
     pair: [State; 2],
     before: usize,
@@ -74,9 +101,12 @@ struct Step {
 }
 
 impl Search {
+    /// Searches until two verdicts differ, or no new pair is left. `steps` is the queue as well.
     fn run(mut self) -> Difference {
         let mut steps = vec![Step { pair: [0, 0], before: 0, letter: Letter::new() }];
-        // The start has read nothing yet: it may be met again, and counts only then.
+        // Before the first letter nothing has been read, and the verdict of the empty trace does
+        // not count: the pair of initial states is not marked as met, so that it counts if a letter
+        // leads back to it.
         let mut met = FxHashSet::default();
         let mut at = 0;
         while let Some(&Step { pair, .. }) = steps.get(at) {
@@ -96,7 +126,7 @@ impl Search {
         Difference::None
     }
 
-    /// The pairs after a pair, each with the first letter that leads there.
+    /// The pairs that follow a pair, each with the first letter that leads there.
     fn successors(&mut self, [p, q]: [State; 2]) -> Vec<([State; 2], Letter)> {
         let width = self.names.len();
         let [a, b] = &self.sides;

@@ -1,8 +1,11 @@
-//! What a task asks for, told to a person: in words, by shortest trajectories, and state by state.
+//! Explains a task to a person: in words, by shortest trajectories, and state by state.
 //!
-//! Everything but the words of the task comes from the automaton, so it is what will be rewarded,
-//! not what the author meant. A reader who finds a surprise here has found the mistake before
-//! training.
+//! The words come from the formula, everything else from the automaton. So a reader sees what will
+//! be rewarded, which may differ from what the author meant; a surprise here is a mistake found
+//! before training.
+//!
+//! Each state is explained by three answers, all exact: the quickest way to acceptance, the
+//! literals without which no way exists, and the guard that loses the task.
 
 mod words;
 
@@ -10,63 +13,66 @@ use std::fmt;
 
 use crate::emit::sum::{Notation, Sum, label};
 use crate::emit::text;
+use crate::task::Verdict;
 use crate::trace::{Trace, shortest};
 use tltl_compiler::bdd::Bdd;
-use tltl_compiler::dfa::Edge;
-use tltl_compiler::dfa::{Dfa, Guards, Size, State};
+use tltl_compiler::dfa::{Dfa, Edge, Guards, Size, State};
 use tltl_compiler::spec::Spec;
 
-/// A task explained.
+/// A task explained. It prints as the text of `tltlc explain`, without the line of the title.
 #[derive(Clone, Debug)]
 pub struct Explanation {
-    /// The task in plain English, a string a line; empty if the formula is too large to retell.
+    /// The task in plain English, one string a line; empty if the formula is too large to retell.
     pub words: Vec<String>,
-    /// How big the automaton is.
+    /// The numbers of states and edges.
     pub size: Size,
-    /// The shortest satisfying trajectory, if there is one.
+    /// A shortest trajectory that satisfies the task; `None` if there is none.
     pub satisfying: Option<Trace>,
-    /// The shortest trajectory after which the task is lost for good, if there is one.
+    /// A shortest trajectory after which the task is lost for good; `None` if it cannot be lost.
     pub losing: Option<Trace>,
-    /// The shortest trajectory that does not satisfy the task, if there is one.
+    /// A shortest trajectory that does not satisfy the task, lost or still open; `None` if all do.
     pub unsatisfying: Option<Trace>,
-    /// What each state still asks for; only the first [`MOST_STATES`].
+    /// The explanation of each state, in their order; of the first [`MOST_STATES`] only.
     pub states: Vec<StateExplanation>,
-    /// How one falls into the trap: the states from which, and when.
+    /// The edges into the trap: the state, and the guard as text.
     pub falls: Vec<(State, String)>,
 }
 
-/// What an automaton state still asks for.
+/// The explanation of an automaton state: what the task still asks for there.
 #[derive(Clone, Debug)]
 pub struct StateExplanation {
     /// The state.
     pub state: State,
-    /// Its verdict.
+    /// Its verdict. In a state that is not open the lists below are empty.
     pub verdict: Verdict,
-    /// The moves of the trajectory to acceptance, at least.
+    /// The number of moves to the accepting state at least; `None` if it cannot be reached.
     pub moves: Option<u32>,
-    /// What must hold at some instant still to come, whatever else happens.
+    /// The literals that must hold at some instant still to come, whatever else happens.
     pub needs: Vec<String>,
-    /// The guards of a shortest way to acceptance.
+    /// The guards along a shortest way to acceptance, one a move.
     pub way: Vec<String>,
-    /// What would lose the task at the next instant.
+    /// The guard that loses the task at the next instant, if there is one.
     pub avoid: Option<String>,
 }
 
-/// What a state says about the trajectory so far.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verdict {
-    /// Not yet decided.
-    Open,
-    /// Satisfied for good.
-    Satisfied,
-    /// Lost for good.
-    Lost,
-}
-
-/// The most states that are explained one by one.
+/// The most states that are explained one by one: nobody reads more, and each costs a search for
+/// each literal.
 pub const MOST_STATES: usize = 64;
 
-/// Explains the task that `spec` says and `dfa` is.
+/// Explains a task, given its formula and its automaton.
+///
+/// ```
+/// use tltl_compiler::translate::Budget;
+/// use tltlc::{explain::explain, task::compile};
+///
+/// let task = compile("!wet U home", Budget::default())?;
+/// let told = explain(&task.entry().task().spec, task.dfa());
+/// assert_eq!(told.words, ["not wet, at every instant until home, which must come"]);
+/// assert_eq!(told.satisfying.map(|trace| trace.to_string()).as_deref(), Some("{home}"));
+/// assert_eq!(told.states[0].needs, ["home"]);
+/// assert_eq!(told.states[0].avoid.as_deref(), Some("wet && !home"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn explain(spec: &Spec, dfa: &Dfa) -> Explanation {
     let edges = dfa.edges();
@@ -86,6 +92,7 @@ pub fn explain(spec: &Spec, dfa: &Dfa) -> Explanation {
     }
 }
 
+/// The explanation of one state.
 fn state(dfa: &Dfa, edges: &[Edge], distances: &[Option<u32>], q: State) -> StateExplanation {
     let verdict = match q {
         _ if dfa.accepting == Some(q) => Verdict::Satisfied,
@@ -105,7 +112,7 @@ fn state(dfa: &Dfa, edges: &[Edge], distances: &[Option<u32>], q: State) -> Stat
 }
 
 /// The literals without which acceptance cannot be reached from `q`. If a proposition and its
-/// negation both are, one instant cannot give them, and that is told.
+/// negation both are, no single instant has both, and the text says so.
 fn needs(dfa: &Dfa, q: State) -> Vec<String> {
     let mut literals = Vec::new();
     for proposition in 0..dfa.propositions.len() as u32 {
@@ -122,7 +129,8 @@ fn needs(dfa: &Dfa, q: State) -> Vec<String> {
     literals
 }
 
-/// Whether acceptance can be reached from `q` with one proposition fixed.
+/// Whether acceptance can be reached from `q` while one proposition keeps one value for ever: a
+/// walk over the diagram that follows only one side of its nodes.
 fn reaches(dfa: &Dfa, q: State, (proposition, value): (u32, bool)) -> bool {
     let mut seen_states = vec![false; dfa.len()];
     let mut seen_nodes = vec![false; dfa.diagram.nodes().len()];
@@ -146,7 +154,8 @@ fn reaches(dfa: &Dfa, q: State, (proposition, value): (u32, bool)) -> bool {
     false
 }
 
-/// The guards along a shortest way from `q` to acceptance: of each the product that asks for least.
+/// The guards along a shortest way from `q` to acceptance. Of several edges, and of several
+/// products of a guard, the one with the fewest literals is shown.
 fn way(dfa: &Dfa, edges: &[Edge], distances: &[Option<u32>], mut q: State) -> Vec<String> {
     let mut guards = Vec::new();
     while let Some(left) = distances[q as usize].filter(|&left| left > 0) {
@@ -163,7 +172,16 @@ fn way(dfa: &Dfa, edges: &[Edge], distances: &[Option<u32>], mut q: State) -> Ve
     guards
 }
 
-/// D_φ^q as text: what moves `q` on, and not into the trap.
+/// The guard D_φ^q as text: the condition on a state of the world under which the automaton leaves
+/// `q`, and not into the trap.
+///
+/// ```
+/// use tltl_compiler::translate::Budget;
+///
+/// let task = tltlc::task::compile("!wet U home", Budget::default())?;
+/// assert_eq!(tltlc::explain::progress(task.dfa(), 0), "home");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn progress(dfa: &Dfa, q: State) -> String {
     let cubes = Guards::new(dfa).progress(q);

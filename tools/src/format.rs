@@ -1,20 +1,33 @@
-//! Lays out a task file: what `tltlc fmt` does.
+//! Lays out a task file: the work of `tltlc fmt`.
 //!
-//! Only blanks change. The author's line breaks stay (at most one empty line in a row), every line
-//! is indented by what it continues, and tokens stand as the reference writes them: blanks around
-//! operators, none inside brackets. Comments, spellings (`◇` or `F`) and Rust code stay as they
-//! are, so the meaning does too: the tokens before and after are the same, which is checked. Laying
-//! out twice changes nothing.
+//! Only blanks change. Line breaks stay where the author put them (at most one empty line in a
+//! row), a line that continues an item or stands within brackets is indented, and blanks stand as
+//! in the reference: around operators, none inside brackets. Comments, spellings (`◇` or `F`) and
+//! Rust code are kept.
+//!
+//! It works on tokens and not on the syntax tree, which has no comments. Its safety is checked, not
+//! argued: the result is split into tokens again, and unless these are the tokens of the input, the
+//! input is left alone. Laying out twice changes nothing more. The cost is linear.
 
 mod lex;
 
 use lex::{Kind, Token, lex};
 
-/// The columns of one level.
+/// The columns of one level of indentation.
 const INDENT: usize = 4;
 
-/// The text of a task file, laid out; `None` if that could change its meaning, which would be a
-/// fault of this tool. The text must be one that [`parse::file`](tltl_compiler::parse::file) accepts.
+/// The text of a task file, laid out; `None` if its tokens would change, which would be a fault of
+/// this module.
+///
+/// The text must be one that [`parse::file`](tltl_compiler::parse::file) accepts; on others the
+/// result may lay out nonsense.
+///
+/// ```
+/// let text = "task   go=F  (a&&b)\n||  X c // or so";
+/// let laid_out = tltlc::format::format(text).ok_or("the tokens changed")?;
+/// assert_eq!(laid_out, "task go = F (a && b)\n    || X c // or so\n");
+/// # Ok::<(), &str>(())
+/// ```
 #[must_use]
 pub fn format(text: &str) -> Option<String> {
     let tokens = lex(text);
@@ -31,19 +44,21 @@ pub fn format(text: &str) -> Option<String> {
     same.then_some(layout.out)
 }
 
+/// The text so far, and what is known of the token before the next one.
 #[derive(Default)]
 struct Layout<'a> {
     out: String,
     before: Option<Token<'a>>,
-    /// Whether each open bracket is a block of fields.
+    /// For each open bracket whether it is a block of fields, which has blanks inside its braces.
     open: Vec<bool>,
-    /// Whether the last token was an operator before its operand.
+    /// Whether the last token was an operator that stands before its operand.
     prefix: bool,
-    /// Whether an item has begun on an earlier line.
+    /// Whether an item has begun on an earlier line, so that the next line continues it.
     within_item: bool,
 }
 
 impl<'a> Layout<'a> {
+    /// Adds a token, with the line break or the blank that belongs before it.
     fn token(&mut self, token: &Token<'a>, next: Option<&Token<'a>>) {
         let closes = matches!(token.text, ")" | "]" | "}") && token.kind == Kind::Symbol;
         let was_block = closes && self.open.pop().unwrap_or(false);
@@ -63,6 +78,7 @@ impl<'a> Layout<'a> {
         self.before = Some(*token);
     }
 
+    /// Begins a line, indented by the open brackets, and by one level more if it continues an item.
     fn start_line(&mut self, token: &Token<'a>, next: Option<&Token<'a>>) {
         if self.before.is_some() {
             self.out.push_str(if token.newlines > 1 { "\n\n" } else { "\n" });
@@ -76,7 +92,8 @@ impl<'a> Layout<'a> {
         self.out.push_str(&" ".repeat(INDENT * depth));
     }
 
-    /// Whether a token is an operator before its operand.
+    /// Whether a token is an operator that stands before its operand. A minus is one where no
+    /// operand ends before it.
     fn is_prefix(&self, token: &Token<'_>) -> bool {
         match token.text {
             _ if token.kind == Kind::Unit => false,
@@ -87,7 +104,8 @@ impl<'a> Layout<'a> {
         }
     }
 
-    /// Whether a blank belongs before a token on its line.
+    /// Whether a blank belongs before a token that does not begin a line. Rules are in order of
+    /// precedence; the first that matches decides.
     fn blank(&self, token: &Token<'_>, prefix: bool, closes_block: bool) -> bool {
         let Some(before) = self.before else { return false };
         let symbol = |text: &str| before.kind == Kind::Symbol && before.text == text;
@@ -114,7 +132,7 @@ impl<'a> Layout<'a> {
     }
 }
 
-/// Whether a line that starts with `token` starts an item, or what is said about one.
+/// Whether a line that starts with `token` begins an item, or a comment about one.
 fn begins_item(token: &Token<'_>, next: Option<&Token<'_>>) -> bool {
     const ITEMS: [&str; 6] = ["state", "struct", "enum", "const", "predicate", "task"];
     let named = next.is_some_and(|next| next.kind == Kind::Word);

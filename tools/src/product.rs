@@ -1,10 +1,21 @@
-//! Automata side by side: conjunction and disjunction of any number of operands.
+//! Products: automata side by side, for conjunction or disjunction of any number of operands.
 //!
-//! The raw product (paper, Definition 4) has one state for each reachable tuple of operand states,
-//! except that all tuples in which the verdict has fallen are one: the accepting state, or the
-//! trap. Composition of learned skills works on the raw product, for it must know every operand's
-//! state; [`minimize`](tltl_compiler::minimize::minimize) gives the automaton of the formula. Operands
-//! share a proposition if they give it the same name.
+//! The *raw* product (paper, Definition 4) has one state for each tuple of operand states that can
+//! be reached, except that all tuples in which the verdict is final are one state: the accepting
+//! state, or the trap. Composition of learned skills works on the raw product, since it must know
+//! the state of every operand; [`minimize`](tltl_compiler::minimize::minimize) turns it into the
+//! automaton of the formula.
+//!
+//! Operands share a proposition if they give it the same name. Arithmetic between the predicates of
+//! different operands is not considered: letters that only their combination excludes stay in the
+//! product.
+//!
+//! # Cost
+//!
+//! Operands are added from the left, one by one. Each step is a breadth-first search over pairs of
+//! states, and for each pair one *apply* of the two transition diagrams (Bryant, 1986), at most the
+//! product of their nodes. The number of states may be the product of the operands' numbers; a
+//! [factored task](crate::task::Factored) avoids that.
 
 use rustc_hash::FxHashMap;
 
@@ -12,22 +23,22 @@ use tltl_compiler::bdd::{Bdd, Diagram, Node, Operation};
 use tltl_compiler::dfa::{Dfa, State};
 use tltl_compiler::minimize::canonical_order;
 
-/// How the verdicts of the operands become one.
+/// The rule by which the verdicts of the operands become one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Operator {
-    /// Accepts where all operands accept, lost where one is.
+    /// Conjunction: accepts where all operands accept, and is lost where one is.
     And,
-    /// Accepts where one operand accepts, lost where all are.
+    /// Disjunction: accepts where one operand accepts, and is lost where all are.
     Or,
 }
 
-/// A raw product and the operand states that each of its states stands for.
+/// A raw product, and the operand states that each of its states stands for.
 #[derive(Clone, Debug)]
 pub struct Product {
-    /// The automaton, in canonical numbering.
+    /// The automaton, in canonical numbering, over the union of the propositions.
     pub dfa: Dfa,
-    /// For each state the state of every operand. An accepting or lost state that stands for many
-    /// tuples shows the one with the lowest letters.
+    /// For each state of `dfa` the state of every operand. An accepting or lost state that stands
+    /// for many tuples shows the first that was met, which is the one with the lowest letters.
     pub components: Vec<Vec<State>>,
 }
 
@@ -36,6 +47,21 @@ pub struct Product {
 ///
 /// # Panics
 /// If there is no operand.
+///
+/// ```
+/// use tltl_compiler::translate::Budget;
+/// use tltlc::product::{Operator, product};
+/// use tltlc::task::compile;
+///
+/// let [a, b] = ["F a", "F b"].map(|formula| compile(formula, Budget::default()));
+/// let (a, b) = (a?, b?);
+/// let both = product(Operator::And, &[a.dfa(), b.dfa()]);
+/// assert_eq!(both.dfa.propositions, ["a", "b"]);
+/// assert_eq!(both.components, [[0, 0], [0, 1], [1, 0], [1, 1]]);
+/// // Where one suffices, all tuples in which one accepts are one state.
+/// assert_eq!(product(Operator::Or, &[a.dfa(), b.dfa()]).dfa.len(), 2);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn product(operator: Operator, operands: &[&Dfa]) -> Product {
     let (first, rest) = operands.split_first().expect("a product has operands");
@@ -44,6 +70,7 @@ pub fn product(operator: Operator, operands: &[&Dfa]) -> Product {
     rest.iter().fold(single, |left, right| pair(operator, &left, right))
 }
 
+/// The product of a product and one more operand.
 fn pair(operator: Operator, left: &Product, right: &Dfa) -> Product {
     let propositions = union(&left.dfa.propositions, &right.propositions);
     let mut diagram = Diagram::default();
@@ -77,7 +104,7 @@ fn pair(operator: Operator, left: &Product, right: &Dfa) -> Product {
     Product { dfa, components }
 }
 
-/// Names in order of first appearance.
+/// The names of both lists in order of first appearance.
 pub(crate) fn union(first: &[String], second: &[String]) -> Vec<String> {
     let mut names = first.to_vec();
     names.extend(second.iter().filter(|name| !first.contains(name)).cloned());
@@ -104,6 +131,8 @@ impl Pairs {
     }
 }
 
+/// The search for the pairs that can be reached. `pairs` is its queue as well: a pair is explored
+/// in the order of its number.
 struct Pairing {
     operator: Operator,
     sides: [Aligned; 2],
@@ -113,7 +142,8 @@ struct Pairing {
 }
 
 impl Pairing {
-    /// The state that a pair is. All pairs in which the verdict has fallen are the first of them.
+    /// The state that a pair is. All pairs in which the verdict is final share the state of the
+    /// first of them.
     fn state(&mut self, pair: [State; 2]) -> State {
         let accepts = |side: usize| self.sides[side].accepting == Some(pair[side]);
         let lost = |side: usize| self.sides[side].trap == Some(pair[side]);
@@ -139,6 +169,9 @@ pub(crate) struct Aligned {
 }
 
 impl Aligned {
+    /// Moves an automaton into `diagram`, its propositions renumbered to their places in
+    /// `propositions`. The new numbers may be in another order, so nodes are built anew from the
+    /// leaves up.
     pub(crate) fn new(dfa: &Dfa, propositions: &[String], diagram: &mut Diagram) -> Self {
         let place = |name| propositions.iter().position(|other| other == name);
         let places: Vec<_> =
@@ -155,7 +188,8 @@ impl Aligned {
     }
 }
 
-/// `high` where `level` is true and `low` where it is false, wherever it stands in the order.
+/// `high` where `level` is true and `low` where it is false, wherever the level stands in the
+/// order: *ite* with a variable as its condition, for functions of states.
 fn select(diagram: &mut Diagram, level: u32, low: Bdd, high: Bdd) -> Bdd {
     diagram.apply(Operation::new(level), low, high, &mut |diagram, low, high| {
         let first = diagram.level(low).min(diagram.level(high));

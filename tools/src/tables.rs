@@ -1,8 +1,9 @@
 //! The compiler's tables as the runtime's automata and formulas, owned.
 //!
-//! What the macros write as Rust is handed over as it is, so a formula that is compiled while a
-//! program runs is followed by the same code over the same numbers. The runtime checks the tables,
-//! as it checks all that did not come from a macro.
+//! The macros write these same tables as Rust source. Here they are handed over as data, so a
+//! formula that is compiled while a program runs is followed by the same code over the same
+//! numbers. The runtime checks every table that does not come from a macro, so a fault of the
+//! compiler is reported here as an error.
 
 use tltl::automaton::{self, Automaton, TableError};
 use tltl::robustness::Op;
@@ -11,10 +12,12 @@ use tltl_compiler::dfa::Dfa;
 use tltl_compiler::spec::Spec;
 use tltl_compiler::tables::{Operator, Transitions, operators, tables};
 
-/// The automaton that the macros would hold in a static.
+/// The runtime's automaton for `dfa`: the one that a macro would hold in a static.
+///
+/// It costs a walk over the diagram, and the guards of all edges as sums of products.
 ///
 /// # Errors
-/// If the tables are not an automaton: a fault of the compiler, or a [`Dfa`] that it did not make.
+/// If the tables are not an automaton: a fault of the compiler, or of whoever built the [`Dfa`].
 ///
 /// ```
 /// use tltl_compiler::{compile, source::Source, translate::Budget};
@@ -49,10 +52,21 @@ pub fn automaton(dfa: &Dfa) -> Result<Automaton, TableError> {
     })
 }
 
-/// The formula of `spec`, with `text` as its author wrote it.
+/// The runtime's formula for `spec`; `text` is what it prints as, the author's own spelling.
 ///
 /// # Errors
 /// If the operators are not in order, which would be a fault of the compiler.
+///
+/// ```
+/// use tltl_compiler::{compile, source::Source, translate::Budget};
+///
+/// let source = Source::new("formula", "F (a && X b)");
+/// let compiled = compile::formula(&source, Budget::default())?;
+/// let task = &compiled.module.tasks[0];
+/// let formula = tltlc::tables::formula(&task.spec, &task.text)?;
+/// assert_eq!(formula.text(), "F (a && X b)");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn formula(spec: &Spec, text: &str) -> Result<Formula, TableError> {
     let operators = operators(spec).into_iter().map(|operator| match operator {
         Operator::True => Op::True,

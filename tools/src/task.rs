@@ -1,10 +1,23 @@
 //! Tasks that are compiled while a program runs.
 //!
-//! A [`TaskFile`] is a source, compiled: a file of tasks, or one bare formula. An [`Entry`] is one of
-//! its tasks as it is written; bound to values for its parameters it is a [`Task`], or a
-//! [`Factored`] one, that runs. These own all that they need, are cheap to clone, and can be sent to
-//! other threads and shared by them: nothing is leaked, nothing is locked. They are tasks of the
-//! runtime over rows, the numbers that a state consists of, and read whole columns of them too.
+//! The steps, each with a type of its own:
+//!
+//! 1. [`TaskFile`]: a source, compiled. It is a file of tasks, or one bare formula.
+//! 2. [`Entry`]: one of its tasks as the author wrote it. Its parameters have no values yet.
+//! 3. [`Bound`]: the entry with a value for each parameter. It is a [`Task`], which has one
+//!    automaton, or a [`Factored`] task, whose parts run side by side.
+//!
+//! A bound task owns what it needs, is cheap to clone, and is `Send + Sync`: nothing is leaked and
+//! nothing is locked. Many tasks may be compiled and dropped again; memory stays flat
+//! (`tests/memory.rs` of this package measures it).
+//!
+//! A state of the world is a *row*: the numbers that the predicates read, in the order of
+//! [`Task::inputs`]. A task is a [`Monitor`](tltl::Monitor) of the runtime over rows, so every
+//! learner takes it, and it reads whole columns of rows through its
+//! [`Evaluator`](crate::evaluate::Evaluator).
+//!
+//! What this module never does: it runs no Rust code. A predicate that is a Rust expression
+//! compiles, and binding its task is refused with [`BindError::Unreadable`].
 
 mod argument;
 mod factored;
@@ -22,7 +35,9 @@ pub use run::{Run, Verdict};
 
 pub(crate) use argument::listed;
 
-/// A task that runs.
+/// A task with values for its parameters, ready to run: what [`Entry::bind`] returns.
+///
+/// Which of the two it is, the source decides, by `#[factored]` before the task.
 #[derive(Clone, Debug)]
 pub enum Bound {
     /// One with one automaton.
@@ -31,10 +46,14 @@ pub enum Bound {
     Factored(Factored),
 }
 
-/// Compiles a bare formula.
+/// Compiles a bare formula into a task.
+///
+/// Names that stand for themselves are propositions and names in comparisons are numbers; both
+/// become [inputs](Task::inputs) of the task. [`TaskFile`] is for formulas over declared states.
 ///
 /// # Errors
-/// All mistakes of the formula, or that the budget does not suffice.
+/// Every mistake of the formula, or that its automaton is larger than the budget allows. The error
+/// prints each mistake with the line of the source and carets.
 ///
 /// ```
 /// use tltl::{Acceptor, Monitor};

@@ -1,4 +1,9 @@
-//! Letters and traces: which propositions hold at which instant.
+//! Letters and traces, and the shortest traces of an automaton.
+//!
+//! A *letter* is a valuation of all propositions at one instant, a *trace* a finite sequence of
+//! letters: a trajectory as the predicates see it. Searches go over the decision diagrams of the
+//! transitions and never list the 2^n letters of n propositions. Where arithmetic has shown that
+//! letters cannot occur, no trace has them.
 
 use std::collections::VecDeque;
 use std::fmt;
@@ -8,15 +13,25 @@ use rustc_hash::FxHashSet;
 use tltl_compiler::bdd::{Bdd, Diagram};
 use tltl_compiler::dfa::{Dfa, State};
 
-/// The values of all propositions at one instant.
+/// The truth of every proposition at one instant, by its number.
 pub type Letter = Vec<bool>;
 
-/// A finite trajectory, as far as the propositions see it.
+/// A finite sequence of letters over named propositions.
+///
+/// It prints the propositions that hold at each instant.
+///
+/// ```
+/// use tltlc::trace::Trace;
+///
+/// let propositions = ["a", "b"].map(str::to_owned).to_vec();
+/// let letters = vec![vec![true, false], vec![false, false], vec![true, true]];
+/// assert_eq!(Trace { propositions, letters }.to_string(), "{a}; {}; {a, b}");
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Trace {
-    /// The names of the propositions.
+    /// The names of the propositions, by number.
     pub propositions: Vec<String>,
-    /// The letters, one an instant.
+    /// The letters, one an instant; each has a value for each proposition.
     pub letters: Vec<Letter>,
 }
 
@@ -35,6 +50,10 @@ impl fmt::Display for Trace {
 /// The leaves that letters of `possible` lead to from `f`, each with the first of these letters, in
 /// their lexicographic order (proposition 0 first, false before true). A letter has `width`
 /// propositions.
+///
+/// It is a depth-first walk over pairs of nodes that visits none twice, so it costs at most the
+/// product of their numbers, never the number of letters. Propositions that are not asked are false
+/// in the letter.
 #[must_use]
 pub fn first_letters(diagram: &Diagram, width: usize, f: Bdd, possible: Bdd) -> Vec<(u32, Letter)> {
     let mut seen = FxHashSet::default();
@@ -59,7 +78,22 @@ pub fn first_letters(diagram: &Diagram, width: usize, f: Bdd, possible: Bdd) -> 
 }
 
 /// The shortest trace of at least one letter after which `goal` holds of the state reached from
-/// `from`; among equally short ones that with the lowest states and letters.
+/// `from`; among equally short ones the one with the lowest states and letters. `None` if no trace
+/// leads there.
+///
+/// It is a breadth-first search over the states; each state costs one walk over the diagram of its
+/// transitions.
+///
+/// ```
+/// use tltl_compiler::translate::Budget;
+/// use tltlc::{task, trace};
+///
+/// let order = task::compile("a T b", Budget::default())?;
+/// let accepting = order.dfa().accepting;
+/// let trace = trace::shortest(order.dfa(), 0, &|q| accepting == Some(q)).ok_or("unsatisfiable")?;
+/// assert_eq!(trace.to_string(), "{a}; {b}");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn shortest(dfa: &Dfa, from: State, goal: &dyn Fn(State) -> bool) -> Option<Trace> {
     let width = dfa.propositions.len();

@@ -1,4 +1,23 @@
-//! Parts of formulas that do not matter: with a constant in their place the task means the same.
+//! Vacuity: parts of a formula that do not matter, because a constant in their place gives a task
+//! of the same meaning.
+//!
+//! Such a part is mostly a mistake: the author meant it to constrain something. Beer, Ben-David,
+//! Eisner and Rodeh ("Efficient Detection of Vacuity in ACTL Formulas", 1997) call a formula
+//! vacuous in a part if nothing that is put in its place changes the verdict; Kupferman and Vardi
+//! ("Vacuity Detection in Temporal Model Checking", 2003) show that a constant, chosen by the
+//! polarity of the part, is enough to try. They ask about a formula and a model; here the formula
+//! alone is asked about, and either constant is reported: with `false` the part adds nothing, with
+//! `true` it forbids nothing.
+//!
+//! Formulas here are in negation normal form and share their parts, so all occurrences of a part
+//! are replaced as one. The comparison is exact: minimal automata in canonical numbering, after
+//! arithmetic has removed the letters that no state can show, are equal iff the formulas have the
+//! same meaning.
+//!
+//! # Cost
+//!
+//! One translation for each part and constant, within the bounds below; beyond them nothing is
+//! reported. Only the largest parts are reported, not parts of these.
 
 use tltl_compiler::arithmetic::{self, Possible};
 use tltl_compiler::ast::quoted;
@@ -11,23 +30,40 @@ use tltl_compiler::source::Span;
 use tltl_compiler::spec::{Formula, FormulaId, Spec};
 use tltl_compiler::translate::{Budget, translate};
 
-/// Formulas with more operators and operands are not searched for parts that do not matter.
+/// The most operators and operands of a formula that is searched: each costs two translations.
 const MOST_OPERATORS: usize = 40;
 
-/// Nor are automata with more states.
+/// The most states of an automaton that is searched; a translation of more takes too long to repeat
+/// for a warning.
 const MOST_STATES: usize = 64;
 
-/// Warnings that cost a search: for each task, the largest parts of its formula that could as well
-/// be left out.
+/// Warnings for each task about the largest parts of its formula that could be left out, in the
+/// order of the tasks.
 ///
-/// Not part of compiling: the macros, which cannot warn, would search in vain. Deterministic, and
-/// bounded: large formulas and automata are not searched.
+/// It is not a part of compiling: macros cannot warn on stable Rust, so they would search in vain.
+/// It is deterministic, and bounded: large formulas and automata are skipped.
+///
+/// ```
+/// use tltl_compiler::{compile, source::Source, translate::Budget};
+///
+/// let source = Source::new("formula", "F a || F (a && b)");
+/// let compiled = compile::formula(&source, Budget::default())?;
+/// let advice = tltlc::vacuity::advice(&compiled);
+/// assert_eq!(advice[0].kind().name(), "vacuous");
+/// assert!(advice[0].message().starts_with("`F (a && b)` does not matter"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn advice(compiled: &Compiled) -> Vec<Error> {
     let tasks = compiled.module.tasks.iter().zip(&compiled.automata);
     tasks.flat_map(|(task, automata)| parts(&compiled.module, task, automata)).collect()
 }
 
+/// The warnings for one task.
+///
+/// Formulas that always or never hold are skipped, since the compiler reports those with better
+/// words. So are literals of predicates that have only one value. Parts are visited from the whole
+/// to the operands; what lies within a part that was reported is marked and skipped.
 fn parts(module: &Module, task: &Task, automata: &Automata) -> Vec<Error> {
     let spec = &task.spec;
     let reachable = spec.reachable();
@@ -58,6 +94,8 @@ fn parts(module: &Module, task: &Task, automata: &Automata) -> Vec<Error> {
     warnings
 }
 
+/// The warning about a part that may be replaced by `value`. A part that the normal form made, and
+/// no author wrote, has no span: the warning then stands at the task.
 fn vacuous_part(task: &Task, id: FormulaId, value: bool) -> Error {
     let text = quoted(&task.spec.text(id, 1024));
     let what = task.name.as_ref().map_or("the formula".to_owned(), |name| format!("task `{name}`"));
@@ -70,7 +108,7 @@ fn vacuous_part(task: &Task, id: FormulaId, value: bool) -> Error {
         .warning()
 }
 
-/// The constant that a part may be replaced by, if the automaton stays the same.
+/// The constant that may replace a part without changing the automaton; `None` if the part matters.
 fn indifferent(spec: &Spec, part: FormulaId, possible: &Possible, dfa: &Dfa) -> Option<bool> {
     [false, true].into_iter().find(|&value| {
         let changed = replaced(spec, part, value);
@@ -85,7 +123,7 @@ fn indifferent(spec: &Spec, part: FormulaId, possible: &Possible, dfa: &Dfa) -> 
     })
 }
 
-/// The formula with a constant in the place of a part.
+/// The formula with a constant in place of a part, rebuilt operands first.
 fn replaced(spec: &Spec, part: FormulaId, value: bool) -> Spec {
     let mut changed = Spec::new(spec.propositions().to_vec());
     let ids: Vec<_> = spec.formulas().map(|(id, _)| id).collect();

@@ -3,11 +3,12 @@
 //! Columns are matched to the places that the task reads by name: `x`, `pose.x`, `joints[2]`. In
 //! JSON Lines a place may also be nested (`{"pose": {"x": 1}}`). Other columns are ignored.
 
-use crate::evaluate::{Input, InputKind};
 mod delimited;
 
 use serde_json::Value;
 use tltl_compiler::predicate::Scalar;
+
+use crate::evaluate::{Input, InputKind};
 
 /// One state, as numbers in the order of the inputs.
 pub(super) struct State {

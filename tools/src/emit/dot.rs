@@ -3,8 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::emit::sum::{Notation, label, quoted};
-use tltl_compiler::dfa::Edge;
-use tltl_compiler::dfa::{Dfa, State};
+use tltl_compiler::dfa::{Dfa, Edge, State};
 
 /// A digraph, left to right: the accepting state with two circles, the trap dashed.
 #[must_use]

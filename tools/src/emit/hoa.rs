@@ -8,8 +8,7 @@
 use std::fmt::Write as _;
 
 use crate::emit::sum::{Notation, Sum, quoted};
-use tltl_compiler::dfa::Edge;
-use tltl_compiler::dfa::{Dfa, State};
+use tltl_compiler::dfa::{Dfa, Edge, State};
 
 /// HOA v1. Letters that cannot occur go where the automaton sends them: edges stay disjoint.
 #[must_use]

@@ -9,8 +9,7 @@ use std::borrow::Cow;
 use std::fmt;
 
 use tltl_compiler::bdd::Cube;
-use tltl_compiler::dfa::Dfa;
-use tltl_compiler::dfa::Edge;
+use tltl_compiler::dfa::{Dfa, Edge};
 
 /// The symbols in which a guard is printed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

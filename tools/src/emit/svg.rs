@@ -15,8 +15,7 @@ use std::fmt::Write as _;
 
 use crate::emit::layout::{Graph, Layout, Link, Room, layout};
 use crate::emit::sum::Notation;
-use tltl_compiler::dfa::Edge;
-use tltl_compiler::dfa::{Dfa, Size, State};
+use tltl_compiler::dfa::{Dfa, Edge, Size, State};
 
 use curve::Arrow;
 use text::{Label, Legend};

@@ -3,8 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::emit::sum::{Notation, label};
-use tltl_compiler::dfa::Edge;
-use tltl_compiler::dfa::{Dfa, Size, State};
+use tltl_compiler::dfa::{Dfa, Edge, Size, State};
 
 /// The sizes under every convention, then each state with its edges and their guards. The initial
 /// state is marked `>`, the accepting one `*`, the trap `x`.

@@ -1,8 +1,14 @@
-//! Borrowed columns of numbers: what arrays of other programs are, without a copy.
+//! Borrowed columns of numbers: arrays of other programs, read without a copy.
+//!
+//! A column has one of eleven types and a stride, so it may be a field of an array of records, a
+//! row or a column of a matrix, or run backwards. Numbers become `f64` block by block, when they
+//! are read.
 
 use std::fmt;
 
 /// The rows of a trajectory, or of many: one column for each input of a task, in their order.
+///
+/// They are either separate [columns](Self::new), or one [matrix](Self::of_rows) of `f64`.
 #[derive(Clone, Copy, Debug)]
 pub struct Columns<'a> {
     rows: usize,
@@ -15,12 +21,12 @@ enum Source<'a> {
     Matrix { numbers: &'a [f64], width: usize },
 }
 
-/// Numbers that are more or fewer than the rows need.
+/// A slice that has more or fewer numbers than the rows need.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct WrongLength {
-    /// How many there should be.
+    /// The length that the rows need.
     pub expected: usize,
-    /// How many there are.
+    /// The length of the slice.
     pub found: usize,
 }
 
@@ -33,7 +39,7 @@ impl fmt::Display for WrongLength {
 impl std::error::Error for WrongLength {}
 
 impl<'a> Columns<'a> {
-    /// Columns of `rows` elements each. The number of rows is given apart, for a task that reads
+    /// Columns of `rows` elements each. The number of rows is an argument because a task that reads
     /// nothing has no columns.
     ///
     /// # Errors
@@ -45,10 +51,10 @@ impl<'a> Columns<'a> {
         }
     }
 
-    /// Rows of `width` numbers that stand one after another.
+    /// A matrix of shape (rows, width), row after row.
     ///
     /// # Errors
-    /// If there are more numbers, or fewer.
+    /// If `numbers` has another length than `rows * width`.
     pub fn of_rows(rows: usize, width: usize, numbers: &'a [f64]) -> Result<Self, WrongLength> {
         match rows.saturating_mul(width) {
             expected if expected == numbers.len() => {
@@ -78,7 +84,8 @@ impl<'a> Columns<'a> {
         }
     }
 
-    /// Reads the rows from `first` on of one column. A truth value is 1 or `low`.
+    /// Copies a stretch of one column, from row `first` on, into `out`. A truth value becomes 1 or
+    /// `low`.
     pub(super) fn read(&self, column: usize, first: usize, low: f64, out: &mut [f64]) {
         match self.source {
             Source::Columns(columns) => columns[column].read(first, low, out),
@@ -108,8 +115,10 @@ pub struct Column<'a> {
 }
 
 impl<'a> Column<'a> {
-    /// `rows` of these numbers: that at `start`, and each following one `stride` places further.
-    /// `None` if one of them lies outside.
+    /// A column of `rows` elements: the one at index `start`, and each next one `stride` indices
+    /// further on. The stride counts elements, not bytes, and may be negative or 0.
+    ///
+    /// Returns `None` if an element would lie outside of `numbers`.
     #[must_use]
     pub fn strided(
         numbers: impl Into<Numbers<'a>>,
@@ -141,7 +150,7 @@ impl<'a, N: Into<Numbers<'a>>> From<N> for Column<'a> {
     }
 }
 
-/// Numbers of type `T` as arithmetic reads them: every `stride`th from `start` on.
+/// Converts every `stride`th number, from index `start` on, into `out`.
 fn copy<T: Copy>(
     numbers: &[T],
     start: usize,
@@ -149,7 +158,7 @@ fn copy<T: Copy>(
     out: &mut [f64],
     number: impl Fn(T) -> f64,
 ) {
-    // Apart from the general case, for this one is vectorised.
+    // Contiguous numbers have a loop of their own, which the compiler vectorises.
     if stride == 1 {
         for (out, &value) in out.iter_mut().zip(&numbers[start..]) {
             *out = number(value);
@@ -187,7 +196,8 @@ macro_rules! numbers {
                 let stride = self.stride;
                 let start = self.start.wrapping_add_signed(stride.wrapping_mul(first as isize));
                 match self.numbers {
-                    // Integers beyond 2^53 are rounded, as in generated code.
+                    // Integers beyond 2^53 are rounded to the nearest `f64`, as by `as f64` in
+                    // generated code.
                     $(Numbers::$variant(numbers) => copy(numbers, start, stride, out, |x| x as f64),)*
                     Numbers::Bool(truths) => {
                         copy(truths, start, stride, out, |x| if x { 1.0 } else { low });

@@ -1,7 +1,10 @@
-//! The predicates of a task, and its formula, as straight-line programs.
+//! Compiles the predicates of a task, and its formula, into straight-line programs.
 //!
-//! Operations are those of the generated code, one by one (`emit::predicates` of the compiler), so
-//! both give the same bits.
+//! It walks the arenas of conditions and terms once, operands first, and emits one step for each
+//! operation, so shared subexpressions are computed once. The steps are those of the generated
+//! code, one by one (`emit::predicates` of the compiler): nothing is reordered, folded or
+//! simplified, because rounding would differ then. The walks use no recursion: formulas nest as
+//! deep as their authors like.
 
 use std::hash::Hash;
 
@@ -17,14 +20,14 @@ use tltl_compiler::unit::Unit;
 use super::program::{Carry, Operand, Operation, Program, Step};
 use super::{Input, InputKind, Unreadable};
 
-/// Which reading of a predicate is computed.
+/// The reading of a predicate that is computed: a number, or a truth value.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Reading {
     Robustness,
     Truth,
 }
 
-/// What the predicates of a task read, and where.
+/// The inputs of a task, and the input that each term and each free proposition is.
 pub(super) struct Inputs {
     pub(super) inputs: Vec<Input>,
     of_terms: FxHashMap<TermId, usize>,
@@ -32,10 +35,10 @@ pub(super) struct Inputs {
 }
 
 impl Inputs {
-    /// Those of some conditions.
+    /// Finds the inputs of some conditions, in the order in which the arena has them.
     ///
     /// # Errors
-    /// If one of them is Rust code.
+    /// If one of the conditions is Rust code, names a parameter, or indexes an array by a field.
     pub(super) fn find(module: &Module, roots: &[ConditionId]) -> Result<Self, Unreadable> {
         let mut found = Self {
             inputs: Vec::new(),
@@ -62,6 +65,7 @@ impl Inputs {
         Ok(found)
     }
 
+    /// The index of an input, which is added if it is new. Two terms with one text are one input.
     fn place(&mut self, input: Input) -> usize {
         let known = self.inputs.iter().position(|other| *other == input);
         known.unwrap_or_else(|| {
@@ -71,7 +75,7 @@ impl Inputs {
     }
 }
 
-/// The input that a term is, if it is one.
+/// The input that a term is; `None` if it is computed from others.
 fn term_input(module: &Module, id: TermId) -> Result<Option<Input>, Unreadable> {
     match module.arena.term(id) {
         Term::Place { steps, scalar } => {
@@ -93,6 +97,7 @@ fn term_input(module: &Module, id: TermId) -> Result<Option<Input>, Unreadable> 
     }
 }
 
+/// An input of a bare formula: it has no unit and no named values.
 fn plain(name: String, kind: InputKind) -> Input {
     Input { name, kind, unit: None, values: Vec::new() }
 }
@@ -110,7 +115,7 @@ fn unit<'a>(module: &'a Module, steps: &[PlaceStep]) -> Option<&'a Unit> {
     unit
 }
 
-/// The struct that a type consists of, or its elements do.
+/// The struct of a type, or of the elements of an array.
 fn structure<'a>(module: &'a Module, ty: &Type) -> Option<&'a Struct> {
     match ty {
         Type::Scalar(_) => None,
@@ -119,13 +124,14 @@ fn structure<'a>(module: &'a Module, ty: &Type) -> Option<&'a Struct> {
     }
 }
 
-/// Whether no index on the way to a place depends on the state.
+/// Whether no index on the way to a place depends on the state. An index that does would have to be
+/// followed row by row.
 fn is_fixed(module: &Module, place: TermId) -> bool {
     let varies = |id: &TermId| matches!(module.arena.term(*id), Term::Place { .. });
     !module.arena.term(place).operands().iter().any(varies)
 }
 
-/// The program that emits each predicate of `roots` as the output of its number.
+/// Compiles predicates: predicate i of `roots` is output i.
 pub(super) fn predicates(
     module: &Module,
     inputs: &Inputs,
@@ -137,8 +143,8 @@ pub(super) fn predicates(
     Program::new(compiler.steps, 0)
 }
 
-/// The program that emits the robustness of each predicate, and after these the robustness of the
-/// task's formula on the trajectory from each row on.
+/// Compiles the formula of a task: the outputs are the robustness of each predicate, and after
+/// these the robustness of the formula on the trajectory from each row on.
 pub(super) fn formula(
     module: &Module,
     inputs: &Inputs,
@@ -151,6 +157,8 @@ pub(super) fn formula(
     Program::new(compiler.steps, compiler.carries)
 }
 
+/// The steps so far, and the results that are known. The register of a result is the number of its
+/// step; [`Program::new`] allocates real registers.
 struct Compiler<'a> {
     module: &'a Module,
     inputs: &'a Inputs,
@@ -183,7 +191,7 @@ impl<'a> Compiler<'a> {
         self.step(operation, a, Operand::Constant(0.0))
     }
 
-    /// An operand as the result of a step.
+    /// An operand as the result of a step: operations that relate rows take no constants.
     fn result(&mut self, operand: Operand) -> Operand {
         match operand {
             Operand::Register(_) => operand,
@@ -191,7 +199,8 @@ impl<'a> Compiler<'a> {
         }
     }
 
-    /// Emits every predicate as soon as it is known, so that its register is free again.
+    /// Emits every predicate as soon as it is known, so that its register is free again if the
+    /// formula does not need it.
     fn predicates(&mut self, roots: &[ConditionId]) -> Vec<Operand> {
         let mut known = Vec::with_capacity(roots.len());
         for (output, &root) in (0..).zip(roots) {
@@ -203,7 +212,7 @@ impl<'a> Compiler<'a> {
         known
     }
 
-    /// A condition, and first what it needs and is not known yet.
+    /// The operand that a condition is, after the steps for what it needs and is not known yet.
     fn condition(&mut self, root: ConditionId) -> Operand {
         for id in ordered(root, &self.conditions, |id| self.operands(id)) {
             let operand = self.one_condition(id);
@@ -212,6 +221,7 @@ impl<'a> Compiler<'a> {
         self.conditions[&root]
     }
 
+    /// The conditions that must be known first; a predicate by name stands for its own condition.
     fn operands(&self, id: ConditionId) -> Vec<ConditionId> {
         match self.module.arena.condition(id) {
             Condition::Is(predicate) => {
@@ -221,6 +231,7 @@ impl<'a> Compiler<'a> {
         }
     }
 
+    /// The steps for one condition whose operands are known.
     fn one_condition(&mut self, id: ConditionId) -> Operand {
         let of = |id: ConditionId| self.conditions[&id];
         match *self.module.arena.condition(id) {
@@ -249,12 +260,13 @@ impl<'a> Compiler<'a> {
         }
     }
 
+    /// A constant: ±∞ as robustness, ±1 as truth value.
     fn truth(&self, value: bool) -> Operand {
         let size = if self.reading == Reading::Robustness { f64::INFINITY } else { 1.0 };
         Operand::Constant(if value { size } else { -size })
     }
 
-    /// Whether two values are the same.
+    /// The equality of two values of an enumeration or two truth values: its robustness is ±1.
     fn values(&mut self, comparison: Comparison, (a, b): (Operand, Operand)) -> Operand {
         let same = self.step(Operation::Same, a, b);
         match comparison {
@@ -263,7 +275,8 @@ impl<'a> Compiler<'a> {
         }
     }
 
-    /// The comparison of two numbers; its truth is that of the difference.
+    /// The comparison of two numbers. The difference decides its truth too, so that robustness and
+    /// truth never disagree after rounding.
     fn compare(&mut self, comparison: Comparison, (a, b): (Operand, Operand)) -> Operand {
         let rho = match comparison {
             Comparison::Less | Comparison::AtMost => self.step(Operation::Subtract, b, a),
@@ -288,7 +301,7 @@ impl<'a> Compiler<'a> {
         }
     }
 
-    /// A term, and first what it needs and is not known yet.
+    /// The operand that a term is, after the steps for what it needs and is not known yet.
     fn term(&mut self, root: TermId) -> Operand {
         for id in ordered(root, &self.terms, |id| self.module.arena.term(id).operands()) {
             let operand = self.one_term(id);
@@ -297,6 +310,7 @@ impl<'a> Compiler<'a> {
         self.terms[&root]
     }
 
+    /// The step for one term whose operands are known.
     fn one_term(&mut self, id: TermId) -> Operand {
         let of = |id: TermId| self.terms[&id];
         match *self.module.arena.term(id) {
@@ -319,14 +333,15 @@ impl<'a> Compiler<'a> {
         }
     }
 
+    /// The step that reads an input. A truth value in the place of a free proposition is its
+    /// robustness, 1 or -1; of a Boolean field it is 1 or 0.
     fn input(&mut self, place: usize) -> Operand {
-        // A proposition without a scale has robustness ±1.
         let free = self.inputs.inputs[place].kind == InputKind::Proposition;
         let (input, low) = (place as u32, if free { -1.0 } else { 0.0 });
         self.unary(Operation::Input { input, low }, Operand::Constant(0.0))
     }
 
-    /// The operators of a formula over its predicates, and the output of the whole.
+    /// The steps for the operators of a formula over its predicates, and the output of the whole.
     fn formula(&mut self, spec: &Spec, predicates: &[Operand]) {
         let reachable = spec.reachable();
         let mut known = vec![Operand::Constant(f64::NEG_INFINITY); reachable.len()];
@@ -337,6 +352,7 @@ impl<'a> Compiler<'a> {
         self.unary(Operation::Emit(predicates.len() as u32), whole);
     }
 
+    /// The step for one temporal or Boolean operator whose operands are known.
     fn operator(&mut self, formula: Formula, known: &[Operand], predicates: &[Operand]) -> Operand {
         let of = |id: FormulaId| known[id.0 as usize];
         match formula {
@@ -353,7 +369,8 @@ impl<'a> Compiler<'a> {
                 let (a, b, carry) = (self.result(of(a)), self.result(of(b)), self.carry());
                 self.step(Operation::Until(carry), a, b)
             }
-            // φ now and ψ, which is an `F`, from the next row on: now or later.
+            // `a T b` is `F (a && X b)`, since the arena has `F` around the `b` of a `T`: once `b`
+            // can come later, it can come at any later row.
             Formula::Then(a, b) => {
                 let later = self.next(of(b));
                 let both = self.step(Operation::Least, of(a), later);
@@ -372,14 +389,15 @@ impl<'a> Compiler<'a> {
         self.unary(Operation::Eventually(carry), a)
     }
 
+    /// A new carry, for an operator that relates rows.
     fn carry(&mut self) -> Carry {
         self.carries += 1;
         Carry(self.carries - 1)
     }
 }
 
-/// What `root` is made of and is not known yet, operands first, `root` among it. Without recursion,
-/// for authors nest.
+/// The ids that `root` is made of and that are not known yet, operands first, `root` last. An
+/// explicit stack replaces recursion, which would overflow on deep formulas.
 fn ordered<Id: Copy + Eq + Hash>(
     root: Id,
     known: &FxHashMap<Id, Operand>,

@@ -1,21 +1,32 @@
 //! Straight-line programs over blocks of rows.
 //!
-//! A [`Program`] does each of its steps for a whole block before it does the next one: what to do is
-//! decided once a block and not once a row, and each step is a plain loop, which is vectorised. The
-//! steps write numbers only. A truth value is a number as well, positive if true, negative if false
-//! and never 0: so `min`, `max` and negation are conjunction, disjunction and negation of truth
-//! values as they are of robustness, and NaN goes through all of them in the same way.
+//! A [`Program`] performs each step for a whole block before the next one. The choice of the
+//! operation is paid once a block and not once a row, and each step is a plain loop, which the
+//! compiler vectorises. Registers are arrays of one block and are reused, so that the working set
+//! stays in the first-level cache.
+//!
+//! # Truth values are numbers
+//!
+//! A truth value is a number that is positive if true, negative if false, and never 0. So `min`,
+//! `max` and negation are conjunction, disjunction and negation of truth values as they are of
+//! robustness, one set of operations serves both readings, and NaN passes through all of them in
+//! the same way.
+//!
+//! # Time
+//!
+//! Blocks run from the last row to the first, and within a block the temporal operators do too:
+//! each needs only its own value in the next row, which a [`Carry`] hands from block to block.
 
 use tltl_compiler::predicate::Function;
 
 use super::column::Columns;
 
-/// The rows of a block. Five comparisons take 7.2, 5.7 and 5.1 ns a row in blocks of 64, 256 and 1,024
-/// rows (`cargo bench -p tltl-tests --bench columns`): what is left to gain is little, and the
-/// registers of 2 KiB of a much larger task are still in the first-level cache.
+/// The rows of a block. Five comparisons take 7.2, 5.7 and 5.1 ns a row in blocks of 64, 256 and
+/// 1,024 rows (`cargo bench -p tltl-tests --bench columns`): beyond 256 there is little to gain,
+/// and with registers of 2 KiB even a much larger task stays in the first-level cache.
 pub(super) const BLOCK: usize = 256;
 
-/// What a step reads.
+/// An operand of a step.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Operand {
     /// The result of an earlier step; once registers are [allocated](Program::new), a register.
@@ -24,10 +35,10 @@ pub(super) enum Operand {
     Constant(f64),
 }
 
-/// What a step does with its operands a and b; what takes one only reads a.
+/// The operation of a step on its operands a and b. An operation with one operand reads a.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Operation {
-    /// An input; a truth value is 1 or `low`.
+    /// Reads an input; a truth value becomes 1 or `low`.
     Input { input: u32, low: f64 },
     /// a
     Copy,
@@ -43,9 +54,9 @@ pub(super) enum Operation {
     Negate,
     /// |a|
     Absolute,
-    /// The lesser; NaN if one of them is.
+    /// min(a, b); NaN if one of them is.
     Least,
-    /// The greater; NaN if one of them is.
+    /// max(a, b); NaN if one of them is.
     Greatest,
     /// f(a), or f(a, b).
     Call(Function),
@@ -61,11 +72,12 @@ pub(super) enum Operation {
     Eventually(Carry),
     /// The greatest, over the rows from this one on, of b there and a in all rows before it.
     Until(Carry),
-    /// Gives a away as this output.
+    /// Hands a to the caller, as the output of this number.
     Emit(u32),
 }
 
-/// A number that a block leaves for the one that precedes it in time: blocks run backwards.
+/// A number that a block leaves for the block before it. All carries are -∞ at the end of the
+/// trajectory, where no later row exists.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Carry(pub(super) u32);
 
@@ -75,7 +87,7 @@ impl Carry {
     }
 }
 
-/// One step.
+/// One step of a program.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Step {
     pub(super) operation: Operation,
@@ -85,14 +97,18 @@ pub(super) struct Step {
 }
 
 impl Step {
-    /// A step whose result has no register yet. What relates rows or gives numbers away does not
-    /// take constants: they are [copied](Operation::Copy) first.
+    /// A step whose result has no register yet.
+    ///
+    /// Operations that relate rows, or emit, take no constants as operands: they are
+    /// [copied](Operation::Copy) into a register first.
     pub(super) fn new(operation: Operation, a: Operand, b: Operand) -> Self {
         Self { operation, operands: [a, b], to: 0 }
     }
 }
 
-/// A straight-line program; its registers are reused.
+/// A straight-line program whose registers are allocated.
+///
+/// Invariant: no step writes a register that it reads.
 #[derive(Clone, Debug)]
 pub(super) struct Program {
     steps: Vec<Step>,
@@ -100,7 +116,10 @@ pub(super) struct Program {
     carries: usize,
 }
 
-/// Space for programs to work in, of whichever task: one for each thread.
+/// Memory for evaluators to work in, of whatever task: one for each thread.
+///
+/// It grows to the largest task that has used it, at most 2 KiB for each register, and is reused
+/// after that.
 #[derive(Clone, Debug, Default)]
 pub struct Scratch {
     registers: Vec<f64>,
@@ -108,14 +127,15 @@ pub struct Scratch {
 }
 
 impl Program {
-    /// A program of these steps, whose operands are numbers of earlier steps, with as many carries.
+    /// A program of these steps, whose operands are the numbers of earlier steps, with as many
+    /// carries.
     pub(super) fn new(mut steps: Vec<Step>, carries: u32) -> Self {
         let registers = allocate(&mut steps);
         Self { steps, registers, carries: carries as usize }
     }
 
-    /// Runs over all rows, the last block first, and calls `emit` with the first row of a block, an
-    /// output, and its numbers in the block.
+    /// Runs over all rows, the last block first. `emit` is called with the first row of a block,
+    /// the number of an output, and the numbers of that output in the block.
     pub(super) fn run(
         &self,
         columns: &Columns<'_>,
@@ -136,7 +156,8 @@ impl Program {
         }
     }
 
-    /// The only output, of one row. What a program this small needs is on the stack.
+    /// The only output of the program, in one row. Up to 32 registers lie on the stack: nothing is
+    /// allocated when the runtime asks for one predicate in one state.
     pub(super) fn of_row(&self, row: &[f64]) -> f64 {
         const SMALL: usize = 32;
         let columns = Columns::of_row(row);
@@ -150,6 +171,7 @@ impl Program {
         found
     }
 
+    /// Runs all steps over one block of `length` rows.
     fn block(
         &self,
         columns: &Columns<'_>,
@@ -182,12 +204,18 @@ impl Program {
     }
 }
 
-/// Gives each result a register that is free again after its last use; the number of registers.
+/// Gives each result a register that is free again after its last use, in one pass over the steps;
+/// returns the number of registers.
+///
+/// The steps are straight-line code, so the live ranges are intervals in order of their starts, and
+/// taking any free register is optimal (Poletto and Sarkar, "Linear Scan Register Allocation",
+/// 1999).
 fn allocate(steps: &mut [Step]) -> usize {
     let last = last_uses(steps);
     let (mut free, mut count) = (Vec::new(), 0);
     for at in 0..steps.len() {
-        // Taken before the operands are freed: no step writes where it reads.
+        // The register is taken before those of the operands are freed: no step writes where it
+        // reads.
         let to = free.pop().unwrap_or_else(|| {
             count += 1;
             count - 1
@@ -208,7 +236,7 @@ fn allocate(steps: &mut [Step]) -> usize {
     count as usize
 }
 
-/// The last step that reads the result of each step; 0 if none does.
+/// For each step the last step that reads its result; 0 if none does, which is before any use.
 fn last_uses(steps: &[Step]) -> Vec<usize> {
     let mut last = vec![0; steps.len()];
     for (at, step) in steps.iter().enumerate() {
@@ -221,7 +249,7 @@ fn last_uses(steps: &[Step]) -> Vec<usize> {
     last
 }
 
-/// The numbers of an operand in a block.
+/// The numbers of an operand in a block: one a row, or the same in all.
 #[derive(Clone, Copy)]
 enum Lanes<'a> {
     Each(&'a [f64]),
@@ -235,8 +263,10 @@ impl<'a> Lanes<'a> {
     }
 }
 
+/// The operations that look at one row only.
 fn row_by_row(operation: Operation, a: Lanes<'_>, b: Lanes<'_>, out: &mut [f64]) {
-    // Three instructions for two rows, where a choice between 1, -1 and NaN takes eight.
+    // Adding the least positive number where the difference is 0 takes three instructions for two
+    // rows; choosing between 1, -1 and NaN takes eight.
     let decided = |a: f64, at_0: f64| a + if a == 0.0 { at_0 } else { 0.0 };
     match operation {
         Operation::Add => zip(a, b, out, |a, b| a + b),
@@ -250,13 +280,14 @@ fn row_by_row(operation: Operation, a: Lanes<'_>, b: Lanes<'_>, out: &mut [f64])
         Operation::Same => zip(a, b, out, |a, b| if a == b { 1.0 } else { -1.0 }),
         Operation::Positive => map(a, out, |a| decided(a, -f64::MIN_POSITIVE)),
         Operation::NotNegative => map(a, out, |a| decided(a, f64::MIN_POSITIVE)),
-        // The others are calls, which cost more than the choice among them.
+        // The other functions are calls, and cost more than the choice among them.
         Operation::Call(Function::Sqrt) => map(a, out, f64::sqrt),
         Operation::Call(function) => zip(a, b, out, |a, b| function.value(a, b)),
         _ => map(a, out, |a| a),
     }
 }
 
+/// Applies a function of one operand to each row.
 fn map(a: Lanes<'_>, out: &mut [f64], f: impl Fn(f64) -> f64) {
     match a {
         Lanes::Each(a) => out.iter_mut().zip(a).for_each(|(out, &a)| *out = f(a)),
@@ -264,6 +295,7 @@ fn map(a: Lanes<'_>, out: &mut [f64], f: impl Fn(f64) -> f64) {
     }
 }
 
+/// Applies a function of two operands to each row; constants are kept out of the inner loop.
 fn zip(a: Lanes<'_>, b: Lanes<'_>, out: &mut [f64], f: impl Fn(f64, f64) -> f64) {
     match (a, b) {
         (Lanes::Each(a), Lanes::Each(b)) => {
@@ -275,6 +307,7 @@ fn zip(a: Lanes<'_>, b: Lanes<'_>, out: &mut [f64], f: impl Fn(f64, f64) -> f64)
     }
 }
 
+/// `X a`: the value in the next row.
 fn next(a: &[f64], carry: &mut f64, out: &mut [f64]) {
     if let ([first, later @ ..], Some((last, before))) = (a, out.split_last_mut()) {
         before.copy_from_slice(later);
@@ -283,6 +316,7 @@ fn next(a: &[f64], carry: &mut f64, out: &mut [f64]) {
     }
 }
 
+/// `F a` by its recursion: a now, or `F a` in the next row.
 fn eventually(a: &[f64], carry: &mut f64, out: &mut [f64]) {
     for (out, &a) in out.iter_mut().zip(a).rev() {
         *carry = greatest(a, *carry);
@@ -290,6 +324,7 @@ fn eventually(a: &[f64], carry: &mut f64, out: &mut [f64]) {
     }
 }
 
+/// `a U b` by its recursion: b now, or a now and `a U b` in the next row.
 fn until(a: &[f64], b: &[f64], carry: &mut f64, out: &mut [f64]) {
     for (out, (&a, &b)) in out.iter_mut().zip(a.iter().zip(b)).rev() {
         *carry = greatest(b, least(a, *carry));
@@ -297,12 +332,12 @@ fn until(a: &[f64], b: &[f64], carry: &mut f64, out: &mut [f64]) {
     }
 }
 
-/// The lesser of two numbers; NaN if one of them is.
+/// min(a, b), NaN if one of them is. `f64::min` would drop a NaN, and takes over twice as long.
 fn least(a: f64, b: f64) -> f64 {
     if a < b || a.is_nan() { a } else { b }
 }
 
-/// The greater of two numbers; NaN if one of them is.
+/// max(a, b), NaN if one of them is.
 fn greatest(a: f64, b: f64) -> f64 {
     if a > b || a.is_nan() { a } else { b }
 }

@@ -1,8 +1,13 @@
-//! A formula in plain English.
+//! Retells a formula in plain English.
+//!
+//! Small formulas become one clause, larger ones a list in which each operand has a line of its
+//! own. The text follows the formula after negation was pushed inward, so a reader sees the
+//! literals that the automaton tests. It is not parsed again by anything.
 
 use tltl_compiler::spec::{Formula, FormulaId, Spec};
 
-/// Formulas with more operators, counted where they are used, are not retold.
+/// The most operators of a formula that is retold, counted where they are used: a longer text hides
+/// more than it says, and a shared arena can unfold to exponential size.
 const MOST_OPERATORS: usize = 120;
 
 /// The formula as indented lines; none if it is too large.
@@ -15,7 +20,7 @@ pub(super) fn retell(spec: &Spec) -> Vec<String> {
     lines
 }
 
-/// How large each formula is as a tree.
+/// The size of each formula as a tree, where shared parts count at every use.
 fn sizes(spec: &Spec) -> Vec<usize> {
     let mut sizes = vec![0_usize; spec.formulas().len()];
     for (id, formula) in spec.formulas() {
@@ -25,7 +30,7 @@ fn sizes(spec: &Spec) -> Vec<usize> {
     sizes
 }
 
-/// For each formula whether it speaks of one state only.
+/// For each formula whether it is a condition on one state, without temporal operators.
 fn states(spec: &Spec) -> Vec<bool> {
     let mut state = vec![false; spec.formulas().len()];
     for (id, formula) in spec.formulas() {
@@ -38,13 +43,14 @@ fn states(spec: &Spec) -> Vec<bool> {
     state
 }
 
+/// A formula that is being retold.
 struct Words<'a> {
     spec: &'a Spec,
     state: Vec<bool>,
 }
 
 impl Words<'_> {
-    /// Tells a formula on lines, `before` standing in front.
+    /// Writes a formula on lines at `depth`, the first of them after the mark `before`.
     fn tell(&self, id: FormulaId, before: &str, depth: usize, lines: &mut Vec<String>) {
         if let Some(sentence) = self.sentence(id) {
             return lines.push(format!("{}{before}{sentence}", "  ".repeat(depth)));
@@ -82,7 +88,7 @@ impl Words<'_> {
         }
     }
 
-    /// The formula as one clause, if it is simple enough.
+    /// The formula as one clause; `None` if it is not simple enough.
     fn sentence(&self, id: FormulaId) -> Option<String> {
         if self.is_state(id) {
             return Some(self.condition(id));
@@ -100,6 +106,7 @@ impl Words<'_> {
         }
     }
 
+    /// Nested `X` as one number of instants: `X X a` is "2 instants later a".
     fn next(&self, a: FormulaId, instants: usize) -> Option<String> {
         match self.spec.formula(a) {
             Formula::Next(b) => self.next(b, instants + 1),
@@ -123,7 +130,8 @@ impl Words<'_> {
         self.is_state(at).then(|| text + &self.condition(at))
     }
 
-    /// ψ of a ◇ψ.
+    /// The operand ψ of ◇ψ. The normal form wraps the right side of `T` in `F`, which "later" says
+    /// already.
     fn goal(&self, id: FormulaId) -> FormulaId {
         match self.spec.formula(id) {
             Formula::Eventually(a) => a,
@@ -135,7 +143,7 @@ impl Words<'_> {
         self.state[id.0 as usize]
     }
 
-    /// A condition on one state.
+    /// A condition on one state, as words.
     fn condition(&self, id: FormulaId) -> String {
         match self.spec.formula(id) {
             Formula::True => "anything".to_owned(),
@@ -149,6 +157,7 @@ impl Words<'_> {
         }
     }
 
+    /// The operands of a chain, joined by a word; operands that are compound stand in brackets.
     fn joined(&self, id: FormulaId, word: &str) -> String {
         let compound = |part| matches!(self.spec.formula(part), Formula::And(..) | Formula::Or(..));
         let parts = self.chain(id).into_iter().map(|part| match compound(part) {
@@ -158,7 +167,7 @@ impl Words<'_> {
         parts.collect::<Vec<_>>().join(word)
     }
 
-    /// The operands of a chain of one and the same operator.
+    /// The operands of a chain of one operator, from left to right.
     fn chain(&self, id: FormulaId) -> Vec<FormulaId> {
         let and = matches!(self.spec.formula(id), Formula::And(..));
         match self.spec.formula(id) {

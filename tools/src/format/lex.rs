@@ -1,23 +1,28 @@
-//! A task file as tokens for layout: comments are tokens too, Rust code is one token.
+//! Splits a task file into tokens for layout: comments are tokens too, and Rust code is one token.
+//!
+//! The compiler's grammar is not used, since it drops comments and accepts only correct files. This
+//! lexer accepts any text and loses nothing but blanks. What a character means depends on the
+//! tokens before it (`*` in a unit, `{` after `state Name`), and only on these: it never looks back
+//! at the text.
 
-/// What a token is.
+/// The kind of a token, as far as layout depends on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     /// A name, a keyword or a number.
     Word,
     /// An operator or a bracket.
     Symbol,
-    /// A part of a unit.
+    /// A part of a unit, which stands without blanks: `kg*m^2`.
     Unit,
     /// A comment.
     Comment,
-    /// A doc comment.
+    /// A doc comment, which belongs to the item after it.
     Doc,
-    /// A Rust expression in braces, or a Rust type.
+    /// A Rust expression in braces, or a Rust type. Its inside is kept as it is.
     Rust,
 }
 
-/// A token and the line breaks before it.
+/// A token and the number of line breaks before it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Token<'a> {
     pub(super) text: &'a str,
@@ -26,7 +31,8 @@ pub(super) struct Token<'a> {
 }
 
 impl Token<'_> {
-    /// Whether a `-` after it is between two operands, and a bracket a call.
+    /// Whether the token ends an operand: a `-` after it is a difference, and a bracket after it a
+    /// call or an index.
     pub(super) fn ends_operand(&self) -> bool {
         match self.kind {
             Kind::Word => !self.is_operator_word(),
@@ -36,16 +42,18 @@ impl Token<'_> {
         }
     }
 
+    /// Whether the token is an operator written as a word.
     pub(super) fn is_operator_word(&self) -> bool {
         self.kind == Kind::Word
             && matches!(self.text, "F" | "X" | "U" | "T" | "not" | "and" | "or" | "in")
     }
 }
 
+/// The symbols of several characters, a longer one before its beginnings.
 const SYMBOLS: [&str; 14] =
     ["<=>", "<->", "..=", "..", "=>", "->", "&&", "||", "==", "!=", "<=", ">=", "<>", "::"];
 
-/// The tokens of a task file.
+/// The tokens of a task file, in order; every character that is not blank is in one of them.
 pub(super) fn lex(text: &str) -> Vec<Token<'_>> {
     let mut tokens: Vec<Token<'_>> = Vec::new();
     let mut rest = text;
@@ -91,10 +99,11 @@ fn one(rest: &str, first: char, before: &[Token<'_>]) -> (Kind, usize) {
     }
 }
 
-/// The operators of units.
+/// The operators of units, in all their spellings.
 const UNIT: &str = "*×/÷^-−";
 
-/// Whether the operator or the word that starts with `first` is a part of a unit.
+/// Whether the operator or the word that starts with `first` is a part of a unit: after the `in` of
+/// a declaration, names and operators alternate.
 fn unit_goes_on(first: char, before: &[Token<'_>]) -> bool {
     let last = before.iter().rev().find(|token| token.kind != Kind::Comment);
     let Some(last) = last else { return false };
@@ -106,8 +115,8 @@ fn unit_goes_on(first: char, before: &[Token<'_>]) -> bool {
     }
 }
 
-/// Whether the `in` that comes last is that of a declaration: it follows a type or a name, and is
-/// not that of `for all r in`.
+/// Whether the last `in` belongs to a declaration: it follows a type or a name, and is not the one
+/// of `for all r in`.
 fn declares_unit(before: &[Token<'_>]) -> bool {
     let mut last = before.iter().rev().filter(|token| token.kind != Kind::Comment).skip(1);
     let Some(name) = last.next() else { return false };
@@ -125,14 +134,14 @@ fn word(rest: &str) -> usize {
     raw + rest[raw..].find(name).unwrap_or(rest.len() - raw)
 }
 
-/// Whether a Rust type comes next: after `state name :`.
+/// Whether a Rust type comes next, as after `state name :`.
 fn host_type_follows(before: &[Token<'_>]) -> bool {
     let mut last = before.iter().rev().filter(|token| token.kind != Kind::Comment);
     let text = [last.next(), last.next(), last.next()].map(|token| token.map(|token| token.text));
     text[0] == Some(":") && text[2] == Some("state")
 }
 
-/// Whether a brace opens the fields of a declaration: after `state Name` and its like.
+/// Whether a brace opens the fields of a declaration, as after `state Name`.
 fn declares(before: &[Token<'_>]) -> bool {
     let mut last = before.iter().rev().filter(|token| token.kind != Kind::Comment);
     let (name, word) = (last.next(), last.next());
@@ -140,13 +149,14 @@ fn declares(before: &[Token<'_>]) -> bool {
         && word.is_some_and(|word| matches!(word.text, "state" | "struct" | "enum"))
 }
 
-/// Whether a dot starts a number and not a field.
+/// Whether a dot begins a number, as in `.5`, and not a field.
 fn starts_fraction(rest: &str, before: &[Token<'_>]) -> bool {
     rest[1..].starts_with(|c: char| c.is_ascii_digit())
         && before.last().is_none_or(|token| !token.ends_operand())
 }
 
-/// The length of a number; after a dot it is the position of a field.
+/// The length of a number. After a dot, digits are the position of a field (`pose.0.1`), which has
+/// no fraction.
 fn number(rest: &str, before: &[Token<'_>]) -> usize {
     let position = before.last().is_some_and(|token| token.text == ".");
     let mut length = 0;
@@ -164,7 +174,7 @@ fn number(rest: &str, before: &[Token<'_>]) -> usize {
     length
 }
 
-/// The length of a Rust expression in braces.
+/// The length of a Rust expression in braces; braces in its strings and characters do not count.
 fn braces(rest: &str) -> usize {
     let mut depth = 0;
     let mut at = 0;
@@ -182,7 +192,7 @@ fn braces(rest: &str) -> usize {
     at
 }
 
-/// The length of a character literal; of the quote alone if it is a lifetime.
+/// The length of a character literal; 1, the quote alone, if it is a lifetime.
 fn character(rest: &str) -> usize {
     let mut chars = rest.chars().skip(1);
     match (chars.next(), chars.next()) {
@@ -192,6 +202,7 @@ fn character(rest: &str) -> usize {
     }
 }
 
+/// The length of a literal in quotes, escapes included; to the end of the text if it is not closed.
 fn quoted(rest: &str, quote: char) -> usize {
     let mut escaped = false;
     for (at, c) in rest.char_indices().skip(1) {

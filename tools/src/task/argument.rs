@@ -1,4 +1,9 @@
-//! What a task takes, and values for it.
+//! The parameters of a task, and the values that replace them.
+//!
+//! Binding is substitution: the value becomes a constant in the conditions of the predicates, in a
+//! copy of the compiled module. The automaton does not depend on parameters, so it is never
+//! rebuilt. Checks are those of the generated Rust, made here instead of by rustc: number and names
+//! of the arguments, their types and units, and that no index lies outside its array.
 
 use std::fmt;
 use std::sync::Arc;
@@ -9,8 +14,26 @@ use tltl_compiler::predicate::{
 
 /// A value for a parameter of a task.
 ///
-/// A text is what the language has in its place: the name of a value of an enumeration, with or
-/// without the enumeration's name, `none`, `true`, a number, the name of a constant.
+/// A text is read as the language would read it in this place: the name of a value of an
+/// enumeration, with or without the name of the enumeration, `none`, `true`, a number, or the name
+/// of a constant of the file. A number or a truth value fits only a parameter of such a type.
+///
+/// ```
+/// use tltl_compiler::{source::Source, translate::Budget};
+/// use tltlc::task::TaskFile;
+///
+/// let source = Source::new("kitchen.tltl", "
+///     enum Object { apple, mug }
+///     state Kitchen { holding: Object? }
+///     predicate hold(o: Object) = holding == o
+///     task grasp(o: Object) = F hold(o)");
+/// let grasp = TaskFile::new(source, Budget::default())?.find(None)?;
+/// assert!(grasp.bind(&[("o", "apple".into())]).is_ok());
+/// assert!(grasp.bind(&[("o", "Object::mug".into())]).is_ok());
+/// let refused = grasp.bind(&[("o", 1.0.into())]).unwrap_err();
+/// assert_eq!(refused.to_string(), "`grasp` takes `o: Object`, and `1` is not one of apple, mug");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
     /// A number.
@@ -49,19 +72,23 @@ impl fmt::Display for Value {
     }
 }
 
-/// The arguments of a task by the names of its parameters.
+/// The arguments of a task by the names of its parameters, shared by all clones of the task.
 pub(super) type Arguments = Arc<[(String, Value)]>;
 
-/// A parameter of a task, for whoever is to give it a value.
+/// A parameter of a task, described for the caller who has to give it a value.
+///
+/// It prints as the source declares it: `far: f64 in m`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Parameter {
     /// Its name.
     pub name: String,
-    /// Its type, as the source calls it: `f64`, `bool`, `Object?`.
+    /// The name of its type in the language: `f64`, `bool`, `Object?`.
     pub ty: String,
-    /// What it is measured in, if the source says so.
+    /// The unit that the source declares for it, as text: `m/s`. Arguments are plain numbers in
+    /// this unit; nothing is converted.
     pub unit: Option<String>,
-    /// The names of its values, if they have names.
+    /// The names of its values, if its type is finite: those of the enumeration, `none` last if it
+    /// is optional, or `true` and `false`. Empty for a number.
     pub values: Vec<String>,
 }
 
@@ -94,7 +121,7 @@ impl fmt::Display for Parameter {
     }
 }
 
-/// Parameters in words: `no arguments`, `1 argument (d: f64)`.
+/// The parameters in words, for messages: `no arguments`, `1 argument (d: f64)`.
 pub(crate) fn listed(parameters: &[Parameter]) -> String {
     let named: Vec<_> = parameters.iter().map(Parameter::to_string).collect();
     match parameters.len() {
@@ -104,7 +131,9 @@ pub(crate) fn listed(parameters: &[Parameter]) -> String {
     }
 }
 
-/// Why a task cannot be run with some arguments, in one sentence.
+/// The reason why a task does not take some arguments, in one sentence.
+///
+/// It names the task, what it takes, and the argument at fault; it ends without a full stop.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ArgumentError(String);
 
@@ -116,7 +145,10 @@ impl fmt::Display for ArgumentError {
 
 impl std::error::Error for ArgumentError {}
 
-/// Puts arguments in the place of a task's parameters, in all that its predicates say.
+/// Replaces the parameters of `task` by `given` values in the conditions of all its predicates.
+///
+/// `module` is a copy of the caller's; other tasks in it keep their parameters only as long as they
+/// share no predicate with this one, so it serves this task alone.
 pub(super) fn bind(
     module: &mut Module,
     task: &Task,
@@ -146,7 +178,8 @@ pub(super) fn bind(
     }
 }
 
-/// The value of each parameter, or what the task takes and what is wrong about the values.
+/// The value of each parameter in the order of the declaration; or the words for what the task
+/// takes and for what is wrong with the arguments.
 fn matched<'a>(
     module: &Module,
     task: &Task,
@@ -170,7 +203,7 @@ fn matched<'a>(
     }
 }
 
-/// The value of a parameter as a term, or what it is instead.
+/// The value as a term of the parameter's type, or the words for the values that would fit.
 fn term(module: &Module, parameter: &Declared, value: &Value) -> Result<Term, String> {
     if let Value::Text(text) = value
         && let Some(unit) = other_unit(module, parameter, text)
@@ -185,14 +218,15 @@ fn term(module: &Module, parameter: &Declared, value: &Value) -> Result<Term, St
     term.ok_or_else(|| format!("not one of {}", values(module, parameter)))
 }
 
-/// The unit of the constant `text` if the parameter is in another.
+/// The unit of the constant called `text`, if it differs from the unit of the parameter. A plain
+/// number has no unit to compare.
 fn other_unit(module: &Module, parameter: &Declared, text: &str) -> Option<String> {
     let constant = module.constants.iter().find(|known| known.name == text)?;
     let (wanted, found) = (parameter.unit.as_ref()?, constant.unit.as_ref()?);
     (wanted != found).then(|| module.units.text(found))
 }
 
-/// What a parameter's values are, in words.
+/// The values of a parameter in words: a list of names, or a range of numbers.
 fn values(module: &Module, parameter: &Declared) -> String {
     let named = Parameter::new(module, parameter).values;
     match parameter.ty {
@@ -205,7 +239,7 @@ fn values(module: &Module, parameter: &Declared) -> String {
     }
 }
 
-/// The value of this type that `text` is.
+/// Reads `text` as a value of this type; `None` if it is not one.
 fn read(module: &Module, scalar: Scalar, text: &str) -> Option<Term> {
     match scalar {
         Scalar::Enum { optional: true, .. } if text == "none" => Some(Term::Absent),
@@ -228,7 +262,10 @@ fn read(module: &Module, scalar: Scalar, text: &str) -> Option<Term> {
     }
 }
 
-/// The number of this type that `value` is.
+/// `value` as a number of this type; `None` if the type does not have it.
+///
+/// Adding 0 turns -0 into 0: otherwise two arguments that compare equal would print, and hash,
+/// differently.
 fn number(scalar: Scalar, value: f64) -> Option<Term> {
     let fits = match (scalar, scalar.whole()) {
         (Scalar::Bool | Scalar::Enum { .. }, _) => false,

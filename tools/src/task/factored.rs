@@ -1,4 +1,8 @@
-//! Conjunctions whose parts run side by side, ready to run.
+//! Factored tasks: conjunctions whose parts run side by side, each with an automaton of its own.
+//!
+//! The automaton of a conjunction can have as many states as the product of the parts' numbers of
+//! states. A factored task never builds it: its state is a tuple, one automaton state for each
+//! part. Predicates are evaluated once for the whole, and each part reads those that it has.
 
 use std::sync::Arc;
 
@@ -11,9 +15,30 @@ use super::argument::{Arguments, Value};
 use super::{Entry, Task};
 use crate::evaluate::{Evaluator, Input, Unreadable};
 
-/// A factored task that was compiled while the program runs, ready to run itself. Cheap to clone.
+/// A factored task that was compiled while the program runs. A clone costs one reference count.
 ///
-/// A state of it is one automaton state for each part; all are 0 at first.
+/// A state is a slice of [`parts`](Self::parts)`().len()` automaton states, all 0 before the first
+/// row is read. The task is satisfied when every part is, and lost when one part is.
+///
+/// ```
+/// use tltl_compiler::{source::Source, translate::Budget};
+/// use tltlc::task::{Bound, TaskFile};
+///
+/// let source = Source::new("tour.tltl", "
+///     state Robot { x: f64 }
+///     predicate left = x < 0
+///     predicate right = x > 9
+///     #[factored] task tour = F left && F right");
+/// let Bound::Factored(tour) = TaskFile::new(source, Budget::default())?.find(None)?.bind(&[])? else {
+///     panic!("the task is factored");
+/// };
+/// assert_eq!(tour.parts().len(), 2);
+/// // Two rows at once: the first state sees `left`, the second `right`.
+/// let mut q = [0, 0, 0, 0];
+/// tour.step_batch(&mut q, &[true, false, false, true]);
+/// assert_eq!(q, [1, 0, 0, 1]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Factored(Arc<Inner>);
 
@@ -23,13 +48,16 @@ struct Inner {
     arguments: Arguments,
     evaluator: Evaluator,
     parts: Vec<Task>,
-    /// For each part the places of its propositions among those of the whole.
+    /// For each part the index of each of its propositions among those of the whole.
     places: Vec<Shared<[u32]>>,
     monitor: tltl::Factored<Evaluator>,
 }
 
 impl Factored {
-    /// The task of an entry, which has `factored`, with its arguments in the predicates of `module`.
+    /// Binds the factored task of `entry`; `module` has the arguments in its predicates already.
+    ///
+    /// # Errors
+    /// If a predicate is Rust code, or indexes an array by a field.
     pub(super) fn new(
         entry: &Entry,
         factored: &compile::Factored,
@@ -58,48 +86,55 @@ impl Factored {
         Ok(Self(Arc::new(Inner { entry, arguments, evaluator, parts, places, monitor })))
     }
 
-    /// The task as it is written.
+    /// The task as the author wrote it.
     #[must_use]
     pub fn entry(&self) -> &Entry {
         &self.0.entry
     }
 
-    /// What its parameters stand for, by name.
+    /// The names of its parameters, each with the value that was bound to it.
     #[must_use]
     pub fn arguments(&self) -> &[(String, Value)] {
         &self.0.arguments
     }
 
-    /// What a row consists of.
+    /// The numbers that a row consists of, in order: those that any part reads.
     #[must_use]
     pub fn inputs(&self) -> &[Input] {
         self.0.evaluator.inputs()
     }
 
-    /// The predicates and the formula of the whole over columns.
+    /// The predicates and the formula of the whole task, to be evaluated over columns.
     #[must_use]
     pub fn evaluator(&self) -> &Evaluator {
         &self.0.evaluator
     }
 
-    /// Its parts, each a task of its own that reads fewer inputs.
+    /// Its parts, each a task of its own. A part has an evaluator of its own, whose rows hold only
+    /// what that part reads.
     #[must_use]
     pub fn parts(&self) -> &[Task] {
         &self.0.parts
     }
 
-    /// The runtime's factored task over rows, the numbers of the [inputs](Self::inputs) in their order.
-    /// Its `numbered` makes it a [`Monitor`](tltl::Monitor).
+    /// The runtime's factored task over rows of the [inputs](Self::inputs).
+    ///
+    /// Its states are tuples. Where a single number is needed, as in a table of action values, its
+    /// method `numbered` numbers the tuples that can be reached and is a
+    /// [`Monitor`](tltl::Monitor).
     #[must_use]
     pub fn monitor(&self) -> &tltl::Factored<Evaluator> {
         &self.0.monitor
     }
 
-    /// Moves many states, each on its own labels: `q` has, row after row, a state for each part,
-    /// `labels` a truth value for each proposition of the whole.
+    /// Moves many states at once, each by its own labels.
+    ///
+    /// `q` has shape (rows, parts) and `labels` shape (rows, propositions of the whole), both row
+    /// after row. Each part gathers its column of states and its labels into two buffers first, so
+    /// that the automaton walks contiguous memory.
     ///
     /// # Panics
-    /// If their lengths do not belong together, or one of `q` is not a state of its part.
+    /// If the lengths do not fit these shapes, or one of `q` is not a state of its part.
     #[track_caller]
     pub fn step_batch(&self, q: &mut [u32], labels: &[bool]) {
         let (parts, width) = (self.0.parts.len(), self.0.evaluator.propositions());
@@ -113,14 +148,14 @@ impl Factored {
         }
     }
 
-    /// The labels of a part's propositions, given those of the whole.
+    /// The labels of one part, row after row, picked from those of the whole.
     pub(super) fn labels_of(&self, part: usize, labels: &[bool]) -> Vec<bool> {
         let places = &*self.0.places[part];
         let rows = labels.chunks_exact(self.0.evaluator.propositions().max(1));
         rows.flat_map(|row| places.iter().map(|&place| row[place as usize])).collect()
     }
 
-    /// The place of a part's proposition among those of the whole.
+    /// The index of a part's proposition among those of the whole.
     pub(super) fn place(&self, part: usize, proposition: usize) -> usize {
         self.0.places[part][proposition] as usize
     }

@@ -1,4 +1,8 @@
-//! Sources, what is wrong with them, and the tasks in them.
+//! Compiled sources, their mistakes, and the tasks in them.
+//!
+//! A [`TaskFile`] keeps the source beside the compiler's result, since reports quote its lines. An
+//! [`Entry`] refers to a task by its index and keeps the file alive, so that it can be passed
+//! around on its own.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -16,7 +20,9 @@ use super::{Bound, Factored, Task};
 use crate::evaluate::Unreadable;
 use crate::vacuity::advice;
 
-/// A task file, compiled: its tasks, plain and factored. Cheap to clone.
+/// A task file, compiled. A clone costs a few reference counts.
+///
+/// Invariant: the source has no mistakes. It may have [warnings](Self::warnings).
 ///
 /// ```
 /// use tltl_compiler::{source::Source, translate::Budget};
@@ -40,16 +46,27 @@ impl TaskFile {
     /// Compiles a task file.
     ///
     /// # Errors
-    /// All mistakes of the source, or that the budget does not suffice.
+    /// Every mistake of the source, in its order; or that an automaton is larger than the budget
+    /// allows.
+    ///
+    /// ```
+    /// use tltl_compiler::{source::Source, translate::Budget};
+    /// use tltlc::task::TaskFile;
+    ///
+    /// let source = Source::new("dock.tltl", "state Robot { x: f64 }\ntask dock = F y > 2");
+    /// let error = TaskFile::new(source, Budget::default()).unwrap_err();
+    /// assert_eq!(error.errors().first().kind().name(), "unknown-name");
+    /// assert!(error.to_string().contains("dock.tltl:2:15"));
+    /// ```
     pub fn new(source: Source, budget: Budget) -> Result<Self, CompileError> {
         let compiled = compile::file(&source, budget);
         Self::compiled_from(source, compiled)
     }
 
-    /// Compiles a bare formula: a file with one task, which has no name.
+    /// Compiles a bare formula: a file with one task, which has no name and no parameters.
     ///
     /// # Errors
-    /// All mistakes of the formula, or that the budget does not suffice.
+    /// Every mistake of the formula, or that its automaton is larger than the budget allows.
     pub fn of_formula(formula: &str, budget: Budget) -> Result<Self, CompileError> {
         let source = Source::new("formula", formula);
         let compiled = compile::formula(&source, budget);
@@ -66,20 +83,23 @@ impl TaskFile {
         }
     }
 
-    /// The text.
+    /// The text that was compiled, with its name.
     #[must_use]
     pub fn source(&self) -> &Source {
         &self.source
     }
 
-    /// All that the compiler knows of it.
+    /// The compiler's result: the module, and an automaton or a factored task for each task.
     #[must_use]
     pub fn compiled(&self) -> &Compiled {
         &self.compiled
     }
 
-    /// What the author should look at, in the order of the source; to find out which parts of
-    /// formulas could be left out costs a search.
+    /// What the author should look at, in the order of the source: the warnings of the compiler,
+    /// and those of [`vacuity`](crate::vacuity).
+    ///
+    /// The second kind costs a search, so it is made here, on demand, and not when the file is
+    /// compiled.
     #[must_use]
     pub fn warnings(&self) -> Vec<Error> {
         let mut warnings = [self.compiled.warnings.clone(), advice(&self.compiled)].concat();
@@ -87,18 +107,18 @@ impl TaskFile {
         warnings
     }
 
-    /// Its tasks in the order of the source, factored ones after the others.
+    /// Its tasks: the plain ones in the order of the source, then the factored ones in theirs.
     pub fn entries(&self) -> impl Iterator<Item = Entry> {
         let plain = (0..self.compiled.module.tasks.len()).map(Place::Plain);
         let factored = (0..self.compiled.factored.len()).map(Place::Factored);
         plain.chain(factored).map(|place| Entry { file: self.clone(), place })
     }
 
-    /// The task of that name. Without a name it is the only one; factored tasks then count only
-    /// where there are no others.
+    /// The task called `name`. Without a name, the only task of the file; factored tasks count only
+    /// where there are no plain ones.
     ///
     /// # Errors
-    /// If there is no such task, or more than one.
+    /// If no task, or more than one, is meant. The error lists the names that the file has.
     pub fn find(&self, name: Option<&str>) -> Result<Entry, NoSuchTask> {
         let names = || self.entries().filter_map(|entry| Some(entry.name()?.to_owned())).collect();
         let mut entries = self.entries();
@@ -116,8 +136,8 @@ impl TaskFile {
     }
 }
 
-/// The place of a task among the plain or the factored ones of a file, or of a part of a factored
-/// one among its parts.
+/// The index of a task: among the plain ones of a file, among the factored ones, or of a part of a
+/// factored one.
 #[derive(Clone, Copy, Debug)]
 enum Place {
     Plain(usize),
@@ -125,21 +145,21 @@ enum Place {
     Part(usize, usize),
 }
 
-/// A task of a file, as it is written: its parameters have no values. Cheap to clone.
+/// A task of a file as the author wrote it: its parameters have no values. It keeps its file alive.
 #[derive(Clone, Debug)]
 pub struct Entry {
     file: TaskFile,
     place: Place,
 }
 
-/// What the compiler made of a task.
+/// The compiler's result for one task.
 enum Made<'a> {
     Plain(&'a predicate::Task, &'a Automata),
     Factored(&'a compile::Factored),
 }
 
 impl Entry {
-    /// The file.
+    /// The file that it is a task of.
     #[must_use]
     pub fn file(&self) -> &TaskFile {
         &self.file
@@ -157,7 +177,7 @@ impl Entry {
         }
     }
 
-    /// The task as the compiler has it: name, formula, predicates.
+    /// The task in the compiler's terms: name, formula, predicates, parameters.
     #[must_use]
     pub fn task(&self) -> &predicate::Task {
         match self.made() {
@@ -172,13 +192,13 @@ impl Entry {
         self.task().name.as_deref()
     }
 
-    /// Whether its parts run side by side, and it has no automaton of its own.
+    /// Whether its parts run side by side. It then has no automaton of its own.
     #[must_use]
     pub fn is_factored(&self) -> bool {
         matches!(self.place, Place::Factored(_))
     }
 
-    /// Its automata, unless it is factored.
+    /// Its automata, over free propositions and after arithmetic; `None` if it is factored.
     #[must_use]
     pub fn automata(&self) -> Option<&Automata> {
         match self.made() {
@@ -187,7 +207,7 @@ impl Entry {
         }
     }
 
-    /// A part of it, if it is factored, as a task.
+    /// A part of a factored task as an entry of its own.
     pub(super) fn part(&self, part: usize) -> Self {
         let place = match self.place {
             Place::Factored(place) => Place::Part(place, part),
@@ -196,17 +216,20 @@ impl Entry {
         Self { file: self.file.clone(), place }
     }
 
-    /// What it takes.
+    /// Its parameters, in the order of the declaration.
     #[must_use]
     pub fn parameters(&self) -> Vec<Parameter> {
         let module = &self.file.compiled.module;
         self.task().parameters.iter().map(|known| Parameter::new(module, known)).collect()
     }
 
-    /// The task with these values for its parameters, ready to run.
+    /// The task with these values for its parameters, ready to run. Arguments are given by name, in
+    /// any order.
+    ///
+    /// It costs a copy of the compiled module if there are parameters; the automaton is shared.
     ///
     /// # Errors
-    /// If the values are not those that it takes, or a predicate is Rust code.
+    /// If the values are not those that the task takes, or a predicate is Rust code.
     ///
     /// ```
     /// use tltl_compiler::{source::Source, translate::Budget};
@@ -241,7 +264,8 @@ impl Entry {
     }
 }
 
-/// A source with mistakes. Its text shows each of them, with the lines of the source.
+/// A source with mistakes. It prints as the compiler reports: each mistake with its lines of the
+/// source, carets under the place at fault, and help.
 #[derive(Clone, Debug)]
 pub struct CompileError {
     source: Source,
@@ -249,13 +273,13 @@ pub struct CompileError {
 }
 
 impl CompileError {
-    /// The text with the mistakes.
+    /// The source that has the mistakes.
     #[must_use]
     pub fn source_text(&self) -> &Source {
         &self.source
     }
 
-    /// The mistakes, in the order of the source.
+    /// The mistakes, in the order of the source; at least one.
     #[must_use]
     pub fn errors(&self) -> &Errors {
         &self.errors
@@ -270,10 +294,10 @@ impl fmt::Display for CompileError {
 
 impl std::error::Error for CompileError {}
 
-/// Why a task cannot be run.
+/// The reason why a task cannot be bound.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum BindError {
-    /// It does not take these arguments.
+    /// The task does not take these arguments.
     Argument(ArgumentError),
     /// A predicate cannot be evaluated without a Rust compiler.
     Unreadable(Unreadable),
@@ -290,14 +314,14 @@ impl fmt::Display for BindError {
 
 impl std::error::Error for BindError {}
 
-/// Why a file does not have the task that is asked for.
+/// The reason why a file does not have the task that was asked for.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NoSuchTask {
-    /// It has no task.
+    /// The file has no task at all.
     None,
-    /// It has several, of these names, and none was named.
+    /// No name was given, and the file has several tasks, of these names.
     Several(Vec<String>),
-    /// It has none of the first name; the others are the names that it has.
+    /// The file has no task of the first name; the others are the names that it has.
     Unknown(String, Vec<String>),
 }
 

@@ -1,4 +1,8 @@
-//! Tasks with one automaton, ready to run.
+//! Tasks with one automaton.
+//!
+//! A [`Task`] is the runtime's own task, over tables that it owns and an [`Evaluator`] in the place
+//! of compiled predicates. So a formula from a file, a formula from Python and a formula in a macro
+//! follow the same code over the same numbers; a test compares them bit by bit.
 
 use std::sync::Arc;
 
@@ -13,11 +17,26 @@ use super::argument::{Arguments, Value};
 use crate::evaluate::{Evaluator, Input, Unreadable};
 use crate::tables;
 
-/// A task that was compiled while the program runs, ready to run itself. Cheap to clone: one count of
-/// references.
+/// A task that was compiled while the program runs. A clone costs one reference count.
 ///
-/// It is a [`Monitor`] of the runtime over rows, the numbers of its [inputs](Self::inputs) in their
-/// order, and reads columns of them through its [`evaluator`](Self::evaluator).
+/// It is a [`Monitor`] of the runtime over rows, any type that gives `&[f64]`: the numbers of its
+/// [inputs](Self::inputs) in their order. Whole columns are read through its
+/// [`evaluator`](Self::evaluator), and a recorded trajectory in one call through
+/// [`run`](Self::run).
+///
+/// ```
+/// use tltl::{Acceptor, Monitor};
+/// use tltl_compiler::translate::Budget;
+///
+/// let task = tltlc::task::compile("(x < 1) T (x > 2)", Budget::default())?;
+/// assert_eq!(task.states(), 3);
+/// let q = task.next(0, &[0.0])?;
+/// // At q only a state with x > 2 moves the automaton on: ρ(s, D_φ^q) is x - 2.
+/// assert_eq!(task.progress_robustness(q, &[1.5])?, -0.5);
+/// // The trajectory as a whole: the least of 1 - 0 and 2.25 - 2.
+/// assert_eq!(task.trajectory_robustness(&[[0.0], [2.25]])?, 0.25);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Task(Arc<Inner>);
 
@@ -30,7 +49,11 @@ struct Inner {
 }
 
 impl Task {
-    /// The task of an entry, which has `automata`, with its arguments in the predicates of `module`.
+    /// Binds the task of `entry`, whose automata these are; `module` has the arguments in its
+    /// predicates already.
+    ///
+    /// # Errors
+    /// If a predicate is Rust code, or indexes an array by a field.
     pub(super) fn new(
         entry: Entry,
         automata: &Automata,
@@ -47,45 +70,58 @@ impl Task {
         Ok(Self(Arc::new(Inner { entry, arguments, evaluator, monitor })))
     }
 
-    /// The task as it is written.
+    /// The task as the author wrote it.
     #[must_use]
     pub fn entry(&self) -> &Entry {
         &self.0.entry
     }
 
-    /// What its parameters stand for, by name.
+    /// The names of its parameters, each with the value that was bound to it.
     #[must_use]
     pub fn arguments(&self) -> &[(String, Value)] {
         &self.0.arguments
     }
 
-    /// What a row consists of.
+    /// The numbers that a row consists of, in order.
     #[must_use]
     pub fn inputs(&self) -> &[Input] {
         self.0.evaluator.inputs()
     }
 
-    /// Its predicates and its formula over columns.
+    /// Its predicates and its formula, to be evaluated over columns.
     #[must_use]
     pub fn evaluator(&self) -> &Evaluator {
         &self.0.evaluator
     }
 
-    /// The automaton as the runtime has it: tables of numbers.
+    /// The automaton in the runtime's form: tables of numbers.
     #[must_use]
     pub fn automaton(&self) -> &Automaton {
         self.0.monitor.automaton()
     }
 
-    /// The automaton as the compiler has it, which can be drawn, explained and compared.
+    /// The automaton in the compiler's form, which can be drawn, explained and compared.
     #[must_use]
     pub fn dfa(&self) -> &Dfa {
         &self.0.entry.automata().expect("a plain task has automata").dfa
     }
 
-    /// A hash of the automaton as it is numbered: propositions, states, edges with their guards. Where
-    /// the number of a state is kept, in a policy or by another process, an equal fingerprint says
-    /// that it still means the same.
+    /// A hash of the automaton as it is numbered: propositions, states, edges with their guards; 16
+    /// hexadecimal digits.
+    ///
+    /// Where the number of a state is kept, in a policy or by another process, an equal fingerprint
+    /// says that the number still means the same. The text of the
+    /// formula is not part of it.
+    ///
+    /// ```
+    /// use tltl_compiler::translate::Budget;
+    /// use tltlc::task::compile;
+    ///
+    /// let print = |formula| compile(formula, Budget::default()).map(|task| task.fingerprint());
+    /// assert_eq!(print("F a || F a")?, print("F a")?);
+    /// assert_ne!(print("F a && F b")?, print("a T b")?);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn fingerprint(&self) -> String {
         let Tables { propositions, accepting, trap, edges, targets, guards, literals, .. } =
@@ -97,7 +133,8 @@ impl Task {
         let numbers = ends.into_iter().chain(lengths).chain(tables).chain(literals);
         let names = propositions.iter().flat_map(|name| name.bytes());
         let bytes = numbers.flat_map(u32::to_le_bytes).chain(names);
-        // FNV-1a of 64 bits: the same on every machine, and nobody tries to make two alike.
+        // FNV-1a of 64 bits: the same on every machine and in every version of Rust, unlike the
+        // hashers of the standard library. Nobody has a reason to forge a collision.
         let hash = bytes.fold(0xcbf2_9ce4_8422_2325, |hash: u64, byte| {
             (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
         });

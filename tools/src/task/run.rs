@@ -1,4 +1,8 @@
-//! What becomes of a task along a trajectory.
+//! Recorded trajectories, run through a task.
+//!
+//! Predicates are evaluated for the whole trajectory at once, column by column; then the automaton
+//! walks over the labels. A [`Run`] has one entry for each row, so that it can be plotted beside
+//! the recording.
 
 use std::convert::Infallible;
 use std::fmt;
@@ -10,15 +14,16 @@ use tltl::{Acceptor, robustness};
 use super::{Factored, Task};
 use crate::evaluate::{Columns, Evaluator, NotANumber, Scratch};
 
-/// What has become of a task.
+/// The verdict of a task on the trajectory so far. The last two are final: no later state changes
+/// them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
-    /// It can still become either.
+    /// The trajectory can still be continued to either of the others.
     Open,
-    /// It is satisfied, for good.
+    /// The trajectory satisfies the task, and so does every continuation.
     Satisfied,
-    /// It can never be satisfied any more.
+    /// No continuation satisfies the task.
     Lost,
 }
 
@@ -33,28 +38,32 @@ impl fmt::Display for Verdict {
     }
 }
 
-/// A trajectory that a task has read, row by row.
+/// The result of running a trajectory of n rows.
+///
+/// Its verdict is that of the last row; everything else is row by row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
-    /// The automaton's state after each row; of a factored task, row after row, that of each part.
+    /// The automaton's state after each row: n entries; for a factored task n times the number of
+    /// parts, row after row.
     pub states: Vec<u32>,
-    /// What has become of the task after each row.
+    /// The verdict after each row: n entries.
     pub verdicts: Vec<Verdict>,
-    /// For each row ρ(s, D_φ^q), q being the state before: by how much the row moves the automaton
-    /// on.
+    /// For each row ρ(s, D_φ^q), where q is the state before the row: the robustness of moving on.
+    /// It is positive if the automaton moves on, and -∞ where the verdict is final.
     pub progress: Vec<f64>,
-    /// The robustness of the whole trajectory; -∞ for an empty one.
+    /// The robustness of the whole trajectory; -∞ if it is empty.
     pub robustness: f64,
 }
 
 impl Run {
-    /// What becomes of the task in the end; an empty trajectory leaves it open.
+    /// The verdict after the last row; an empty trajectory is [open](Verdict::Open).
     #[must_use]
     pub fn verdict(&self) -> Verdict {
         self.verdicts.last().copied().unwrap_or(Verdict::Open)
     }
 
-    /// The first row after which that was so.
+    /// The first row, from 0, after which the task had its final verdict of this run; `None` for an
+    /// empty trajectory.
     #[must_use]
     pub fn since(&self) -> Option<usize> {
         let last = self.verdict();
@@ -63,13 +72,13 @@ impl Run {
 }
 
 impl Task {
-    /// Runs the trajectory that the rows are, from the initial state.
+    /// Runs a trajectory, one state a row, from the initial state.
     ///
     /// # Errors
     /// The first predicate that is not a number, in the first row in which there is one.
     ///
     /// # Panics
-    /// If the columns are not as many as the inputs.
+    /// If the number of columns is not the number of inputs.
     ///
     /// ```
     /// use tltl_compiler::translate::Budget;
@@ -105,13 +114,13 @@ impl Task {
 }
 
 impl Factored {
-    /// Runs the trajectory that the rows are, from the initial states.
+    /// Runs a trajectory, one state a row, from the tuple of initial states.
     ///
     /// # Errors
     /// The first predicate that is not a number, in the first row in which there is one.
     ///
     /// # Panics
-    /// If the columns are not as many as the inputs.
+    /// If the number of columns is not the number of inputs.
     #[track_caller]
     pub fn run(&self, columns: &Columns<'_>, scratch: &mut Scratch) -> Result<Run, NotANumber> {
         let read = Reading::new(self.evaluator(), columns, scratch)?;
@@ -145,7 +154,10 @@ impl Factored {
         }
     }
 
-    /// ρ(s, D_φ^q) in a row in which the predicates of the whole have robustness `rho`.
+    /// ρ(s, D_φ^q) of the whole task in a row in which the predicates have robustness `rho`.
+    ///
+    /// The tuple moves on where a part moves on and no part is lost; the formula for that is the
+    /// runtime's, so that learning at run time and learning by macro pay the same.
     fn progress(&self, q: &[u32], rho: &[f64]) -> f64 {
         if self.verdict(q) != Verdict::Open {
             return f64::NEG_INFINITY;
@@ -164,9 +176,9 @@ impl Factored {
     }
 }
 
-/// What predicates and formula say of a trajectory.
+/// The predicates and the formula of a task, evaluated on a trajectory.
 struct Reading {
-    /// Row after row, for each predicate.
+    /// Shape (rows, predicates), row after row; so is `rho`.
     labels: Vec<bool>,
     rho: Vec<f64>,
     rows: usize,

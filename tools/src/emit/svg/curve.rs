@@ -13,14 +13,15 @@ const HEAD: (f64, f64) = (7.5, 3.0);
 /// A line and its arrowhead.
 pub(super) struct Arrow {
     path: String,
-    head: Option<(Point, Point)>,
+    /// The tip, and the direction in which it points.
+    head: (Point, Point),
 }
 
 impl Arrow {
     /// A straight arrow to the right.
     pub(super) fn line(from: Point, to: Point) -> Self {
         let path = format!("M{} H{}", point(from), number(to.0 - HEAD.0 + 1.0));
-        Self { path, head: Some((to, (1.0, 0.0))) }
+        Self { path, head: (to, (1.0, 0.0)) }
     }
 
     /// A self-loop over the top of a circle, `height` high.
@@ -39,7 +40,7 @@ impl Arrow {
             point((x + bend_x, y - bend_y)),
             point(end)
         );
-        Self { path, head: Some((tip, (dx, dy))) }
+        Self { path, head: (tip, (dx, dy)) }
     }
 
     /// An edge along its route: level within layers, bent in the gaps between them.
@@ -56,27 +57,22 @@ impl Arrow {
         }
         let _ = write!(path, " H{}", number(line_end));
         let head = if route.backward { (start, (-1.0, 0.0)) } else { (end, (1.0, 0.0)) };
-        Self { path, head: Some(head) }
+        Self { path, head }
     }
 
     /// As elements of SVG.
     pub(super) fn draw(&self, colour: &str) -> String {
-        let mut drawn = format!(
-            "<path d=\"{}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.1\"/>\n",
-            self.path
-        );
-        if let Some((tip, (dx, dy))) = self.head {
-            let back = (tip.0 - HEAD.0 * dx, tip.1 - HEAD.0 * dy);
-            let (side_x, side_y) = (-dy * HEAD.1, dx * HEAD.1);
-            let _ = writeln!(
-                drawn,
-                "<path d=\"M{} L{} L{} Z\" fill=\"{colour}\"/>",
-                point(tip),
-                point((back.0 + side_x, back.1 + side_y)),
-                point((back.0 - side_x, back.1 - side_y))
-            );
-        }
-        drawn
+        let (tip, (dx, dy)) = self.head;
+        let back = (tip.0 - HEAD.0 * dx, tip.1 - HEAD.0 * dy);
+        let (side_x, side_y) = (-dy * HEAD.1, dx * HEAD.1);
+        format!(
+            "<path d=\"{}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.1\"/>\n\
+             <path d=\"M{} L{} L{} Z\" fill=\"{colour}\"/>\n",
+            self.path,
+            point(tip),
+            point((back.0 + side_x, back.1 + side_y)),
+            point((back.0 - side_x, back.1 - side_y))
+        )
     }
 }
 

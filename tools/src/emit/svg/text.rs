@@ -4,8 +4,7 @@ use std::fmt::Write as _;
 
 use super::number;
 use crate::emit::sum::{Notation, Sum};
-use tltl_compiler::dfa::Dfa;
-use tltl_compiler::dfa::Edge;
+use tltl_compiler::dfa::{Dfa, Edge};
 
 /// The look of a text.
 #[derive(Clone, Copy, Debug)]
@@ -28,6 +27,9 @@ const WRAP: f64 = 118.0;
 const LINES: usize = 3;
 /// The legend is at least so wide.
 const LEGEND: f64 = 360.0;
+/// The least room between two words of a line.
+const SPACE: f64 = 4.0;
+/// Helvetica and the free fonts of the same widths, since [`width`] knows no others.
 const FAMILY: &str = "Helvetica, Arial, Liberation Sans, DejaVu Sans, sans-serif";
 
 /// A guard as it stands on an edge: its lines from top to bottom.
@@ -108,31 +110,29 @@ impl Legend {
 
 /// Puts products on lines; a line ends with the operator that goes on in the next.
 fn wrap(products: &[String], or: &str, limit: f64) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for (i, product) in products.iter().enumerate() {
+    let joined = products.iter().enumerate().map(|(i, product)| {
         let more = if i + 1 < products.len() { or.trim_end() } else { "" };
-        let text = format!("{product}{more}");
-        match lines.last_mut() {
-            Some(last) if width(last, SMALL) + width(&text, SMALL) + 4.0 <= limit => {
-                last.push(' ');
-                last.push_str(&text);
-            }
-            _ => lines.push(text),
-        }
-    }
-    lines
+        format!("{product}{more}")
+    });
+    fill(joined, SMALL, limit)
 }
 
 /// A title on as few lines as the width allows, broken at spaces.
 pub(super) fn wrap_title(title: &str, limit: f64) -> Vec<String> {
+    fill(title.split_whitespace().map(str::to_owned), TITLE, limit.max(320.0))
+}
+
+/// Puts each word on the current line if it fits, else on a new one; a word that is wider than the
+/// limit has a line of its own.
+fn fill(words: impl Iterator<Item = String>, font: Font, limit: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
-    for word in title.split_whitespace() {
+    for word in words {
         match lines.last_mut() {
-            Some(last) if width(last, TITLE) + width(word, TITLE) + 4.0 <= limit.max(320.0) => {
+            Some(last) if width(last, font) + width(&word, font) + SPACE <= limit => {
                 last.push(' ');
-                last.push_str(word);
+                last.push_str(&word);
             }
-            _ => lines.push(word.to_owned()),
+            _ => lines.push(word),
         }
     }
     lines
