@@ -1,7 +1,11 @@
-//! The macros of the crate `tltl`, which re-exports and documents them.
+//! The macros of the crate `tltl`, which re-exports them.
 //!
-//! Everything happens in the compiler; this crate only turns tokens into text and errors back into
-//! tokens. It reads no clock, writes no file and runs no program.
+//! The compiler does the work; this crate turns tokens into text for it, and its errors back into
+//! tokens. Each macro is one line around a function on `proc_macro2` tokens, which tests call
+//! without a compiler around it.
+//!
+//! The macros read no clock, write no file and run no program. `include_tltl!` reads the file that
+//! it names, and nothing else.
 
 mod expand;
 mod tokens;
@@ -10,9 +14,9 @@ use proc_macro::TokenStream;
 
 /// Compiles a formula, or declarations of predicates and tasks, at build time.
 ///
-/// **A formula** is an expression whose value is a `tltl::Task`. Names in it are anything in scope
-/// that is a predicate: a function `Fn(&S) -> f64` that gives the robustness, a
-/// `tltl::Boolean`, a value of a type of yours that implements `tltl::Predicate<S>`.
+/// **A formula** is an expression whose value is a `tltl::Task`. A name in it is anything in scope
+/// that is a predicate: a function `Fn(&S) -> f64` that returns the robustness, a `tltl::Boolean`,
+/// or a value of a type of yours that implements `tltl::Predicate<S>`.
 ///
 /// ```text
 /// let task = tltl!{ F a && F b };
@@ -20,8 +24,8 @@ use proc_macro::TokenStream;
 /// let task = tltl!{ |s: &Robot| F (1 < s.x < 3) && !a U b };  // a header names the state
 /// ```
 ///
-/// **Declarations** are items: for each predicate a function that gives its robustness, for each
-/// task a function that returns it.
+/// **Declarations** become items: a function for each predicate, which returns its robustness, and
+/// a function for each task, which returns the task.
 ///
 /// ```text
 /// tltl!{
@@ -31,13 +35,24 @@ use proc_macro::TokenStream;
 /// }
 /// ```
 ///
-/// `#[factored]` before a formula or a task keeps the parts of a conjunction side by side
-/// (`tltl::Factored`), `#[budget(states = …)]` lets its automaton grow, `#![crate = path]` at the
-/// very start names the runtime crate if it is not `::tltl`.
+/// Three attributes stand before a formula, a task, or the whole input:
 ///
-/// A mistake is underlined where it stands. Procedural macros cannot warn on stable Rust: what
-/// `tltlc check` warns of (a formula that always holds, a name that nothing uses, a likely slip in
-/// the order of operators) is not reported here.
+/// - `#[factored]` keeps the parts of a conjunction side by side (`tltl::Factored`) instead of
+///   multiplying their states.
+/// - `#[budget(states = …)]` allows a larger automaton than the default, 16,384 states.
+/// - `#![crate = path]` at the very start names the runtime crate, if it is not `::tltl`.
+///
+/// The automaton is data: static tables, with no allocation and no work at run time before the
+/// first step.
+///
+/// # Errors
+///
+/// A mistake is underlined at the tokens that make it, all mistakes in one build. Procedural macros
+/// cannot warn on stable Rust: the warnings of `tltlc check` (a formula that always holds, a name
+/// that nothing uses, a probable slip in the order of operators) are not reported here.
+///
+/// A formula with a mistake expands to a value of the right type beside the error, so that one
+/// mistake is one message.
 #[proc_macro]
 pub fn tltl(input: TokenStream) -> TokenStream {
     expand::inline(input.into()).into()
@@ -52,11 +67,21 @@ pub fn tltl(input: TokenStream) -> TokenStream {
 /// include_tltl!("automata/order.hoa");                          // order::task(first, second); feature `hoa`
 /// ```
 ///
-/// The path is relative to the package. The module has the declared types, for each predicate a
-/// function that gives its robustness, and for each task a function that returns it; of an
-/// automaton in HOA it has one function `task` that takes a predicate for each proposition. It is
-/// built anew when the file changes. Mistakes are shown with the file's own line and a caret,
-/// inside rustc's message.
+/// The path is relative to the package. The module has the declared types, a function for each
+/// predicate, which returns its robustness, and a function for each task, which returns the task.
+/// The module of an automaton in HOA has one function, `task`, which takes a predicate for each
+/// proposition.
+///
+/// - `state = Type` reads the fields from a type of yours instead of generating one; it has fields
+///   of the same names and types.
+/// - `mod = name` names the module; without it the name is that of the file.
+/// - `crate = path` names the runtime crate.
+///
+/// Cargo builds the module anew when the file changes.
+///
+/// # Errors
+///
+/// Mistakes are shown inside rustc's message at the path, with the file's own lines and carets.
 #[proc_macro]
 pub fn include_tltl(input: TokenStream) -> TokenStream {
     expand::include(input.into()).into()

@@ -1,9 +1,10 @@
-//! Arguments for a task with parameters: `deliver(apple, fridge)`, as a task of the language has
-//! them.
+//! The arguments of a task on the command line: `deliver(apple, fridge)`, as one task calls another
+//! in the language.
 
 use crate::task::{Entry, Value, listed};
 
-/// The name and the arguments of `name(argument, …)`; no arguments if there are no brackets.
+/// The name and the arguments of `name(argument, …)`; no arguments if there are no brackets. No
+/// argument has a comma in it: values are names and numbers.
 pub(super) fn split(text: &str) -> Result<(&str, Option<Vec<&str>>), String> {
     let Some((name, rest)) = text.split_once('(') else { return Ok((text.trim(), None)) };
     let Some(inner) = rest.trim_end().strip_suffix(')') else {
@@ -14,7 +15,7 @@ pub(super) fn split(text: &str) -> Result<(&str, Option<Vec<&str>>), String> {
     Ok((name.trim(), Some(given)))
 }
 
-/// The arguments by the names of the parameters in whose order they are given.
+/// The arguments, given by position, with the names of the parameters.
 pub(super) fn named<'a>(entry: &'a Entry, given: &[&str]) -> Result<Vec<(&'a str, Value)>, String> {
     let parameters = &entry.task().parameters;
     let (count, takes) = (given.len(), listed(&entry.parameters()));

@@ -1,4 +1,5 @@
-//! `tltlc automaton`.
+//! `tltlc automaton`: the automaton of a formula, of each formula of a list, or of a task, in one
+//! of the forms of [`emit`](crate::emit).
 
 use tltl_compiler::dfa::{Automata, Dfa};
 use tltl_compiler::error::Style;
@@ -9,7 +10,7 @@ use crate::task::{Entry, TaskFile};
 
 use super::{Automaton, Exit, Format, Outcome, Report, Streams, input, subject};
 
-/// Shows what the arguments ask for.
+/// Shows the automaton that the arguments name, in the form that they ask for.
 pub(super) fn run(arguments: &Automaton, streams: &mut Streams<'_>) -> Outcome {
     if let Some(list) = &arguments.formulas {
         let list = streams.read(list)?;
@@ -32,7 +33,7 @@ pub(super) fn run(arguments: &Automaton, streams: &mut Streams<'_>) -> Outcome {
     }
 }
 
-/// One formula, in any form.
+/// One formula, in any form. With `--format json` a mistake is JSON too, since a program reads it.
 fn single(arguments: &Automaton, formula: &str, streams: &mut Streams<'_>) -> Outcome {
     let result = TaskFile::of_formula(formula, Budget::SHOWN);
     if let (Format::Json, Err(error)) = (arguments.format, &result) {
@@ -45,7 +46,8 @@ fn single(arguments: &Automaton, formula: &str, streams: &mut Streams<'_>) -> Ou
     }
 }
 
-/// A list of formulas, one a line; a bad one is reported in its place and the rest goes on.
+/// A list of formulas, one a line. A bad one is reported in its place and the rest goes on, so that
+/// line n of the output belongs to line n of the list in JSON.
 fn formulas(arguments: &Automaton, list: &str, streams: &mut Streams<'_>) -> Outcome {
     if !matches!(arguments.format, Format::Json | Format::Text) {
         return Err("a list of formulas is shown with `--format json` or `--format text`".into());
@@ -59,6 +61,7 @@ fn formulas(arguments: &Automaton, list: &str, streams: &mut Streams<'_>) -> Out
     Ok(Exit::of(all_well))
 }
 
+/// One formula of a list; `Err` is the report of a mistake.
 fn one_of_many(arguments: &Automaton, formula: &str) -> Result<String, String> {
     let json = arguments.format == Format::Json;
     let file = TaskFile::of_formula(formula, Budget::SHOWN).map_err(|error| {
@@ -80,10 +83,12 @@ fn one_of_many(arguments: &Automaton, formula: &str) -> Result<String, String> {
     }
 }
 
+/// The automaton over free propositions, or the one after arithmetic.
 fn selected<'a>(arguments: &Automaton, automata: &'a Automata) -> &'a Dfa {
     if arguments.propositional { &automata.propositional } else { &automata.dfa }
 }
 
+/// A task in the form that the arguments ask for.
 fn shown(arguments: &Automaton, entry: &Entry) -> Result<String, String> {
     let (task, automata) = (entry.task(), subject::automata(entry)?);
     let dfa = selected(arguments, automata);
@@ -102,7 +107,7 @@ fn shown(arguments: &Automaton, entry: &Entry) -> Result<String, String> {
     })
 }
 
-/// The table of the automaton; where arithmetic has made it smaller, with both sizes.
+/// The table of the automaton; if arithmetic has made it smaller, with both sizes.
 fn sizes(arguments: &Automaton, title: &str, automata: &Automata) -> String {
     let dfa = selected(arguments, automata);
     let mut written = text::automaton(title, dfa);

@@ -1,4 +1,6 @@
-//! Files and sources, and the reports about them.
+//! Reads sources and reports about them: `tltlc check`, and the first step of the other commands.
+//!
+//! Reports go to the error stream for people, and to the output as JSON for editors.
 
 use std::path::{Path, PathBuf};
 
@@ -11,13 +13,14 @@ use crate::task::{CompileError, TaskFile};
 
 use super::{Exit, Outcome, Report, Streams};
 
-/// Compiles a task file, its mistakes and warnings reported; `None` if there were mistakes.
+/// Compiles a task file and reports its mistakes and warnings; `None` if there are mistakes.
 pub(super) fn file(path: &Path, streams: &mut Streams<'_>) -> Result<Option<TaskFile>, String> {
     let source = Source::new(path.display().to_string(), streams.read(path)?);
     reported(TaskFile::new(source, Budget::default()), Report::Human, streams)
 }
 
-/// Checks each file; the exit code says whether all are free of mistakes.
+/// Checks each file; the exit code says whether all are free of mistakes. Warnings are reported and
+/// do not count.
 pub(super) fn check(paths: &[PathBuf], report: Report, streams: &mut Streams<'_>) -> Outcome {
     let mut all_well = true;
     for path in paths {
@@ -28,7 +31,7 @@ pub(super) fn check(paths: &[PathBuf], report: Report, streams: &mut Streams<'_>
     Ok(Exit::of(all_well))
 }
 
-/// Reports mistakes and warnings; `None` if there were mistakes.
+/// Reports mistakes, or warnings if there are none; `None` if there are mistakes.
 pub(super) fn reported(
     result: Result<TaskFile, CompileError>,
     report: Report,
@@ -44,7 +47,7 @@ pub(super) fn reported(
     }
 }
 
-/// Reports mistakes; `None` if there were any.
+/// Reports the mistakes of any stage; `None` if there are any.
 pub(super) fn judged<T>(
     source: &Source,
     result: Result<T, Errors>,
@@ -60,6 +63,7 @@ pub(super) fn judged<T>(
     }
 }
 
+/// Reports one mistake or warning.
 fn show(
     source: &Source,
     error: &Error,

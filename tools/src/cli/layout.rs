@@ -1,4 +1,4 @@
-//! `tltlc fmt`.
+//! `tltlc fmt`: task files, laid out by [`format`](mod@crate::format).
 
 use std::path::{Path, PathBuf};
 
@@ -9,7 +9,8 @@ use crate::format::format;
 
 use super::{Exit, Outcome, Report, Streams, input};
 
-/// Lays out files in place, or says which are not laid out; the standard input goes to the output.
+/// Lays out files in place, or says which are not laid out; the path `-` goes from the input to the
+/// output.
 pub(super) fn run(paths: &[PathBuf], check: bool, streams: &mut Streams<'_>) -> Outcome {
     let mut all_well = true;
     for path in paths {
@@ -18,6 +19,7 @@ pub(super) fn run(paths: &[PathBuf], check: bool, streams: &mut Streams<'_>) -> 
     Ok(Exit::of(all_well))
 }
 
+/// One file; whether it is, or now is, laid out. A file with mistakes is reported and left alone.
 fn one(path: &Path, check: bool, streams: &mut Streams<'_>) -> Result<bool, String> {
     let name = path.display().to_string();
     let source = Source::new(name.as_str(), streams.read(path)?);

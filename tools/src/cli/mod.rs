@@ -1,7 +1,15 @@
-//! The command line: arguments in, any stage of the compiler out.
+//! The command line: arguments in, any stage of the compiler or any tool out.
 //!
-//! Exit codes: 0 all is well; 1 a source has mistakes, two tasks differ, a trajectory does not
-//! satisfy its task, or a file is not laid out; 2 the arguments or a file are at fault.
+//! Each command is a module with a function `run`; the work is done by the modules of the library,
+//! and this one only chooses the words. [`main`] is a function of its arguments and [`Streams`], so
+//! that tests and other programs can call it: `tests/cli/cases.txt` of this package holds commands
+//! with their whole output.
+//!
+//! Results go to the output, messages to the error stream. Exit codes: 0 all is well; 1 a source
+//! has mistakes, two tasks differ, a trajectory does not satisfy its task, or a file is not laid
+//! out; 2 the arguments or a file are at fault.
+//!
+//! The doc comments of the argument types in this module are the help texts of the program.
 
 mod arguments;
 mod automaton;
@@ -24,7 +32,7 @@ use crate::emit::policy;
 
 pub use streams::{Output, Streams, style};
 
-/// How a run ends.
+/// The way in which a run ends, and its exit code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Exit {
     /// All is well.
@@ -43,6 +51,7 @@ impl Exit {
         self as u8
     }
 
+    /// The exit of a command that judges: success if all is well.
     fn of(all_well: bool) -> Self {
         if all_well { Self::Success } else { Self::Mistaken }
     }
@@ -204,9 +213,9 @@ enum Format {
     Rust,
 }
 
-/// Runs the command of `arguments`, of which the first is the name of the program.
+/// Runs the command of `arguments`, the first of which is the name of the program.
 ///
-/// It never ends the process, and writes to `streams` alone.
+/// It never ends the process, and writes to `streams` and to the files that the arguments name.
 ///
 /// ```
 /// use tltl_compiler::error::Style;
@@ -236,6 +245,7 @@ where
     })
 }
 
+/// Runs a command. This is the list of all commands with the functions behind them.
 fn run(command: Command, streams: &mut Streams<'_>) -> Outcome {
     match command {
         Command::Check { files, format } => input::check(&files, format, streams),
@@ -248,7 +258,8 @@ fn run(command: Command, streams: &mut Streams<'_>) -> Outcome {
     }
 }
 
-/// Writes what is wrong with the arguments, or the help that they ask for.
+/// Writes the mistake in the arguments, or the help that they ask for. Clap would end the process
+/// itself.
 fn usage(error: &clap::Error, streams: &mut Streams<'_>) -> Exit {
     let output = if error.use_stderr() { &mut streams.err } else { &mut streams.out };
     let text = error.render();
@@ -259,9 +270,11 @@ fn usage(error: &clap::Error, streams: &mut Streams<'_>) -> Exit {
     if error.use_stderr() { Exit::Failed } else { Exit::Success }
 }
 
-/// How a command ends; `Err` is a fault of the arguments or of a file.
+/// The end of a command. `Err` is a fault of the arguments or of a file, as a sentence without the
+/// name of the program.
 type Outcome = Result<Exit, String>;
 
+/// `tltlc policy`: a saved policy as Rust.
 fn write_policy(file: &Path, output: Option<PathBuf>, streams: &mut Streams<'_>) -> Outcome {
     let name = file.display();
     let rust = policy::rust(&streams.read(file)?).map_err(|error| format!("{name}: {error}"))?;

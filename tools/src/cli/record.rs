@@ -1,7 +1,9 @@
 //! Recorded trajectories: CSV and JSON Lines, one state a row.
 //!
-//! Columns are matched to the places that the task reads by name: `x`, `pose.x`, `joints[2]`. In
-//! JSON Lines a place may also be nested (`{"pose": {"x": 1}}`). Other columns are ignored.
+//! Columns are matched by name to the places that the task reads: `x`, `pose.x`, `joints[2]`. In
+//! JSON Lines a place may also be nested (`{"pose": {"x": 1}}`). Other columns are ignored, so a
+//! log need not be cut to the task. Every number must be one of its type: an overflow, or a NaN, is
+//! an error that names line and column, and never a state that satisfies or loses a task.
 
 mod delimited;
 
@@ -10,14 +12,15 @@ use tltl_compiler::predicate::Scalar;
 
 use crate::evaluate::{Input, InputKind};
 
-/// One state, as numbers in the order of the inputs.
+/// One state: its line, for messages, and its numbers in the order of the inputs.
 pub(super) struct State {
-    /// The line of the file, from 1.
+    /// Its line in the file, from 1.
     pub(super) line: usize,
     pub(super) values: Vec<f64>,
 }
 
-/// Reads a record; `name` is what messages call it. The text says which of the two forms it has.
+/// Reads a record; `name` is its name in messages. A text that begins with `{` is JSON Lines, any
+/// other CSV.
 pub(super) fn read(name: &str, text: &str, inputs: &[Input]) -> Result<Vec<State>, String> {
     let text = text.trim_start_matches('\u{feff}');
     let states = if text.trim_start().starts_with('{') {
@@ -31,6 +34,7 @@ pub(super) fn read(name: &str, text: &str, inputs: &[Input]) -> Result<Vec<State
     Ok(states)
 }
 
+/// Reads one JSON object a line; blank lines are skipped.
 fn json_lines(name: &str, text: &str, inputs: &[Input]) -> Result<Vec<State>, String> {
     let mut states = Vec::new();
     let lines = (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty());
@@ -48,7 +52,7 @@ fn json_lines(name: &str, text: &str, inputs: &[Input]) -> Result<Vec<State>, St
     Ok(states)
 }
 
-/// The value of a place: under its whole name, or step by step.
+/// The value of a place: under its whole name, or step by step through objects and arrays.
 fn lookup<'a>(state: &'a Value, name: &str) -> Option<&'a Value> {
     if let Some(value) = state.get(name) {
         return Some(value);
@@ -60,7 +64,7 @@ fn lookup<'a>(state: &'a Value, name: &str) -> Option<&'a Value> {
     })
 }
 
-/// The number that a field is, as the input's type has it.
+/// The number that a field is, in the type of the input.
 fn number(text: &str, input: &Input) -> Result<f64, String> {
     let Input { name, kind, values, .. } = input;
     let ty = match kind {
@@ -89,6 +93,7 @@ fn number(text: &str, input: &Input) -> Result<f64, String> {
     }
 }
 
+/// A truth value, in the spellings of Rust, Python, R and spreadsheets.
 fn truth(text: &str) -> Option<f64> {
     match text {
         "true" | "True" | "TRUE" | "1" | "1.0" => Some(1.0),
@@ -97,7 +102,7 @@ fn truth(text: &str) -> Option<f64> {
     }
 }
 
-/// A number of the Rust type `ty`, as arithmetic reads it.
+/// A number of the Rust type `ty`, as the arithmetic of the predicates reads it.
 fn typed(text: &str, ty: &str) -> Option<f64> {
     let (least, most) = match ty {
         "f64" => return text.parse().ok(),

@@ -1,4 +1,7 @@
 //! `tltlc run`: a recorded trajectory through the automaton of a task.
+//!
+//! The exit code is that of the verdict, so a script can test recordings: 0 if the task is
+//! satisfied, 1 if it is open or lost.
 
 use std::fmt::Write as _;
 
@@ -11,7 +14,7 @@ use crate::task::{self, Bound, Task, Verdict};
 use super::subject::{self, Subject};
 use super::{Exit, Outcome, RowFormat, Run, Streams, arguments, record};
 
-/// Runs the trajectory that the arguments name, and shows what becomes of the task.
+/// Runs the trajectory that the arguments name, and shows the result row by row.
 pub(super) fn run(run: &Run, streams: &mut Streams<'_>) -> Outcome {
     let (subject, task) = subject::split(&run.subject);
     let (name, given) = match task.or(run.task.as_deref()) {
@@ -42,7 +45,7 @@ pub(super) fn run(run: &Run, streams: &mut Streams<'_>) -> Outcome {
     Ok(Exit::of(result.verdict() == Verdict::Satisfied))
 }
 
-/// What becomes of the task along a recorded trajectory.
+/// Reads the recorded trajectory and runs it through the task.
 fn followed(task: &Task, (name, recorded): (&str, &str)) -> Result<task::Run, String> {
     let record = record::read(name, recorded, task.inputs())?;
     let numbers: Vec<f64> = record.iter().flat_map(|state| state.values.iter().copied()).collect();
@@ -55,6 +58,7 @@ fn followed(task: &Task, (name, recorded): (&str, &str)) -> Result<task::Run, St
     })
 }
 
+/// The run as a table for people, with the first row of a final verdict marked.
 fn text(task: &Task, run: &task::Run) -> String {
     let formula = &task.entry().task().text;
     let mut text = match task.entry().name() {
@@ -84,19 +88,20 @@ fn text(task: &Task, run: &task::Run) -> String {
     text
 }
 
-/// The rows with their numbers, from 0: state, progress, verdict.
+/// The rows of a run with their numbers, from 0: state, progress, verdict.
 fn rows(run: &task::Run) -> impl Iterator<Item = (usize, u32, f64, Verdict)> {
     let progress = run.progress.iter().zip(&run.verdicts);
     let rows = run.states.iter().zip(progress).enumerate();
     rows.map(|(t, (&state, (&progress, &verdict)))| (t, state, progress, verdict))
 }
 
-/// A number as it fits into a column.
+/// A number in at most 12 characters.
 fn short(value: f64) -> String {
     let exact = (value + 0.0).to_string();
     if exact.len() <= 12 { exact } else { format!("{value:.5e}") }
 }
 
+/// The run as CSV, one line a row.
 fn csv(run: &task::Run) -> String {
     let mut text = String::from("row,state,progress,verdict\n");
     for (t, state, progress, verdict) in rows(run) {
@@ -105,15 +110,17 @@ fn csv(run: &task::Run) -> String {
     text
 }
 
+/// One row as JSON.
 #[derive(Serialize)]
 struct JsonRow {
     row: usize,
     state: u32,
-    /// `null` if it is infinite.
+    /// Written as `null` if it is infinite, since JSON has no infinity.
     progress: f64,
     verdict: Verdict,
 }
 
+/// The last line of JSON: the verdict of the whole.
 #[derive(Serialize)]
 struct JsonEnd {
     verdict: Verdict,
@@ -121,6 +128,7 @@ struct JsonEnd {
     robustness: f64,
 }
 
+/// The run as JSON Lines: one object a row, and one at the end.
 fn json(run: &task::Run) -> String {
     let mut text = String::new();
     for (row, state, progress, verdict) in rows(run) {

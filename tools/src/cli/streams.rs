@@ -1,4 +1,4 @@
-//! What a run reads, and where it writes: the process's own streams, or others in their place.
+//! The streams of a run: those of the process, or others in their place.
 
 use std::io::{ErrorKind, IsTerminal, Read, Write};
 use std::path::Path;
@@ -7,25 +7,26 @@ use tltl_compiler::error::Style;
 
 use super::{Exit, Outcome};
 
-/// The streams of a run.
+/// The streams of a run. The binary passes those of the process; tests pass buffers.
 pub struct Streams<'a> {
-    /// What is read for the path `-`.
+    /// The stream that is read for the path `-`.
     pub input: &'a mut dyn Read,
-    /// Where results go.
+    /// The stream for results.
     pub out: Output<'a>,
-    /// Where messages go.
+    /// The stream for messages.
     pub err: Output<'a>,
 }
 
-/// One of the streams that are written.
+/// A stream that is written, and whether it takes colours.
 pub struct Output<'a> {
-    /// Where the text goes.
+    /// The stream itself.
     pub stream: &'a mut dyn Write,
-    /// Whether the text has colours.
+    /// The style of reports: coloured, or plain.
     pub style: Style,
 }
 
-/// The style of a stream: coloured if it is a terminal, and `NO_COLOR` is not set.
+/// The style for a stream: coloured if it is a terminal and `NO_COLOR` is not set
+/// (<https://no-color.org>).
 #[must_use]
 pub fn style(stream: &impl IsTerminal) -> Style {
     let allowed = std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
@@ -44,7 +45,8 @@ impl Streams<'_> {
         .map_err(|error| format!("cannot read {}: {error}", path.display()))
     }
 
-    /// Writes a result; a reader that went away is not a fault.
+    /// Writes a result, with a line break at its end. A reader that has gone away, as `head` does,
+    /// is no fault.
     pub(super) fn print(&mut self, text: &str) -> Outcome {
         let end = if text.ends_with('\n') || text.is_empty() { "" } else { "\n" };
         match write!(self.out.stream, "{text}{end}").and_then(|()| self.out.stream.flush()) {
@@ -55,7 +57,7 @@ impl Streams<'_> {
         }
     }
 
-    /// Writes a line of a message; that nobody reads it is no fault.
+    /// Writes a message. If nobody can read it, there is nobody to be told.
     pub(super) fn complain(&mut self, text: &str) {
         let _ = writeln!(self.err.stream, "{text}");
     }

@@ -1,4 +1,7 @@
-//! What a command is about: a formula, a task of a file, or an automaton from elsewhere.
+//! The subject of a command: a formula, a task of a file, or an automaton of another tool.
+//!
+//! One argument can be any of them. A text is a file if such a file exists, or if its name ends as
+//! one does; a missing `.tltl` is then reported as missing, not as a bad formula.
 
 use std::path::Path;
 
@@ -12,7 +15,7 @@ use crate::task::{Entry, NoSuchTask, TaskFile};
 
 use super::{Report, Streams, input};
 
-/// A subject that has been read.
+/// A subject that was read.
 pub(super) enum Subject {
     /// A task of a file, or a formula.
     Task(Entry),
@@ -20,8 +23,8 @@ pub(super) enum Subject {
     Automaton(Box<hoa::Automaton>),
 }
 
-/// Reads `FILE`, `FILE:TASK` or a formula, which has this budget, and reports its mistakes; `None`
-/// if it has any.
+/// Reads `FILE`, `FILE:TASK` or a formula, and reports its mistakes; `None` if it has any. The
+/// budget is for formulas; files have the one that they declare.
 pub(super) fn read(
     text: &str,
     task: Option<&str>,
@@ -37,8 +40,8 @@ pub(super) fn read(
     formula.map(|formula| choose(&formula, None).map(Subject::Task)).transpose()
 }
 
-/// `FILE:TASK` in its two parts; what is no such thing is the first of them. What a task takes may
-/// stand after it in brackets.
+/// `FILE:TASK` in its two parts; any other text is the first of them. Arguments may follow the task
+/// in brackets, and may have a `:` in them.
 pub(super) fn split(text: &str) -> (&str, Option<&str>) {
     let named = text.split_once('(').map_or(text, |(named, _)| named);
     match named.rfind(':') {
@@ -49,14 +52,17 @@ pub(super) fn split(text: &str) -> (&str, Option<&str>) {
     }
 }
 
+/// Whether a path can be read: a file, or `-` for the input.
 fn exists(path: &str) -> bool {
     path == "-" || Path::new(path).is_file()
 }
 
+/// Whether a text is meant as a path.
 fn looks_like_file(path: &str) -> bool {
     exists(path) || path.ends_with(".tltl") || path.ends_with(".hoa")
 }
 
+/// Reads a file. One that begins with `HOA:` is an automaton, whatever its name.
 fn file(
     path: &str,
     name: Option<&str>,
@@ -72,7 +78,8 @@ fn file(
     file.map(|file| choose(&file, name).map(Subject::Task)).transpose()
 }
 
-/// The task of that name, or the only one if no name is given.
+/// The task of that name, or the only one if no name is given. The message names the option that
+/// chooses.
 pub(super) fn choose(file: &TaskFile, name: Option<&str>) -> Result<Entry, String> {
     file.find(name).map_err(|error| match error {
         NoSuchTask::Several(names) => {
@@ -83,7 +90,7 @@ pub(super) fn choose(file: &TaskFile, name: Option<&str>) -> Result<Entry, Strin
     })
 }
 
-/// The automata of a task.
+/// The automata of a task, or the reason why a factored one has none.
 pub(super) fn automata(entry: &Entry) -> Result<&Automata, String> {
     entry.automata().ok_or_else(|| {
         let name = entry.name().unwrap_or_default();

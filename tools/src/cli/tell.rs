@@ -10,7 +10,7 @@ use crate::explain::explain as explanation;
 use super::subject::{self, Subject};
 use super::{Exit, Outcome, Streams};
 
-/// Tells what a task asks for.
+/// Explains a task, under its formula as title.
 pub(super) fn explain(text: &str, task: Option<&str>, streams: &mut Streams<'_>) -> Outcome {
     match subject::read(text, task, Budget::SHOWN, streams)? {
         None => Ok(Exit::Mistaken),
@@ -30,7 +30,7 @@ pub(super) fn explain(text: &str, task: Option<&str>, streams: &mut Streams<'_>)
     }
 }
 
-/// Tells whether two tasks are the same, or how they differ.
+/// Compares two subjects, and shows a shortest trajectory on which they differ.
 pub(super) fn difference(first: &str, second: &str, streams: &mut Streams<'_>) -> Outcome {
     let first = subject::read(first, None, Budget::SHOWN, streams)?;
     let (Some(first), Some(second)) = (first, subject::read(second, None, Budget::SHOWN, streams)?)
@@ -42,6 +42,7 @@ pub(super) fn difference(first: &str, second: &str, streams: &mut Streams<'_>) -
     Ok(Exit::of(found == Difference::None))
 }
 
+/// The automaton of a subject, after arithmetic.
 fn automaton(subject: &Subject) -> Result<&Dfa, String> {
     match subject {
         Subject::Task(entry) => subject::automata(entry).map(|automata| &automata.dfa),
@@ -49,7 +50,7 @@ fn automaton(subject: &Subject) -> Result<&Dfa, String> {
     }
 }
 
-/// The text with its headings, the lines that are not indented, in bold on a terminal.
+/// The text with its headings in bold on a terminal. Headings are the lines that are not indented.
 fn headed(text: &str, style: Style) -> String {
     if style == Style::Plain {
         return text.to_owned();

@@ -1,11 +1,22 @@
-//! Graphviz.
+//! Graphviz, for readers who want its layouts or styles. [`svg`](super::svg) draws without it.
 
 use std::fmt::Write as _;
 
 use crate::emit::sum::{Notation, label, quoted};
 use tltl_compiler::dfa::{Dfa, Edge, State};
 
-/// A digraph, left to right: the accepting state with two circles, the trap dashed.
+/// A digraph, laid out from left to right: the accepting state has two circles, the trap and the
+/// edges into it are grey, and an arrow from a point marks the initial state.
+///
+/// ```
+/// use tltl_compiler::translate::Budget;
+///
+/// let task = tltlc::task::compile("a T b", Budget::default())?;
+/// let dot = tltlc::emit::dot::automaton("order", task.dfa());
+/// assert!(dot.starts_with("digraph \"order\" {"));
+/// assert!(dot.contains("  0 -> 1 [label=\"a\"];"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn automaton(title: &str, dfa: &Dfa) -> String {
     let mut dot = format!("digraph {} {{\n", quoted(title));
@@ -25,6 +36,7 @@ pub fn automaton(title: &str, dfa: &Dfa) -> String {
     dot
 }
 
+/// The attributes by which the verdict of a state is seen.
 fn attributes(dfa: &Dfa, q: State) -> &'static str {
     if dfa.accepting == Some(q) {
         " [shape=doublecircle]"
@@ -35,6 +47,7 @@ fn attributes(dfa: &Dfa, q: State) -> &'static str {
     }
 }
 
+/// An edge with its guard as label.
 fn arrow(dfa: &Dfa, edge: &Edge) -> String {
     let label = quoted(&label(dfa, edge, Notation::Ascii));
     let into_trap = dfa.trap == Some(edge.to);

@@ -1,16 +1,34 @@
-//! The Hanoi Omega-Automata format, version 1, which Spot, Owl and others read.
+//! The Hanoi Omega-Automata format, version 1 (Babiak et al., "The Hanoi Omega-Automata Format",
+//! 2015), which Spot, Owl and others read.
 //!
 //! The automaton is written as a deterministic, complete, state-based Büchi automaton whose only
-//! accepting state is absorbing. Read as finite-trace (a trace is accepted if its run ends in an
-//! accepting state) it is the task's automaton; read as Büchi it accepts the infinite traces with
-//! an accepted prefix.
+//! accepting state is absorbing. Read over finite traces (a trace is accepted if its run ends in an
+//! accepting state) it is the task's automaton. Read as Büchi automaton it accepts the infinite
+//! traces that have an accepted prefix. Both readings agree because a satisfied task stays
+//! satisfied.
+//!
+//! The compiler reads the format again (feature `hoa`); the tests write automata and
+//! read them back.
 
 use std::fmt::Write as _;
 
 use crate::emit::sum::{Notation, Sum, quoted};
 use tltl_compiler::dfa::{Dfa, Edge, State};
 
-/// HOA v1. Letters that cannot occur go where the automaton sends them: edges stay disjoint.
+/// The automaton in HOA v1, with one label for each pair of states.
+///
+/// Letters that arithmetic excludes are written with the others, where the automaton sends them:
+/// the format has no letters that cannot occur, and the labels of a state must cover all and be
+/// disjoint.
+///
+/// ```
+/// use tltl_compiler::translate::Budget;
+///
+/// let task = tltlc::task::compile("F a", Budget::default())?;
+/// let hoa = tltlc::emit::hoa::automaton("reach", task.dfa());
+/// assert!(hoa.ends_with("State: 0\n[!0] 0\n[0] 1\nState: 1 {0}\n[t] 1\n--END--\n"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn automaton(title: &str, dfa: &Dfa) -> String {
     let free = Dfa { possible: None, ..dfa.clone() };
@@ -26,6 +44,7 @@ pub fn automaton(title: &str, dfa: &Dfa) -> String {
     hoa
 }
 
+/// Everything before the states. `terminal` says that accepting states are absorbing.
 fn header(title: &str, dfa: &Dfa) -> String {
     let mut hoa = format!("HOA: v1\nname: {}\n", quoted(title));
     let _ = writeln!(hoa, "tool: \"tltlc\" \"{}\"", env!("CARGO_PKG_VERSION"));
@@ -40,10 +59,12 @@ fn header(title: &str, dfa: &Dfa) -> String {
     hoa
 }
 
+/// The acceptance set of a state.
 fn mark(dfa: &Dfa, q: State) -> &'static str {
     if dfa.accepting == Some(q) { " {0}" } else { "" }
 }
 
+/// An edge: its label and its target.
 fn row(dfa: &Dfa, edge: &Edge) -> String {
     let label = Sum::new(&dfa.propositions, &edge.guard).notation(Notation::Numbered);
     format!("[{label}] {}\n", edge.to)

@@ -1,9 +1,12 @@
-//! Automata for other programs, one JSON object each.
+//! Automata and diagnostics for other programs, one JSON object each.
 //!
-//! The keys and their order are a contract: `formula`, `propositions` (by order of first
-//! appearance), `states`, `initial`, `accepting`, `trap` (or null), `edges` (distinct pairs q ≠ q'
-//! of the complete automaton), `self_loops`, and on demand `transitions[q][v]`, bit i of v being
-//! proposition i, or `guards`. A mistake is `formula` and `error` with `kind`, `message` and `span`.
+//! The keys and their order are a contract. An automaton has `formula`, `propositions` (in order of
+//! first appearance), `states`, `initial`, `accepting` (a list of at most one), `trap` (or null),
+//! `edges` and `self_loops` (numbers of pairs q ≠ q' and q = q' of the complete automaton), and on
+//! demand `guards`, or `transitions[q][v]` where bit i of v is proposition i. A mistake has
+//! `formula`, and `error` with `kind`, `message` and `span`.
+//!
+//! Spans count bytes from the beginning of the text, the end excluded.
 
 use serde::Serialize;
 
@@ -12,7 +15,8 @@ use tltl_compiler::dfa::{Dfa, State};
 use tltl_compiler::error::{Error, Kind};
 use tltl_compiler::source::{Source, Span};
 
-/// The most propositions of a table of all transitions: 65,536 letters a state.
+/// The most propositions of a table of all transitions: 65,536 entries for each state. The guards
+/// of the edges have no such limit.
 pub const MOST_PROPOSITIONS: usize = 16;
 
 #[derive(Serialize)]
@@ -88,7 +92,18 @@ impl<'a> Automaton<'a> {
     }
 }
 
-/// The automaton in numbers, on one line.
+/// The sizes of an automaton, on one line.
+///
+/// ```
+/// use tltl_compiler::translate::Budget;
+///
+/// let task = tltlc::task::compile("F a", Budget::default())?;
+/// assert_eq!(
+///     tltlc::emit::json::summary("F a", task.dfa()),
+///     r#"{"formula":"F a","propositions":["a"],"states":2,"initial":0,"accepting":[1],"trap":null,"edges":1,"self_loops":2}"#
+/// );
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn summary(formula: &str, dfa: &Dfa) -> String {
     line(&Automaton::new(formula, dfa))
@@ -98,6 +113,16 @@ pub fn summary(formula: &str, dfa: &Dfa) -> String {
 ///
 /// # Errors
 /// If it has more than [`MOST_PROPOSITIONS`] propositions.
+///
+/// ```
+/// use tltl_compiler::translate::Budget;
+///
+/// let task = tltlc::task::compile("a T b", Budget::default())?;
+/// let table = tltlc::emit::json::explicit("a T b", task.dfa())?;
+/// // From state 0 letters 1 and 3, which have `a`, lead to state 1.
+/// assert!(table.ends_with(r#""transitions":[[0,1,0,1],[1,1,2,2],[2,2,2,2]]}"#));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn explicit(formula: &str, dfa: &Dfa) -> Result<String, Error> {
     let count = dfa.propositions.len();
     if count > MOST_PROPOSITIONS {
@@ -113,7 +138,8 @@ pub fn explicit(formula: &str, dfa: &Dfa) -> Result<String, Error> {
     Ok(line(&Automaton { transitions, ..Automaton::new(formula, dfa) }))
 }
 
-/// The automaton with the guards of its edges, self-loops included, over several lines.
+/// The automaton with the guards of its edges, self-loops included, over several lines. A guard is
+/// a formula of the language.
 #[must_use]
 pub fn automaton(formula: &str, dfa: &Dfa) -> String {
     let guards = dfa.edges().into_iter().map(|edge| Transition {
@@ -125,7 +151,15 @@ pub fn automaton(formula: &str, dfa: &Dfa) -> String {
     pretty(&Automaton { guards, ..Automaton::new(formula, dfa) })
 }
 
-/// What is wrong with a formula, on one line.
+/// A mistake of a formula, on one line: the form in which a list of formulas reports one of them.
+///
+/// ```
+/// use tltl_compiler::translate::Budget;
+///
+/// let error = tltlc::task::compile("G a", Budget::default()).unwrap_err();
+/// let line = tltlc::emit::json::failure("G a", error.errors().first());
+/// assert!(line.starts_with(r#"{"formula":"G a","error":{"kind":"unsupported-operator","#));
+/// ```
 #[must_use]
 pub fn failure(formula: &str, error: &Error) -> String {
     let span = [error.span().start, error.span().end];
@@ -133,9 +167,11 @@ pub fn failure(formula: &str, error: &Error) -> String {
     line(&Failure { formula, error })
 }
 
-/// A mistake of a file as editors want it, on one line: the file's name, the severity, the kind,
-/// the message, the span in bytes, the line and the column of its start (both from 1), the other
-/// places with their labels, and the help lines.
+/// A mistake or a warning of a file in the form that editors want, on one line.
+///
+/// It has the name of the file, the severity, the kind, the message, the span in bytes, the line
+/// and the column of its start (both from 1; the column counts characters), the other places with
+/// their labels, and the help lines.
 #[must_use]
 pub fn report(source: &Source, error: &Error) -> String {
     let span = error.span();
@@ -155,10 +191,12 @@ pub fn report(source: &Source, error: &Error) -> String {
     })
 }
 
+/// An object on one line.
 fn line(value: &impl Serialize) -> String {
     serde_json::to_string(value).expect("strings and numbers are JSON")
 }
 
+/// An object over several lines, with a line break at the end.
 fn pretty(value: &impl Serialize) -> String {
     serde_json::to_string_pretty(value).expect("strings and numbers are JSON") + "\n"
 }

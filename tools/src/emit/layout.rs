@@ -1,14 +1,31 @@
-//! Where the states, edges and labels of a drawing go: layers from left to right.
+//! Positions for the states, edges and labels of a drawing: layers from left to right.
 //!
-//! After "Sugiyama, Tagawa and Toda, Methods for visual understanding of hierarchical system
-//! structures, 1981", in steps, a module each: [`rank`] turns a few edges round so that no
-//! cycle is left and gives each node a rank; [`network`] puts a label layer between every two
-//! ranks and cuts each edge into segments between neighbouring layers; [`order`] sorts each layer
-//! so that few segments cross; [`place`] chooses heights and columns, [`port`] where edges touch nodes,
-//! and [`straighten`] takes needless bends out. A label is a vertex of its own with
-//! its true size, and edges bend only in the gaps between layers, so that no label can touch
-//! a node, a label or another edge. Cost is that of the crossings' sweeps, whose number
-//! falls as the graph grows; nothing here knows of automata.
+//! It is the layered method of Sugiyama, Tagawa and Toda ("Methods for Visual Understanding of
+//! Hierarchical System Structures", 1981), in five steps, a module each:
+//!
+//! 1. [`rank`] reverses a few edges so that no cycle is left, and gives each node a rank.
+//! 2. [`network`] puts a layer for labels between every two ranks and cuts each edge into segments
+//!    between neighbouring layers.
+//! 3. [`order`] sorts each layer so that few segments cross.
+//! 4. [`place`] chooses heights and columns, with [`port`] for the points where edges touch nodes.
+//! 5. [`straighten`] takes bends out that no neighbour needs.
+//!
+//! # Labels are vertices
+//!
+//! Guards are long, and a drawing whose labels overlap is useless. So each label is a vertex of its
+//! own with its true size, and edges bend only in the gaps between layers: no label can touch a
+//! node, a label or another edge. The tests check exactly that, on random graphs. The price is
+//! width: an edge over k ranks passes 2k - 1 layers.
+//!
+//! # Cost and weakness
+//!
+//! Steps 3 and 4 iterate; their number of sweeps falls as the graph grows, at the price of more
+//! crossings. An automaton of 961 states and 2,760 edges is drawn in 0.12 s (CPU time of `tltlc
+//! automaton --format svg`). The smallest set of reversed edges and the fewest crossings are
+//! NP-hard, and both steps are heuristics. A graph in which every state leads back to every other
+//! has no good layers, and none are found.
+//!
+//! Nothing here knows of automata. Everything is deterministic: ties break by index.
 
 mod network;
 mod order;
@@ -17,81 +34,82 @@ mod port;
 mod rank;
 mod straighten;
 
-/// The room that something takes around its anchor; the anchor is in the middle of the width.
+/// The room that something takes around its anchor, which is in the middle of its width. All
+/// lengths are pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Room {
     /// The width.
     pub(super) width: f64,
-    /// How far it goes above its anchor.
+    /// How far it extends above its anchor.
     pub(super) up: f64,
-    /// How far it goes below its anchor.
+    /// How far it extends below its anchor.
     pub(super) down: f64,
 }
 
 /// An edge between two different nodes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Link {
-    /// From node.
+    /// The index of the node that the edge leaves.
     pub(super) from: usize,
-    /// To node.
+    /// The index of the node that the edge enters.
     pub(super) to: usize,
-    /// Its label, which stands on the line.
+    /// The room of its label, which stands on the line.
     pub(super) label: Room,
-    /// How much it wants to be straight; 1 is usual.
+    /// How strongly it pulls its ends to one height; 1 is usual, edges into a trap have less.
     pub(super) weight: f64,
 }
 
-/// What is to be drawn; node 0 comes first.
+/// A graph to be laid out. Node 0 has the first rank alone.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Graph {
-    /// The nodes.
+    /// The room of each node.
     pub(super) nodes: Vec<Room>,
-    /// The edges, at most one from node to node.
+    /// The edges between different nodes, at most one from node to node.
     pub(super) links: Vec<Link>,
-    /// The radius of the circle that each node is; its anchor is the middle.
+    /// The radius of the circle that each node is; its anchor is the centre.
     pub(super) radius: f64,
-    /// The node that shall be furthest to the right.
+    /// The node to be furthest to the right: the accepting state.
     pub(super) last: Option<usize>,
-    /// The node that shall be lowest in its layer.
+    /// The node to be lowest in its layer: the trap.
     pub(super) lowest: Option<usize>,
 }
 
 /// A horizontal stretch of an edge within a layer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Pass {
-    /// Where the layer begins.
+    /// The left border of the layer.
     pub(super) left: f64,
-    /// Where the layer ends.
+    /// The right border of the layer.
     pub(super) right: f64,
-    /// The height of the edge there.
+    /// The height of the edge in the layer; it grows downwards, as in SVG.
     pub(super) y: f64,
 }
 
-/// The way of an edge from left to right.
+/// The way of an edge, from left to right whatever its direction.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Route {
-    /// Whether the edge itself goes from right to left.
+    /// Whether the edge points from right to left, so that its arrowhead is at `start`.
     pub(super) backward: bool,
-    /// Where it touches its left node.
+    /// The point at its left node.
     pub(super) start: (f64, f64),
-    /// The layers of its two nodes and all between them.
+    /// Its stretches in the layers of its two nodes and in all layers between them.
     pub(super) passes: Vec<Pass>,
-    /// Where it touches its right node.
+    /// The point at its right node.
     pub(super) end: (f64, f64),
     /// The anchor of its label.
     pub(super) label: (f64, f64),
 }
 
-/// A finished layout; all coordinates are positive.
+/// A finished layout. All coordinates are at least 0, and at most `width` or `height`.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Layout {
     /// The anchor of each node.
     pub(super) nodes: Vec<(f64, f64)>,
-    /// The way of each edge.
+    /// The way of each edge, in the order of the graph.
     pub(super) routes: Vec<Route>,
-    /// The width of all.
+    /// The width of the whole.
     pub(super) width: f64,
-    /// The height of all.
+    /// The height of the whole.
     pub(super) height: f64,
 }
 

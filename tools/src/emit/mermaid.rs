@@ -1,14 +1,25 @@
 //! Mermaid, which GitHub and many editors draw inside Markdown.
 //!
-//! A flowchart, since state diagrams of Mermaid cannot escape what stands in a label: `:` ends
-//! it. Labels are quoted, and what would be markup to Mermaid becomes an entity.
+//! The diagram is a flowchart: labels of Mermaid's own state diagrams end at a `:`, which cannot be
+//! escaped there. Labels are quoted, and characters that are markup to Mermaid become entities.
 
 use std::fmt::Write as _;
 
 use crate::emit::sum::{Notation, label, quoted};
 use tltl_compiler::dfa::{Dfa, State};
 
-/// A flowchart, left to right: the accepting state with two circles, the trap dashed.
+/// A flowchart, from left to right: the accepting state has two circles, the trap and the edges
+/// into it are dashed.
+///
+/// ```
+/// use tltl_compiler::translate::Budget;
+///
+/// let task = tltlc::task::compile("a T b", Budget::default())?;
+/// let chart = tltlc::emit::mermaid::automaton("order", task.dfa());
+/// assert!(chart.contains("flowchart LR\n"));
+/// assert!(chart.contains("  q0 -->|\"a\"| q1\n"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn automaton(title: &str, dfa: &Dfa) -> String {
     let mut text = format!("---\ntitle: {}\n---\nflowchart LR\n", quoted(title));
@@ -26,6 +37,7 @@ pub fn automaton(title: &str, dfa: &Dfa) -> String {
     text
 }
 
+/// A state in the shape of its verdict.
 fn node(dfa: &Dfa, q: State) -> String {
     if dfa.accepting == Some(q) {
         format!("q{q}(((\"{q}\")))")
@@ -36,7 +48,7 @@ fn node(dfa: &Dfa, q: State) -> String {
     }
 }
 
-/// Everything that is not plain text to Mermaid, as its entities `#…;`.
+/// Replaces every character that is markup to Mermaid by its entity `#…;`.
 fn escape(text: &str) -> String {
     let mut escaped = String::new();
     for c in text.chars() {

@@ -1,6 +1,19 @@
-//! Automata in the forms that people and other tools read, and policies as Rust: one module each.
+//! Automata in the forms that people and other tools read, and saved policies as Rust: one module
+//! for each form.
 //!
-//! Every function here is a function of its arguments alone: same automaton, same bytes.
+//! | module | form | for |
+//! | --- | --- | --- |
+//! | [`text`] | a table | a terminal |
+//! | [`svg`] | a picture | documents; drawn here, without Graphviz |
+//! | [`dot`], [`mermaid`] | graphs in text | Graphviz; Markdown on GitHub and elsewhere |
+//! | [`hoa`] | Hanoi Omega-Automata | Spot, Owl and other tools for automata |
+//! | [`json`] | JSON | programs and editors |
+//! | [`mod@rust`] | Rust | a reader who wants to see what a macro generates |
+//! | [`policy`], [`network`] | Rust that stands alone | a robot without an allocator |
+//!
+//! [`sum`] prints the guards for all of them. Every function depends on its arguments alone: the
+//! same automaton gives the same bytes. Guards are exact in every form; only the picture moves long
+//! ones into a legend.
 
 pub mod dot;
 pub mod hoa;

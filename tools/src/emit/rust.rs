@@ -1,4 +1,7 @@
-//! A compiled source as a Rust file, formatted: what the macros generate, to be read.
+//! A compiled source as a formatted Rust file: the code that the macros generate, to be read.
+//!
+//! The tokens are those of the macros; `prettyplease` lays them out, since it needs no rustfmt at
+//! run time. The file compiles in a crate that depends on `tltl`.
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -7,10 +10,21 @@ use tltl_compiler::emit::rust::{Options, Place, code, is_bare, sizes};
 use tltl_compiler::emit::tables as emit;
 use tltl_compiler::tables::tables;
 
-/// A source as a Rust file, as the macros would generate it, formatted.
+/// A compiled source as a Rust file.
 ///
-/// Declarations become items; of a bare formula, whose propositions are free, there are only the
-/// formula and its automaton.
+/// Declarations become the items that a macro would generate. A bare formula has no predicates to
+/// generate, because its propositions are free: its file has the formula and the automaton as
+/// statics.
+///
+/// ```
+/// use tltl_compiler::{compile, source::Source, translate::Budget};
+///
+/// let source = Source::new("formula", "F a && F b");
+/// let compiled = compile::formula(&source, Budget::default())?;
+/// let rust = tltlc::emit::rust::file(&compiled);
+/// assert!(rust.starts_with("///`F a && F b`\npub static FORMULA: ::tltl::Formula ="));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn file(compiled: &Compiled) -> String {
     let host = |_| TokenStream::new();
@@ -23,7 +37,7 @@ pub fn file(compiled: &Compiled) -> String {
     }
 }
 
-/// The formula and the automaton of a bare formula, whose propositions are free.
+/// The formula and the automaton of a bare formula.
 fn statics(compiled: &Compiled) -> TokenStream {
     let tasks = compiled.module.tasks.iter().zip(&compiled.automata);
     let tasks = tasks.map(|(task, automata)| {

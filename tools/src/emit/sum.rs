@@ -1,9 +1,12 @@
-//! Guards as people read them: sums of products over the names of the propositions.
+//! Guards as text: sums of products over the names of the propositions.
 //!
-//! All formats print guards through [`Sum`]. In [`Notation::Ascii`] the text is a formula of the
-//! language again: a proposition may be a comparison (`x < 3`), which is bracketed where the
-//! language needs it. Automata from elsewhere may name a proposition in a way that no formula
-//! can (`p 1`); such names stand in quotes.
+//! Every form of an automaton prints its guards through [`Sum`]. In [`Notation::Ascii`] the text is
+//! a formula of the language again: a proposition may be a comparison (`x < 3`), and gets brackets
+//! where the language needs them. Automata of other tools may name a proposition in a way that no
+//! formula can (`p 1`); such names are quoted.
+//!
+//! The cubes come from the compiler (Minato, 1993; see [`bdd`](tltl_compiler::bdd)) and are printed
+//! in its order.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -14,12 +17,12 @@ use tltl_compiler::dfa::{Dfa, Edge};
 /// The symbols in which a guard is printed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Notation {
-    /// `!a && b || c`, as the language is written.
+    /// `!a && b || c`, the spelling of the language.
     #[default]
     Ascii,
-    /// `¬a ∧ b ∨ c`, as the paper prints it.
+    /// `¬a ∧ b ∨ c`, the spelling of the paper.
     Mathematical,
-    /// `!0&1 | 2`: propositions by number, as in HOA.
+    /// `!0&1 | 2`: propositions by number, the spelling of HOA.
     Numbered,
 }
 
@@ -32,7 +35,7 @@ impl Notation {
         }
     }
 
-    /// What stands between two products.
+    /// The symbol between two products, with the blanks around it.
     #[must_use]
     pub fn or(self) -> &'static str {
         match self {
@@ -58,7 +61,17 @@ impl Notation {
     }
 }
 
-/// A guard that prints as a sum of products.
+/// A guard that prints as a sum of products: an empty sum is false, an empty product true.
+///
+/// ```
+/// use tltlc::emit::sum::{Notation, Sum};
+///
+/// let names = ["a", "x < 3"].map(str::to_owned);
+/// let cubes = [vec![(0, true), (1, false)], vec![(0, false)]];
+/// let sum = Sum::new(&names, &cubes);
+/// assert_eq!(sum.to_string(), "a && !(x < 3) || !a");
+/// assert_eq!(sum.notation(Notation::Mathematical).to_string(), "a ∧ ¬(x < 3) ∨ ¬a");
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Sum<'a> {
     names: &'a [String],
@@ -67,23 +80,25 @@ pub struct Sum<'a> {
 }
 
 impl<'a> Sum<'a> {
-    /// The sum of `cubes`; `names` are the names of the propositions.
+    /// The sum of `cubes`, in [`Notation::Ascii`]; `names` are the names of the propositions by
+    /// number.
     #[must_use]
     pub fn new(names: &'a [String], cubes: &'a [Cube]) -> Self {
         Self { names, cubes, notation: Notation::Ascii }
     }
 
-    /// The same in other symbols.
+    /// The same sum in other symbols.
     #[must_use]
     pub fn notation(self, notation: Notation) -> Self {
         Self { notation, ..self }
     }
 
-    /// The products one by one.
+    /// The products, each as text: a drawing wraps between them.
     pub fn products(self) -> impl Iterator<Item = String> + use<'a> {
         self.cubes.iter().map(move |cube| self.product(cube))
     }
 
+    /// A product as text.
     fn product(self, cube: &Cube) -> String {
         if cube.is_empty() {
             return self.notation.truth(true).to_owned();
@@ -92,6 +107,8 @@ impl<'a> Sum<'a> {
         literals.join(self.notation.and())
     }
 
+    /// A literal as text, in brackets where `!` would bind tighter than the operators of the
+    /// proposition.
     fn literal(self, (proposition, value): (u32, bool)) -> String {
         let not = if value { "" } else { self.notation.not() };
         if self.notation == Notation::Numbered {
@@ -126,25 +143,27 @@ pub fn label(dfa: &Dfa, edge: &Edge, notation: Notation) -> String {
     Sum::new(&dfa.propositions, &edge.guard).notation(notation).to_string()
 }
 
-/// A name in double quotes, as HOA and JSON have it.
+/// A name in double quotes, with `\` and `"` escaped as HOA, JSON and Graphviz want.
 #[must_use]
 pub fn quoted(name: &str) -> String {
     format!("\"{}\"", name.replace('\\', "\\\\").replace('"', "\\\""))
 }
 
-/// What the text of a proposition is in the language.
+/// The form of a proposition's text, by what brackets it needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Shape {
     /// Binds tighter than every operator: a name, a field, a call.
     Atom,
     /// A comparison.
     Comparison,
-    /// Something that binds less.
+    /// Has operators that bind less tightly than a comparison.
     Formula,
-    /// Nothing that the language has.
+    /// Is not an expression of the language.
     Foreign,
 }
 
+/// The form of a proposition. It looks only outside of brackets, and takes no parser: names of
+/// other tools are no formulas.
 fn shape(name: &str) -> Shape {
     let Some(outside) = outside_brackets(name) else { return Shape::Foreign };
     let keyword = matches!(name, "F" | "X" | "U" | "T" | "true" | "false" | "not" | "and" | "or");
@@ -163,7 +182,7 @@ fn shape(name: &str) -> Shape {
     }
 }
 
-/// The text without what stands in brackets, or nothing if they do not pair.
+/// The text without the parts in brackets; `None` if the brackets do not pair.
 fn outside_brackets(text: &str) -> Option<String> {
     let mut depth = 0_usize;
     let mut outside = String::new();
@@ -178,6 +197,7 @@ fn outside_brackets(text: &str) -> Option<String> {
     (depth == 0 && !text.is_empty()).then_some(outside)
 }
 
+/// A name with the symbols of mathematics for its operators.
 fn mathematical(name: &str) -> Cow<'_, str> {
     let symbols = [("<=", "≤"), (">=", "≥"), ("==", "="), ("!=", "≠"), ("&&", "∧"), ("||", "∨")];
     symbols.iter().fold(Cow::Borrowed(name), |name, (from, to)| {

@@ -1,11 +1,14 @@
 //! Automata as pictures, drawn without any other program.
 //!
-//! The module `layout` says where things go; here they are drawn: the initial state
-//! with an arrow from nowhere, the accepting one with two circles, the trap dashed and grey, each
-//! edge a smooth line with its guard standing on it. Guards are wrapped; those too long even so
-//! get a name and stand below the picture. Every shape carries its own attributes (no styles, no
-//! ids), so that a [`Drawing`] can be put into any other picture; colours print well in grey.
-//! Up to some 40 states the picture is meant to be read; larger ones are still correct, and beyond
+//! The private module `layout` chooses the positions; this one draws. The initial state has an
+//! arrow from nowhere, the accepting state two circles, the trap is dashed and grey, and each edge
+//! is a smooth line with its guard standing on it. Guards are wrapped; a guard that is too long
+//! even so gets a name, and stands in a legend below the picture.
+//!
+//! Every shape carries its own attributes, without styles and ids, so that a [`Drawing`] can be put
+//! into any other picture. Text is text. Colours keep their contrast in grey print.
+//!
+//! A picture is meant to be read up to about 40 states. Larger ones are still correct; beyond
 //! [`MOST_STATES`] or [`MOST_EDGES`] the drawing only says how large the automaton is.
 
 mod curve;
@@ -21,26 +24,30 @@ use curve::Arrow;
 use text::{Label, Legend};
 
 /// A picture, or a part of one: elements of SVG in a box from (0, 0) to (width, height).
+///
+/// A part becomes a document by [`document`], or is placed in a larger picture with a `transform`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drawing {
     /// The width, in pixels.
     pub width: f64,
     /// The height, in pixels.
     pub height: f64,
-    /// The elements.
+    /// The elements, as SVG text.
     pub body: String,
 }
 
-/// How an automaton is drawn.
+/// The options of a drawing. The default has no title, mathematical notation, the trap, and numbers
+/// for names.
 #[derive(Clone, Copy, Debug)]
 pub struct Options<'a> {
-    /// A line above the picture.
+    /// A title above the picture, wrapped to its width.
     pub title: Option<&'a str>,
-    /// The symbols of the guards.
+    /// The symbols in which guards are printed.
     pub notation: Notation,
-    /// Whether the trap and the edges into it are drawn.
+    /// Whether the trap and the edges into it are drawn. Left out, every guard that is missing
+    /// leads to the trap.
     pub trap: bool,
-    /// What stands in the states, if not their numbers.
+    /// The names in the states, by number; numbers where there is none.
     pub names: Option<&'a [String]>,
 }
 
@@ -55,24 +62,37 @@ const GREY: &str = "#7d858f";
 const FILL: &str = "#f3f6fa";
 const ACCEPTING: (&str, &str) = ("#e5f3e8", "#17653a");
 const LOST: &str = "#f4f4f4";
-/// Room around the picture, and for the initial arrow.
+/// The margin around the picture.
 const MARGIN: f64 = 10.0;
+/// The room on the left for the arrow to the initial state.
 const ARROW: f64 = 26.0;
-/// How high a self-loop stands above its state.
+/// The height of a self-loop above its state.
 const LOOP: f64 = 17.0;
 
-/// The most states that are drawn.
+/// The most states that are drawn. Nobody reads more; a table or HOA serves
+/// better.
 pub const MOST_STATES: usize = 1024;
 /// The most edges between different states that are drawn.
 pub const MOST_EDGES: usize = 4096;
 
 /// An automaton as an SVG document with a title.
+///
+/// ```
+/// use tltl_compiler::translate::Budget;
+///
+/// let task = tltlc::task::compile("a T b", Budget::default())?;
+/// let svg = tltlc::emit::svg::automaton("order", task.dfa());
+/// assert!(svg.starts_with("<svg xmlns="));
+/// // Three states; the accepting one has a second circle.
+/// assert_eq!(svg.matches("<circle").count(), 4);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn automaton(title: &str, dfa: &Dfa) -> String {
     document(title, &drawing(dfa, &Options { title: Some(title), ..Options::default() }))
 }
 
-/// A whole SVG document; `title` is what screen readers read.
+/// A whole SVG document on a white ground; `title` is what screen readers read.
 #[must_use]
 pub fn document(title: &str, drawing: &Drawing) -> String {
     let (width, height) = (number(drawing.width), number(drawing.height));
@@ -85,7 +105,18 @@ pub fn document(title: &str, drawing: &Drawing) -> String {
     )
 }
 
-/// An automaton as a drawing to be put into a larger one.
+/// An automaton as a drawing to be put into a larger picture.
+///
+/// ```
+/// use tltl_compiler::translate::Budget;
+/// use tltlc::emit::svg::{Options, drawing};
+///
+/// let task = tltlc::task::compile("a T b", Budget::default())?;
+/// let names = ["start", "a seen", "done"].map(str::to_owned);
+/// let part = drawing(task.dfa(), &Options { names: Some(&names), ..Options::default() });
+/// assert!(part.width > 0.0 && part.body.contains(">a seen</text>"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn drawing(dfa: &Dfa, options: &Options) -> Drawing {
     let size = dfa.size();
@@ -97,6 +128,7 @@ pub fn drawing(dfa: &Dfa, options: &Options) -> Drawing {
     picture.draw(&layout)
 }
 
+/// The drawing in place of an automaton that is too large: one line with its sizes.
 fn too_large(size: Size) -> Drawing {
     let message = format!("{} states and {} edges: too many to draw", size.states, size.edges);
     let width = text::width(&message, text::STATE) + 2.0 * MARGIN;
@@ -104,7 +136,8 @@ fn too_large(size: Size) -> Drawing {
     Drawing { width, height: 24.0 + 2.0 * MARGIN, body }
 }
 
-/// What is drawn: states by their place in the list, edges with their labels.
+/// The elements of a picture before they have positions: states in order, self-loops by state,
+/// other edges with their labels.
 struct Picture<'a> {
     dfa: &'a Dfa,
     options: &'a Options<'a>,
@@ -116,6 +149,7 @@ struct Picture<'a> {
 }
 
 impl<'a> Picture<'a> {
+    /// Collects the elements, and moves long guards to the legend.
     fn new(dfa: &'a Dfa, options: &'a Options<'a>) -> Self {
         let drawn = |q: State| options.trap || dfa.trap != Some(q) || q == 0;
         let states: Vec<_> = dfa.states().filter(|&q| drawn(q)).collect();
@@ -136,7 +170,8 @@ impl<'a> Picture<'a> {
         picture
     }
 
-    /// Large enough for the longest name and for the arrows at the busiest state.
+    /// The radius of all states: large enough for the longest name, and for the arrowheads at the
+    /// busiest state.
     fn radius(&self) -> f64 {
         let mut arrows = vec![0; self.dfa.len()];
         self.links.iter().for_each(|(edge, _)| arrows[edge.to as usize] += 1);
@@ -146,15 +181,19 @@ impl<'a> Picture<'a> {
         (longest / 2.0 + 6.0).max(2.2 * f64::from(busiest)).clamp(16.0, 40.0)
     }
 
+    /// The text in a state.
     fn name(&self, q: State) -> String {
         let given = self.options.names.and_then(|names| names.get(q as usize));
         given.cloned().unwrap_or_else(|| q.to_string())
     }
 
+    /// The index of a state among those that are drawn.
     fn place(&self, q: State) -> usize {
         self.states.binary_search(&q).unwrap_or(0)
     }
 
+    /// The graph to be laid out. Edges into the trap pull weakly, so that they do not bend the
+    /// others.
     fn graph(&self) -> Graph {
         let links = self.links.iter().map(|(edge, label)| Link {
             from: self.place(edge.from),
@@ -172,12 +211,14 @@ impl<'a> Picture<'a> {
         }
     }
 
+    /// The room of a state with its self-loop above it.
     fn room(&self, label: Option<&Label>) -> Room {
         let above = label.map_or(0.0, |label| LOOP + label.height() + 3.0);
         let width = label.map_or(0.0, |label| label.width).max(2.0 * self.radius);
         Room { width: width + 4.0, up: self.radius + above + 2.0, down: self.radius + 3.0 }
     }
 
+    /// Draws everything at its place, title above and legend below.
     fn draw(&self, layout: &Layout) -> Drawing {
         let title = self.options.title.map(|title| text::wrap_title(title, layout.width + ARROW));
         let top = MARGIN + title.as_ref().map_or(0.0, |lines| 18.0 * lines.len() as f64 + 8.0);
@@ -215,6 +256,7 @@ impl<'a> Picture<'a> {
         }
     }
 
+    /// A state: one circle, or two if it accepts.
     fn draw_state(&self, q: State, (x, y): (f64, f64), body: &mut String) {
         let accepting = self.dfa.accepting == Some(q);
         let lost = self.dfa.trap == Some(q);
@@ -242,7 +284,7 @@ impl<'a> Picture<'a> {
         body.push_str(&text::centred(x, y + 4.5, &self.name(q), &text::STATE, ink));
     }
 
-    /// Edges into the trap are grey and lie below the others.
+    /// Draws the edges. Those into the trap are grey and lie below the others.
     fn draw_links(&self, layout: &Layout, body: &mut String) {
         let mut drawn: Vec<(bool, String)> = Vec::new();
         for (i, (edge, label)) in self.links.iter().enumerate() {
@@ -257,12 +299,14 @@ impl<'a> Picture<'a> {
         drawn.iter().for_each(|(_, elements)| body.push_str(elements));
     }
 
+    /// The colour of an edge, by the state that it enters.
     fn colour(&self, to: State) -> &'static str {
         if self.dfa.trap == Some(to) { GREY } else { INK }
     }
 }
 
-/// A coordinate, to a tenth of a pixel.
+/// A coordinate to a tenth of a pixel, without trailing zeros: files stay small, and equal on every
+/// machine.
 fn number(value: f64) -> String {
     let tenths = (value * 10.0).round() as i64;
     let sign = if tenths < 0 { "-" } else { "" };

@@ -1,12 +1,26 @@
-//! An automaton as a table that a person reads.
+//! An automaton as a table for the terminal.
+//!
+//! One line an edge, grouped by the state that it leaves. Guards are formulas of the language, so a
+//! line can be copied into a task file.
 
 use std::fmt::Write as _;
 
 use crate::emit::sum::{Notation, label};
 use tltl_compiler::dfa::{Dfa, Edge, Size, State};
 
-/// The sizes under every convention, then each state with its edges and their guards. The initial
+/// The sizes under both conventions, then each state with its edges and their guards. The initial
 /// state is marked `>`, the accepting one `*`, the trap `x`.
+///
+/// ```
+/// use tltl_compiler::translate::Budget;
+///
+/// let task = tltlc::task::compile("a T b", Budget::default())?;
+/// let table = tltlc::emit::text::automaton("order", task.dfa());
+/// assert!(table.starts_with("order\n") && table.ends_with("> initial   * accepting\n"));
+/// // State 0 stays where it is until it sees a.
+/// assert!(table.contains(">     0     0  !a\n            1  a\n"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn automaton(title: &str, dfa: &Dfa) -> String {
     let mut text = format!("{title}\n\n{}\n", sizes(dfa.size()));
@@ -19,7 +33,8 @@ pub fn automaton(title: &str, dfa: &Dfa) -> String {
     text
 }
 
-/// How many states and edges, with the trap and without.
+/// The numbers of states and edges with the trap and without it, and of edges with self-loops and
+/// without: papers count in all four ways.
 #[must_use]
 pub fn sizes(size: Size) -> String {
     let mut text = format!("{:<18}{:>8}{:>8}{:>14}\n", "", "states", "edges", "and loops");
@@ -40,6 +55,7 @@ pub fn sizes(size: Size) -> String {
     text
 }
 
+/// The line of an edge. Only the first edge of a state shows the state and its mark.
 fn row(dfa: &Dfa, edge: &Edge, width: usize) -> String {
     let guard = label(dfa, edge, Notation::Ascii);
     let first = dfa.successors(edge.from).first() == Some(&edge.to);
@@ -48,6 +64,7 @@ fn row(dfa: &Dfa, edge: &Edge, width: usize) -> String {
     format!("{mark:<2} {from:>width$}  {:>width$}  {guard}", edge.to)
 }
 
+/// The mark of a state: initial, accepting, trap.
 fn mark(dfa: &Dfa, q: State) -> &'static str {
     match (q == 0, dfa.accepting == Some(q), dfa.trap == Some(q)) {
         (true, true, _) => ">*",
@@ -59,6 +76,7 @@ fn mark(dfa: &Dfa, q: State) -> &'static str {
     }
 }
 
+/// The meaning of the marks that this automaton has.
 fn legend(dfa: &Dfa) -> &'static str {
     match (dfa.accepting, dfa.trap) {
         (Some(_), Some(_)) => "\n> initial   * accepting   x trap\n",

@@ -1,11 +1,14 @@
-//! Comma-separated values (RFC 4180), with semicolons or tabs in place of commas where the header
-//! has them. The crate `csv` splits the text; where a field stands is counted here, for messages.
+//! Comma-separated values (RFC 4180), with semicolons or tabs in place of commas if the header has
+//! them.
+//!
+//! The crate `csv` splits the text. It does not say where in a line a field begins, and accepts a
+//! quote that the end of the file cuts off; both are found here, for messages.
 
 use csv::{ReaderBuilder, StringRecord};
 
 use super::{Input, State, number};
 
-/// Reads a record with a header.
+/// Reads a record whose first row is the header.
 pub(super) fn read(name: &str, text: &str, inputs: &[Input]) -> Result<Vec<State>, String> {
     let mut rows = Rows::new(name, text);
     let Some(header) = rows.next()? else { return Ok(Vec::new()) };
@@ -27,7 +30,7 @@ pub(super) fn read(name: &str, text: &str, inputs: &[Input]) -> Result<Vec<State
     Ok(states)
 }
 
-/// The column of each input.
+/// The column of each input. All missing columns are reported at once.
 fn columns(name: &str, header: &Row<'_>, inputs: &[Input]) -> Result<Vec<usize>, String> {
     let header: Vec<&str> = header.record.iter().map(str::trim).collect();
     let named = |input: &Input| header.iter().position(|column| *column == input.name);
@@ -48,7 +51,7 @@ fn columns(name: &str, header: &Row<'_>, inputs: &[Input]) -> Result<Vec<usize>,
     Ok(inputs.iter().filter_map(named).collect())
 }
 
-/// The rows of a text that are not blank.
+/// The rows of a text, without those that are blank.
 struct Rows<'a> {
     name: &'a str,
     text: &'a str,
@@ -56,6 +59,7 @@ struct Rows<'a> {
 }
 
 impl<'a> Rows<'a> {
+    /// A reader whose delimiter is the first of `,`, `;` and tab that the header has.
     fn new(name: &'a str, text: &'a str) -> Self {
         let header = text.lines().find(|line| !line.trim().is_empty()).unwrap_or_default();
         let delimiter = [',', ';', '\t'].into_iter().find(|&delimiter| header.contains(delimiter));
@@ -67,6 +71,7 @@ impl<'a> Rows<'a> {
         Self { name, text, reader }
     }
 
+    /// The next row that is not blank; `None` at the end.
     fn next(&mut self) -> Result<Option<Row<'a>>, String> {
         let mut record = StringRecord::new();
         loop {
@@ -91,7 +96,7 @@ impl<'a> Rows<'a> {
     }
 }
 
-/// One row, split, and as it stands in the text.
+/// One row, split into fields, and its text.
 struct Row<'a> {
     /// Its first line, from 1.
     line: usize,
@@ -100,11 +105,12 @@ struct Row<'a> {
 }
 
 impl Row<'_> {
+    /// A field without blanks around it.
     fn field(&self, column: usize) -> &str {
         self.record.get(column).unwrap_or_default().trim()
     }
 
-    /// The bytes in which each field begins, and the one after the end of the last.
+    /// For each field the byte in which it begins, and the one after the end of the last.
     fn starts(&self) -> impl Iterator<Item = usize> {
         let mut at = 0;
         let ends = self.record.iter().map(move |field| {
@@ -118,13 +124,14 @@ impl Row<'_> {
         std::iter::once(0).chain(ends)
     }
 
-    /// Where a field begins: the character of the row, from 1.
+    /// The column of the text in which a field begins, in characters from 1.
     fn place(&self, column: usize) -> usize {
         let start = self.starts().nth(column).unwrap_or_default();
         self.text.get(..start).unwrap_or(self.text).chars().count() + 1
     }
 
-    /// Whether the last field is in quotes that the end of the text cuts off.
+    /// Whether the last field begins with a quote that nothing closes. The crate would take the
+    /// rest of the file for that field.
     fn is_open(&self) -> bool {
         let row = self.text.trim_end_matches(['\r', '\n']);
         let last = self

@@ -1,9 +1,13 @@
-//! The layered network: vertices, and segments between neighbouring layers.
+//! Second step: the layered network, in which every segment joins neighbouring layers.
+//!
+//! Layers 0, 2, 4, … hold the nodes of rank 0, 1, 2, …; the layers between them hold the labels.
+//! Where a link passes a layer it has a vertex there, its label in one of them and a bend in the
+//! others.
 
 use super::rank::Ranking;
 use super::{Graph, Room};
 
-/// What a vertex stands for.
+/// The kind of a vertex: a node of the graph, the label of a link, or a place where a link passes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     Node,
@@ -11,18 +15,21 @@ pub(super) enum Kind {
     Bend,
 }
 
+/// A vertex of the network, in its layer.
 pub(super) struct Vertex {
     pub(super) kind: Kind,
     pub(super) layer: usize,
     pub(super) room: Room,
-    /// The vertices of the layer before, with the weight of the segment.
+    /// The neighbours in the layer before, each with the weight of the segment.
     pub(super) before: Vec<(usize, f64)>,
-    /// The vertices of the layer after.
+    /// The neighbours in the layer after, likewise.
     pub(super) after: Vec<(usize, f64)>,
 }
 
-/// The vertices (nodes come first, by number), the layers from left to right, each from top to
-/// bottom, and the vertices of each link from left to right.
+/// The network of a graph.
+///
+/// Vertices: the nodes come first, by number. Layers run from left to right, each from top to
+/// bottom. The chain of a link has its vertices from left to right, both nodes included.
 #[derive(Default)]
 pub(super) struct Network {
     pub(super) vertices: Vec<Vertex>,
@@ -31,11 +38,15 @@ pub(super) struct Network {
     pub(super) backward: Vec<bool>,
 }
 
-/// How much more a link wants to be straight in its middle than at its ends.
+/// The weight of a segment between two vertices that are not nodes, over that of others: bends in
+/// the middle of a line disturb most. Gansner, Koutsofios, North and Vo ("A Technique for Drawing
+/// Directed Graphs", 1993) use 8 for segments without a node and 2 for those with one.
 const MIDDLE: f64 = 6.0;
-/// The room of a line that passes.
+/// The room of a line that passes a layer.
 const LINE: Room = Room { width: 0.0, up: 3.0, down: 3.0 };
 
+/// Builds the network of a ranked graph. Layers are in the order of creation;
+/// [`order`](super::order) sorts them.
 pub(super) fn build(graph: &Graph, ranking: &Ranking) -> Network {
     let mut network = Network { backward: ranking.backward.clone(), ..Network::default() };
     let columns = ranking.rank.iter().max().map_or(0, |&last| last + 1);
@@ -53,6 +64,7 @@ pub(super) fn build(graph: &Graph, ranking: &Ranking) -> Network {
 }
 
 impl Network {
+    /// Adds a vertex to a layer.
     fn vertex(&mut self, kind: Kind, layer: usize, room: Room) -> usize {
         let index = self.vertices.len();
         let (before, after) = (Vec::new(), Vec::new());
@@ -61,6 +73,7 @@ impl Network {
         index
     }
 
+    /// Adds the vertices of a link between its nodes; the label goes into layer `label`.
     fn chain(&mut self, graph: &Graph, link: usize, ranking: &Ranking, label: usize) -> Vec<usize> {
         let (left, right) = ends(graph, link, ranking);
         let mut chain = vec![left];
@@ -75,6 +88,7 @@ impl Network {
         chain
     }
 
+    /// Joins the vertices of a chain by segments.
     fn connect(&mut self, chain: &[usize], weight: f64) {
         for pair in chain.windows(2) {
             let &[a, b] = pair else { continue };
@@ -92,7 +106,8 @@ fn ends(graph: &Graph, link: usize, ranking: &Ranking) -> (usize, usize) {
     if ranking.backward[link] { (to, from) } else { (from, to) }
 }
 
-/// The layer of each link's label: the emptiest that it passes, shorter links first.
+/// The layer of each link's label: the one with the least height taken so far, of those that the
+/// link passes. Short links choose first, since they have less choice.
 fn label_layers(graph: &Graph, ranking: &Ranking) -> Vec<usize> {
     let ranks = |link: usize| {
         let (left, right) = ends(graph, link, ranking);

@@ -1,15 +1,24 @@
-//! The order of the vertices in each layer: few crossings.
+//! Third step: an order of the vertices in each layer with few crossings.
 //!
-//! Barycentre sweeps to and fro, each followed by exchanges of neighbours; the best order met is
-//! kept.
+//! Sweeps to and fro sort each layer by the barycentres of the neighbours in the layer before
+//! (Sugiyama, Tagawa and Toda, 1981); after each sweep neighbours are exchanged as long as that
+//! removes crossings, as in the *transpose* step of Gansner et al. (1993). The best order that was
+//! met is kept, since a sweep can make things worse. Fewest crossings are NP-hard even for
+//! two layers of which one is fixed (Eades and Wormald, 1994).
+//!
+//! Crossings are counted as inversions in a Fenwick tree, in O(e log v) for each pair of layers
+//! (Barth, Mutzel and Jünger, "Simple and Efficient Bilayer Cross Counting", 2004).
 
 use super::network::Network;
 
-/// Work after which the sweeps stop, in segments looked at.
+/// The segments that all sweeps together may look at: it bounds the time of large graphs, which get
+/// fewer sweeps.
 const WORK: usize = 4_000_000;
-/// The most sweeps.
+/// The most sweeps. Small graphs stop earlier, at an order without crossings, or find nothing
+/// better long before.
 const SWEEPS: usize = 40;
 
+/// Sorts the layers of the network. The vertex `lowest` is kept at the bottom of its layer.
 pub(super) fn order(network: &mut Network, lowest: Option<usize>) {
     let mut sorter = Sorter::new(network, lowest);
     sorter.start();
@@ -32,6 +41,7 @@ pub(super) fn order(network: &mut Network, lowest: Option<usize>) {
     }
 }
 
+/// An order that is being improved.
 struct Sorter<'a> {
     network: &'a Network,
     layers: Vec<Vec<usize>>,
@@ -45,7 +55,7 @@ impl<'a> Sorter<'a> {
         Self { network, layers: network.layers.clone(), position, lowest }
     }
 
-    /// Puts what leads to the lowest node last.
+    /// Begins with the links to the lowest node at the bottom, where they have to end.
     fn start(&mut self) {
         let mut low = vec![false; self.network.vertices.len()];
         for chain in &self.network.chains {
@@ -58,12 +68,14 @@ impl<'a> Sorter<'a> {
         }
     }
 
+    /// Writes down the positions of a layer that has changed.
     fn number(&mut self, layer: usize) {
         for (i, &vertex) in self.layers[layer].iter().enumerate() {
             self.position[vertex] = i;
         }
     }
 
+    /// Sorts all layers once, from left to right or from right to left.
     fn sweep(&mut self, rightward: bool) {
         let count = self.layers.len();
         for step in 0..count {
@@ -73,6 +85,8 @@ impl<'a> Sorter<'a> {
         }
     }
 
+    /// Sorts a layer by barycentres. The sort is stable, so ties keep their order and the result is
+    /// the same on every machine.
     fn sort(&mut self, layer: usize, rightward: bool) {
         let mut keyed: Vec<(f64, usize)> = (self.layers[layer].iter())
             .map(|&vertex| (self.barycentre(vertex, rightward), vertex))
@@ -81,6 +95,7 @@ impl<'a> Sorter<'a> {
         self.layers[layer] = keyed.into_iter().map(|(_, vertex)| vertex).collect();
     }
 
+    /// The mean position of the neighbours on one side; the own position if there are none.
     fn barycentre(&self, vertex: usize, rightward: bool) -> f64 {
         if self.lowest == Some(vertex) {
             return f64::INFINITY;
@@ -94,7 +109,7 @@ impl<'a> Sorter<'a> {
         sum as f64 / neighbours.len() as f64
     }
 
-    /// Exchanges neighbours as long as that removes crossings.
+    /// Exchanges neighbours as long as that removes crossings, at most eight times over.
     fn exchange(&mut self) {
         for _ in 0..8 {
             let mut better = false;
@@ -114,7 +129,7 @@ impl<'a> Sorter<'a> {
         }
     }
 
-    /// The crossings of segments of `upper` with segments of `lower` if they stand so.
+    /// The number of crossings between the segments of two neighbours if they stand in this order.
     fn between(&self, upper: usize, lower: usize) -> usize {
         let (upper, lower) = (&self.network.vertices[upper], &self.network.vertices[lower]);
         let count = |upper: &[(usize, f64)], lower: &[(usize, f64)]| -> usize {
@@ -124,11 +139,13 @@ impl<'a> Sorter<'a> {
         count(&upper.before, &lower.before) + count(&upper.after, &lower.after)
     }
 
+    /// The number of crossings of the whole order.
     fn crossings(&self) -> usize {
         self.layers.iter().map(|layer| self.crossings_after(layer)).sum()
     }
 
-    /// Inversions between a layer and the next, counted in a Fenwick tree.
+    /// The number of crossings between a layer and the next: the inversions among the ends of its
+    /// segments, counted in a Fenwick tree.
     fn crossings_after(&self, layer: &[usize]) -> usize {
         let mut seen = vec![0_usize; self.network.vertices.len() + 1];
         let (mut crossings, mut total) = (0, 0);
@@ -146,6 +163,7 @@ impl<'a> Sorter<'a> {
     }
 }
 
+/// Counts one more entry at place `i` of a Fenwick tree.
 fn add(tree: &mut [usize], mut i: usize) {
     while i < tree.len() {
         tree[i] += 1;
@@ -153,6 +171,7 @@ fn add(tree: &mut [usize], mut i: usize) {
     }
 }
 
+/// The number of entries up to place `i` of a Fenwick tree.
 fn prefix(tree: &[usize], mut i: usize) -> usize {
     let mut sum = 0;
     while i > 0 {

@@ -1,9 +1,13 @@
-//! Coordinates: straight edges as far as order and sizes allow.
+//! Fourth step: coordinates, with edges as straight as order and sizes allow.
 //!
-//! Heights minimise the weighted squares of the differences along segments. Layer by layer, each
-//! vertex wants the mean height of its neighbours, and pooling adjacent violators gives the exact
-//! best heights that keep order and distances; the problem is convex, so the sweeps
-//! converge to its optimum.
+//! Heights minimise the weighted sum of squares of the height differences along segments, subject
+//! to the order and the distances in each layer. That is a convex problem. Block by block, with a
+//! layer as a block, it is *isotonic regression*: each vertex wants the weighted mean height of its
+//! neighbours, and pooling adjacent violators (Ayer et al., 1955) gives the exact best heights of a
+//! layer in linear time. The sweeps converge to the optimum.
+//!
+//! The usual method is that of Brandes and Köpf (2001), which is faster and takes points for
+//! vertices. Here labels differ in height, and the sizes are part of the problem.
 
 use super::network::{Kind, Network, Vertex};
 use super::straighten::{align, straighten};
@@ -11,17 +15,21 @@ use super::{Graph, Layout, Pass, Room, Route, port};
 
 /// The most sweeps over the layers.
 const SWEEPS: usize = 400;
-/// Vertices visited at most, over all sweeps.
+/// The most vertices that all sweeps together visit.
 const WORK: usize = 8_000_000;
-/// Heights that move less are at rest.
+/// Sweeps end when no height moves further, in pixels: a tenth of what the picture resolves.
 const REST: f64 = 0.01;
-/// Distance between two nodes, and between anything else.
+/// The distance between two nodes.
 const NODE_DISTANCE: f64 = 14.0;
+/// The distance between other neighbours in a layer.
 const DISTANCE: f64 = 5.0;
-/// The least and the greatest gap between layers, and how much of a height difference it needs.
+/// The least and the greatest gap between two layers.
 const GAP: (f64, f64) = (20.0, 84.0);
+/// The part of its climb by which a gap grows, so that a steep line still bends softly.
 const SLOPE: f64 = 0.24;
 
+/// Chooses all coordinates. Ports depend on heights and heights on ports, so both are computed
+/// twice.
 pub(super) fn place(graph: &Graph, network: &Network) -> Layout {
     let mut ports = vec![[0.0; 2]; network.chains.len()];
     let mut y = vec![0.0; network.vertices.len()];
@@ -38,6 +46,7 @@ pub(super) fn place(graph: &Graph, network: &Network) -> Layout {
     draw(graph, network, &ports, &y)
 }
 
+/// Turns heights and ports into the finished layout.
 fn draw(graph: &Graph, network: &Network, ports: &[[f64; 2]], y: &[f64]) -> Layout {
     let columns = columns(network, y);
     let x = |vertex: usize| {
@@ -76,6 +85,7 @@ fn draw(graph: &Graph, network: &Network, ports: &[[f64; 2]], y: &[f64]) -> Layo
     }
 }
 
+/// Sweeps over the layers, to and fro, until the heights rest.
 fn heights(network: &Network, ports: &[[f64; 2]], y: &mut [f64]) {
     let shifts = shifts(network, ports);
     let sweeps = (WORK / network.vertices.len().max(1)).clamp(4, SWEEPS);
@@ -91,8 +101,8 @@ fn heights(network: &Network, ports: &[[f64; 2]], y: &mut [f64]) {
     }
 }
 
-/// For each vertex how much lower than the middle of its neighbours it wants to be, weighted and
-/// summed: the lines to a node end at its ports.
+/// For each vertex the weighted sum of what its neighbours' heights have to be shifted by, since
+/// lines end at ports and not at anchors.
 fn shifts(network: &Network, ports: &[[f64; 2]]) -> Vec<f64> {
     let mut shifts = vec![0.0; network.vertices.len()];
     for (chain, port) in network.chains.iter().zip(ports) {
@@ -109,13 +119,13 @@ fn shifts(network: &Network, ports: &[[f64; 2]]) -> Vec<f64> {
     shifts
 }
 
-/// The distance that the anchors of two neighbours in a layer keep.
+/// The distance that the anchors of two neighbours in a layer must keep.
 pub(super) fn distance(upper: &Vertex, lower: &Vertex) -> f64 {
     let nodes = upper.kind == Kind::Node && lower.kind == Kind::Node;
     upper.room.down + lower.room.up + if nodes { NODE_DISTANCE } else { DISTANCE }
 }
 
-/// For each vertex of a layer how far below the first it is at least.
+/// For each vertex of a layer its least distance below the first.
 fn offsets(network: &Network, layer: &[usize]) -> Vec<f64> {
     let mut offsets = vec![0.0; layer.len()];
     for i in 1..layer.len() {
@@ -125,15 +135,15 @@ fn offsets(network: &Network, layer: &[usize]) -> Vec<f64> {
     offsets
 }
 
-/// Stacks a layer around height 0.
+/// Stacks a layer as tightly as it goes, around height 0.
 fn stack(network: &Network, layer: &[usize], y: &mut [f64]) {
     let offsets = offsets(network, layer);
     let middle = offsets.last().map_or(0.0, |last| last / 2.0);
     layer.iter().zip(&offsets).for_each(|(&vertex, offset)| y[vertex] = offset - middle);
 }
 
-/// Gives the vertices of one layer their best heights, the others staying; returns the
-/// greatest move.
+/// Gives the vertices of one layer their best heights while all others stay; returns the greatest
+/// move. Subtracting the offsets turns "in order and apart" into "not falling".
 fn settle(network: &Network, layer: &[usize], shifts: &[f64], y: &mut [f64]) -> f64 {
     let offsets = offsets(network, layer);
     let wishes: Vec<(f64, f64)> = (layer.iter().zip(&offsets))
@@ -150,7 +160,8 @@ fn settle(network: &Network, layer: &[usize], shifts: &[f64], y: &mut [f64]) -> 
     moved
 }
 
-/// Where a vertex wants to be, and how much.
+/// The height that a vertex wants, and the weight of the wish. A vertex without neighbours wants,
+/// weakly, to stay.
 fn wish(vertex: &Vertex, shift: f64, y: &[f64], here: f64) -> (f64, f64) {
     let neighbours = vertex.before.iter().chain(&vertex.after);
     let (sum, weight) = neighbours.fold((0.0, 0.0), |(sum, total), &(other, weight)| {
@@ -159,8 +170,8 @@ fn wish(vertex: &Vertex, shift: f64, y: &[f64], here: f64) -> (f64, f64) {
     if weight == 0.0 { (here, 1e-3) } else { ((sum + shift) / weight, weight) }
 }
 
-/// The rising sequence that is nearest to weighted wishes in least squares (pool adjacent
-/// violators).
+/// The sequence that never falls and is nearest to weighted wishes in least squares, by pooling
+/// adjacent violators. Each wish is pooled at most once, so it takes linear time.
 pub(super) fn rising(wishes: &[(f64, f64)]) -> Vec<f64> {
     let mut blocks: Vec<(f64, f64, usize)> = Vec::new();
     for &(wish, weight) in wishes {
@@ -175,7 +186,7 @@ pub(super) fn rising(wishes: &[(f64, f64)]) -> Vec<f64> {
     blocks.iter().flat_map(|&(level, _, count)| std::iter::repeat_n(level, count)).collect()
 }
 
-/// Where each layer begins and ends.
+/// The left and the right border of each layer.
 fn columns(network: &Network, y: &[f64]) -> Vec<(f64, f64)> {
     let mut columns = Vec::new();
     let mut left = 0.0;
@@ -188,7 +199,7 @@ fn columns(network: &Network, y: &[f64]) -> Vec<(f64, f64)> {
     columns
 }
 
-/// The gap after a layer: wider where an edge climbs.
+/// The width of the gap after a layer: wider where an edge climbs.
 fn gap(network: &Network, layer: &[usize], y: &[f64]) -> f64 {
     let climbs = layer.iter().flat_map(|&vertex| {
         let after = network.vertices[vertex].after.iter();

@@ -1,20 +1,24 @@
-//! Where edges touch nodes.
+//! Ports: the points where edges touch nodes.
+//!
+//! Lines that meet a node at one point cannot be told apart. So each line touches the circle near
+//! the height that it comes from, in the order of the neighbouring layer, and at a distance from
+//! the next line.
 
 use super::Graph;
 use super::network::Network;
 use super::place::rising;
 
-/// Lines keep this distance at a node if there is room.
+/// The distance between two lines at a node, if there is room: about the width of an arrowhead.
 const DISTANCE: f64 = 7.0;
-/// The part of a node's radius that lines may touch.
+/// The part of the radius that lines may touch: at the rim they would graze the circle.
 const SPREAD: f64 = 0.86;
-/// A line that climbs less is drawn to the middle.
+/// A line that climbs less than this is drawn to the middle, where it is straight.
 const LEVEL: f64 = 12.0;
-/// How much a line that climbs is drawn off the middle.
+/// The part of its climb by which a line is drawn off the middle.
 const PULL: f64 = 0.3;
 
-/// For each link how far below the anchors of its left and its right node it touches them: as near
-/// as it can to where it comes from or goes to, in the order of the neighbouring layer.
+/// For each link the two heights, below the anchors of its left and its right node, at which it
+/// touches them.
 pub(super) fn ports(graph: &Graph, network: &Network, y: &[f64]) -> Vec<[f64; 2]> {
     let mut ports = vec![[0.0; 2]; network.chains.len()];
     for side in [0, 1] {
@@ -37,7 +41,8 @@ pub(super) fn ports(graph: &Graph, network: &Network, y: &[f64]) -> Vec<[f64; 2]
     ports
 }
 
-/// Heights at a node for lines that climb so much, from top to bottom.
+/// The heights at a node for lines with these climbs, from top to bottom: isotonic regression
+/// again, on each line's own wish.
 fn spread(climbs: &[f64], radius: f64) -> Vec<f64> {
     let limit = SPREAD * radius;
     let gaps = climbs.len().saturating_sub(1) as f64;

@@ -1,12 +1,16 @@
-//! Bends that are not needed are taken out.
+//! Last step: bends that no neighbour needs are taken out.
+//!
+//! Least squares spreads a height difference over all segments of a link, which draws it as a
+//! staircase. One steep bend reads better than many flat ones, so the inner part of a link is made
+//! level wherever its neighbours leave room.
 
 use super::network::Network;
 use super::place::distance;
 
-/// Nodes whose heights differ less are put level.
+/// Nodes whose heights differ by less are made level: the eye sees such a difference as an error.
 const NEAR: f64 = 6.0;
 
-/// Puts linked nodes that are nearly level quite level, where their neighbours leave room.
+/// Makes linked nodes that are nearly level exactly level, where their neighbours leave room.
 pub(super) fn align(network: &Network, y: &mut [f64]) {
     let place = places(network);
     for chain in &network.chains {
@@ -24,7 +28,7 @@ pub(super) fn align(network: &Network, y: &mut [f64]) {
     }
 }
 
-/// The place of each vertex in its layer.
+/// The index of each vertex in its layer.
 fn places(network: &Network) -> Vec<usize> {
     let mut places = vec![0; network.vertices.len()];
     for layer in &network.layers {
@@ -33,8 +37,9 @@ fn places(network: &Network) -> Vec<usize> {
     places
 }
 
-/// Makes the inner part of each link level where its neighbours leave room, and, if it can, level
-/// with where the link touches one of its nodes, so that one bend is left, or none.
+/// Makes the inner part of each link level where its neighbours leave room, at the height of one of
+/// its ports if that is possible: then one bend is left, or none. A link that moves can make room
+/// for another, hence three passes.
 pub(super) fn straighten(network: &Network, ports: &[[f64; 2]], y: &mut [f64]) {
     let place = places(network);
     for _ in 0..3 {
@@ -46,7 +51,8 @@ pub(super) fn straighten(network: &Network, ports: &[[f64; 2]], y: &mut [f64]) {
     }
 }
 
-/// Levels all inner vertices of a link, or, if they have not the room, as many in a row as have.
+/// Levels all inner vertices of a link at once; if they have no common height, the longest runs
+/// that have one, from left to right.
 fn level_runs(
     network: &Network,
     place: &[usize],
@@ -69,11 +75,12 @@ fn level_runs(
     }
 }
 
+/// The mean height of some vertices.
 fn mean(vertices: &[usize], y: &[f64]) -> f64 {
     vertices.iter().map(|&vertex| y[vertex]).sum::<f64>() / vertices.len() as f64
 }
 
-/// The heights that all of `vertices` can have, their neighbours staying.
+/// The least and the greatest height that all of `vertices` can have while their neighbours stay.
 fn room(network: &Network, place: &[usize], vertices: &[usize], y: &[f64]) -> (f64, f64) {
     let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
     for &vertex in vertices {
@@ -89,7 +96,8 @@ fn room(network: &Network, place: &[usize], vertices: &[usize], y: &[f64]) -> (f
     (low, high)
 }
 
-/// The height to take: that of an end, first of the one with fewer lines; else as it is.
+/// The height for a run: that of one of its ends, first of the one with fewer lines, where a bend
+/// would be seen most; else the nearest to the present height.
 fn level(network: &Network, mut ends: [(usize, f64); 2], (low, high): (f64, f64), now: f64) -> f64 {
     let lines = [network.vertices[ends[0].0].after.len(), network.vertices[ends[1].0].before.len()];
     if lines[1] <= lines[0] {

@@ -1,4 +1,7 @@
-//! Lines with arrowheads.
+//! Lines with arrowheads, as SVG paths.
+//!
+//! Arrowheads are shapes of their own, not SVG markers: a marker needs an id, and ids clash when
+//! drawings are put together.
 
 use std::fmt::Write as _;
 
@@ -7,7 +10,8 @@ use crate::emit::layout::Route;
 
 type Point = (f64, f64);
 
-/// The length and half the width of an arrowhead.
+/// The length and half the width of an arrowhead. Lines end within it, so that they do not show at
+/// its tip.
 const HEAD: (f64, f64) = (7.5, 3.0);
 
 /// A line and its arrowhead.
@@ -18,7 +22,7 @@ pub(super) struct Arrow {
 }
 
 impl Arrow {
-    /// A straight arrow to the right.
+    /// A straight, level arrow to the right.
     pub(super) fn line(from: Point, to: Point) -> Self {
         let path = format!("M{} H{}", point(from), number(to.0 - HEAD.0 + 1.0));
         Self { path, head: (to, (1.0, 0.0)) }
@@ -26,7 +30,9 @@ impl Arrow {
 
     /// A self-loop over the top of a circle, `height` high.
     pub(super) fn loop_above((x, y): Point, radius: f64, height: f64) -> Self {
-        // The angles 27° (foot) and 15° (control points) from the vertical.
+        // The feet are at 27° from the vertical (0.454 and 0.891 are sine and cosine), and the
+        // lines from the feet to the control points lean outwards by 20° (tan 20° = 0.36). A cubic
+        // curve rises to 3/4 of the height of its control points.
         let (foot_x, foot_y) = (0.454 * radius, 0.891 * radius);
         let reach = (height + radius - foot_y) / 0.75;
         let (bend_x, bend_y) = (foot_x + 0.36 * reach, foot_y + reach);
@@ -60,7 +66,7 @@ impl Arrow {
         Self { path, head }
     }
 
-    /// As elements of SVG.
+    /// The line and the head as elements of SVG.
     pub(super) fn draw(&self, colour: &str) -> String {
         let (tip, (dx, dy)) = self.head;
         let back = (tip.0 - HEAD.0 * dx, tip.1 - HEAD.0 * dy);
@@ -76,7 +82,8 @@ impl Arrow {
     }
 }
 
-/// Goes on level to `from` and bends to `to`, level at both ends.
+/// Goes on level to `from` and bends to `to`, level at both ends. A climb of less than a third of a
+/// pixel is no bend.
 fn bend(path: &mut String, from: Point, to: Point) {
     let middle = (from.0 + to.0) / 2.0;
     if (from.1 - to.1).abs() < 0.3 {
@@ -92,11 +99,13 @@ fn bend(path: &mut String, from: Point, to: Point) {
     );
 }
 
+/// The direction of a vector; downwards if it has no length.
 fn unit((x, y): Point) -> Point {
     let length = (x * x + y * y).sqrt();
     if length == 0.0 { (0.0, 1.0) } else { (x / length, y / length) }
 }
 
+/// The coordinates of a point.
 fn point((x, y): Point) -> String {
     format!("{} {}", number(x), number(y))
 }

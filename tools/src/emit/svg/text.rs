@@ -1,4 +1,8 @@
-//! Text of a picture: how wide it is, how it is wrapped, and the legend for what is too long.
+//! Texts of a picture: their widths, their lines, and the legend for those that are too long.
+//!
+//! Widths are estimated, since no font is read: a table of the advances of Helvetica, and 4 % more
+//! for the fonts that stand in for it. Layout needs widths before anything is drawn, and the same
+//! ones on every machine.
 
 use std::fmt::Write as _;
 
@@ -6,7 +10,7 @@ use super::number;
 use crate::emit::sum::{Notation, Sum};
 use tltl_compiler::dfa::{Dfa, Edge};
 
-/// The look of a text.
+/// The size and the weight of a text.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Font {
     pub(super) size: f64,
@@ -19,13 +23,13 @@ pub(super) const SMALL: Font = Font { size: 11.0, weight: "normal" };
 pub(super) const STATE: Font = Font { size: 13.0, weight: "normal" };
 /// The line above the picture.
 pub(super) const TITLE: Font = Font { size: 14.0, weight: "bold" };
-/// From one line of a guard to the next.
+/// The distance between two lines of a guard.
 pub(super) const LINE: f64 = 13.0;
-/// A line of a guard is not wider than this, if it can be broken.
+/// The width to which a guard is wrapped, if it can be broken.
 const WRAP: f64 = 118.0;
-/// A guard of more lines goes to the legend.
+/// The most lines of a guard on an edge; a longer one goes to the legend.
 const LINES: usize = 3;
-/// The legend is at least so wide.
+/// The least width of the legend.
 const LEGEND: f64 = 360.0;
 /// The least room between two words of a line.
 const SPACE: f64 = 4.0;
@@ -45,11 +49,12 @@ impl Label {
         Self { lines, width }
     }
 
+    /// The height of all lines.
     pub(super) fn height(&self) -> f64 {
         LINE * self.lines.len() as f64
     }
 
-    /// The label with its last line standing at `bottom`.
+    /// Draws the label, its last line standing at `bottom`.
     pub(super) fn draw(&self, x: f64, bottom: f64, colour: &str) -> String {
         let mut drawn = String::new();
         for (i, line) in self.lines.iter().rev().enumerate() {
@@ -59,19 +64,20 @@ impl Label {
     }
 }
 
-/// The guards that are too long to stand on an edge, under their names.
+/// The guards that are too long to stand on an edge, numbered in order of appearance.
 pub(super) struct Legend {
     guards: Vec<Vec<String>>,
     notation: Notation,
 }
 
 impl Legend {
-    /// No guard yet.
+    /// A legend without guards.
     pub(super) fn new(notation: Notation) -> Self {
         Self { guards: Vec::new(), notation }
     }
 
-    /// The label of an edge; a long one becomes a name, and equal ones the same name.
+    /// The label of an edge. A guard that is too long becomes a name, and equal guards the same
+    /// name.
     pub(super) fn label(&mut self, dfa: &Dfa, edge: &Edge) -> Label {
         let sum = Sum::new(&dfa.propositions, &edge.guard).notation(self.notation);
         let products: Vec<String> = sum.products().collect();
@@ -117,7 +123,7 @@ fn wrap(products: &[String], or: &str, limit: f64) -> Vec<String> {
     fill(joined, SMALL, limit)
 }
 
-/// A title on as few lines as the width allows, broken at spaces.
+/// A title on as few lines as the width allows, and at least 320 pixels wide.
 pub(super) fn wrap_title(title: &str, limit: f64) -> Vec<String> {
     fill(title.split_whitespace().map(str::to_owned), TITLE, limit.max(320.0))
 }
@@ -138,17 +144,20 @@ fn fill(words: impl Iterator<Item = String>, font: Font, limit: f64) -> Vec<Stri
     lines
 }
 
+/// A number in subscript digits.
 fn subscript(number: usize) -> String {
     let digit = |c: char| char::from_u32(0x2080 + c.to_digit(10).unwrap_or(0)).unwrap_or(c);
     number.to_string().chars().map(digit).collect()
 }
 
-/// How wide a text is: the widths of Helvetica, and a little more for other fonts.
+/// The width of a text, estimated for the widest of the fonts.
 pub(super) fn width(text: &str, font: Font) -> f64 {
     let bold = if font.weight == "bold" { 1.06 } else { 1.0 };
     text.chars().map(advance).sum::<f64>() * font.size * 1.04 * bold
 }
 
+/// The advance of a character in Helvetica, over the size of the font; similar characters are
+/// grouped, and rounded up.
 fn advance(c: char) -> f64 {
     match c {
         'i' | 'j' | 'l' | '\'' => 0.22,
@@ -177,6 +186,7 @@ pub(super) fn centred(x: f64, y: f64, text: &str, font: &Font, colour: &str) -> 
     element(x, y, text, font, "middle", colour)
 }
 
+/// A text element.
 fn element(x: f64, y: f64, text: &str, font: &Font, anchor: &str, colour: &str) -> String {
     let mut element = format!("<text x=\"{}\" y=\"{}\"", number(x), number(y));
     let _ = write!(element, " font-family=\"{FAMILY}\" font-size=\"{}\"", number(font.size));
@@ -188,7 +198,7 @@ fn element(x: f64, y: f64, text: &str, font: &Font, anchor: &str, colour: &str) 
     element
 }
 
-/// Text for XML; control characters, which XML cannot say, are left out.
+/// Escapes text for XML. Control characters, which XML cannot express, are left out.
 pub(super) fn escape(text: &str) -> String {
     let mut escaped = String::new();
     for c in text.chars() {
