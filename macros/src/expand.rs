@@ -1,4 +1,8 @@
-//! What the macros do, testable without a compiler around it.
+//! The work of the macros, on `proc_macro2` tokens, so that it can be tested without a compiler
+//! around it.
+//!
+//! Tokens become text ([`Flat`]), the compiler compiles the text, and its result becomes tokens.
+//! Errors become `compile_error!` at the tokens that the author wrote.
 
 use std::path::{Path, PathBuf};
 
@@ -14,7 +18,10 @@ use tltl_compiler::translate::Budget;
 
 use crate::tokens::{Flat, visible};
 
-/// `tltl!{ … }`
+/// Expands `tltl!{ … }`.
+///
+/// On a mistake it expands to the errors, and for a formula to a value of the right type beside
+/// them: without one, rustc would add a mistake of its own at each use.
 pub(crate) fn inline(input: TokenStream) -> TokenStream {
     let (runtime, input) = runtime_path(input);
     let flat = Flat::new(input);
@@ -39,7 +46,8 @@ pub(crate) fn inline(input: TokenStream) -> TokenStream {
     }
 }
 
-/// `include_tltl!("path")` of a task file or of an automaton in HOA, with `state = Type`, `mod = name` and `crate = path` after it.
+/// Expands `include_tltl!("path")` of a task file or of an automaton in HOA, with `state = Type`,
+/// `mod = name` and `crate = path` after the path.
 pub(crate) fn include(input: TokenStream) -> TokenStream {
     let arguments = match Arguments::parse(input) {
         Ok(arguments) => arguments,
@@ -62,7 +70,7 @@ pub(crate) fn include(input: TokenStream) -> TokenStream {
     arguments.module(&file, &code)
 }
 
-/// The tasks of a file.
+/// Expands a task file.
 fn tasks(source: &Source, arguments: &Arguments) -> TokenStream {
     let compiled = match compile::file(source, Budget::default()) {
         Ok(compiled) => compiled,
@@ -84,7 +92,7 @@ fn tasks(source: &Source, arguments: &Arguments) -> TokenStream {
     rust::code(&compiled, &options)
 }
 
-/// An automaton in HOA as a task.
+/// Expands an automaton in HOA to a task.
 #[cfg(feature = "hoa")]
 fn automaton(source: &Source, arguments: &Arguments) -> TokenStream {
     match tltl_compiler::hoa::read(source) {
@@ -96,7 +104,8 @@ fn automaton(source: &Source, arguments: &Arguments) -> TokenStream {
     }
 }
 
-/// Most users of the macros have no automata of other tools: reading them is not built for all.
+/// Reports that the feature is off. It is not a default: most users have no automata of other
+/// tools, and all would build the reader.
 #[cfg(not(feature = "hoa"))]
 fn automaton(source: &Source, arguments: &Arguments) -> TokenStream {
     let message = format!(
@@ -106,16 +115,19 @@ fn automaton(source: &Source, arguments: &Arguments) -> TokenStream {
     refusal(&message, arguments.span)
 }
 
-/// The mistakes of a file, with its own lines and carets, at the path that names it.
+/// The mistakes of a file, with its own lines and carets, at the path that names it: rustc can
+/// underline nothing in a file that it does not read.
 fn failure(errors: &Errors, source: &Source, span: Span) -> TokenStream {
     refusal(&format!("\n{}", errors.render(source, Style::Plain)), span)
 }
 
+/// A message at one place.
 fn refusal(message: &str, span: Span) -> TokenStream {
     quote_spanned! { span => ::core::compile_error! { #message } }
 }
 
-/// Whether a source that does not compile was meant as declarations.
+/// Whether a source that does not compile was meant as declarations. There may be no syntax tree to
+/// ask, so it looks at the first word after attributes.
 fn is_items(source: &Source) -> bool {
     let mut text = source.text().trim_start();
     while let (true, Some((_, rest))) = (text.starts_with("#["), text.split_once(']')) {
@@ -125,19 +137,24 @@ fn is_items(source: &Source) -> bool {
     words.iter().any(|word| text.starts_with(word))
 }
 
-/// An error at the tokens that it is about.
+/// An error at the tokens that it is about, with its other places and its help as notes.
+///
+/// `compile_error!` has the span of the first token and its braces that of the last; rustc
+/// underlines from one to the other. In a string literal the tokens have no spans of their own, so
+/// the report has lines and carets instead.
 fn message(error: &Error, source: &Source, flat: &Flat) -> TokenStream {
     let (first, last) = flat.spans(error.span());
     let mut text = error.message().to_owned();
     if flat.is_literal() {
         text = format!("\n{}", Errors::from(error.clone()).render(source, Style::Plain));
     } else {
-        // rustc underlines one place; why something can never hold stands beside several.
+        // rustc underlines one place. Of a predicate that can never hold, several places together
+        // are the reason; they are listed in one note.
         let never = error.kind() == Kind::Unsatisfiable;
         if never {
             text.push_str(&format!("\n= note: {}", error.place_label()));
         }
-        // The message of a unit has both sides in it.
+        // The message of a unit names both sides already.
         let whole = never || error.kind() == Kind::Unit;
         for (span, label) in error.places().iter().skip(1).filter(|_| !whole) {
             let quoted = source.text().get(span.start..span.end).unwrap_or_default();
@@ -150,7 +167,8 @@ fn message(error: &Error, source: &Source, flat: &Flat) -> TokenStream {
     quote! { #path #body }
 }
 
-/// The path of the runtime: `::tltl`, or what `#![crate = path]` at the start of the input says.
+/// The path of the runtime, and the rest of the input: `::tltl`, or the path that `#![crate =
+/// path]` gives at the start.
 fn runtime_path(input: TokenStream) -> (TokenStream, TokenStream) {
     let trees = visible(input.clone());
     if let [TokenTree::Punct(hash), TokenTree::Punct(bang), TokenTree::Group(group), rest @ ..] =
@@ -167,7 +185,7 @@ fn runtime_path(input: TokenStream) -> (TokenStream, TokenStream) {
     (quote! { ::tltl }, input)
 }
 
-/// The arguments of `include_tltl!`.
+/// The arguments of `include_tltl!`; `span` is that of the path.
 struct Arguments {
     path: String,
     span: Span,
@@ -177,6 +195,7 @@ struct Arguments {
 }
 
 impl Arguments {
+    /// Reads the arguments; the error is a message and its place.
     fn parse(input: TokenStream) -> Result<Self, (String, Span)> {
         let mut parts = split(input).into_iter();
         let first = parts.next().unwrap_or_default();
@@ -195,6 +214,7 @@ impl Arguments {
         Ok(arguments)
     }
 
+    /// Reads one `name = value`.
     fn option(&mut self, part: &[TokenTree]) -> Result<(), (String, Span)> {
         let (name, equals, value) = match part {
             [TokenTree::Ident(name), TokenTree::Punct(equals), value @ ..] => {
@@ -215,24 +235,27 @@ impl Arguments {
         Ok(())
     }
 
-    /// Where the file is.
+    /// The absolute path of the file, which the module includes.
     fn file(&self) -> PathBuf {
         let root = std::env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from).unwrap_or_default();
         let file = root.join(&self.path);
         std::path::absolute(&file).unwrap_or(file)
     }
 
+    /// The path of the runtime as the module sees it.
     fn runtime(&self) -> TokenStream {
         self.runtime.clone().unwrap_or_else(|| quote! { ::tltl })
     }
 
-    /// The module sees what is around it only where it must find what a path there names.
+    /// Whether the module sees the names around it. It does only if a path in the arguments has to
+    /// be found there, so that no name of the author can change the meaning of the code.
     fn place(&self) -> Place {
         let sees = self.state.is_some() || self.runtime.is_some();
         if sees { Place::Scope } else { Place::Module }
     }
 
-    /// The first word of a path in the arguments that means something else within the module.
+    /// The first word of a path in the arguments that would mean an item of the module inside it,
+    /// and its place.
     fn hidden(&self, compiled: &Compiled) -> Option<(String, Span)> {
         let module = &compiled.module;
         let factored = compiled.factored.iter().map(|factored| &factored.task);
@@ -247,7 +270,9 @@ impl Arguments {
         words.into_iter().find(named).map(|word| (word.to_string(), word.span()))
     }
 
-    /// The module around the code, which cargo rebuilds when the file changes.
+    /// The module around the code. `include_bytes!` makes cargo rebuild when the file changes; a
+    /// macro on stable Rust has no other way to say so. The bytes are dropped, since the constant
+    /// has no name.
     fn module(&self, file: &Path, code: &TokenStream) -> TokenStream {
         let stem = rust::module_name(&self.stem());
         let name = self.name.clone().unwrap_or_else(|| quote! { #stem });
@@ -264,14 +289,15 @@ impl Arguments {
         }
     }
 
-    /// The file's name without its extension.
+    /// The name of the file without its extension.
     fn stem(&self) -> String {
         let stem = Path::new(&self.path).file_stem().unwrap_or_default();
         stem.to_string_lossy().into_owned()
     }
 }
 
-/// A path as it is seen from the module within.
+/// A path of the arguments as it is written inside the module: `super` and `self` are one level
+/// further out there.
 fn outward(path: TokenStream) -> TokenStream {
     let mut trees = path.clone().into_iter();
     match trees.next() {
@@ -284,7 +310,7 @@ fn outward(path: TokenStream) -> TokenStream {
     }
 }
 
-/// The words of a type or a path that are looked up where they stand.
+/// The words of a type or a path that are looked up by scope: all that do not follow a `:`.
 fn first_words(stream: TokenStream) -> Vec<Ident> {
     let mut words = Vec::new();
     let mut within = false;
@@ -299,7 +325,7 @@ fn first_words(stream: TokenStream) -> Vec<Ident> {
     words
 }
 
-/// The parts between commas.
+/// The parts between commas at the top level; commas within brackets belong to one token tree.
 fn split(input: TokenStream) -> Vec<Vec<TokenTree>> {
     let mut parts = vec![Vec::new()];
     for tree in visible(input) {

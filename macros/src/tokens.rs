@@ -1,24 +1,30 @@
-//! Tokens to text and back: what makes one grammar serve files, the command line and the macro.
+//! Tokens to text and back, so that files, the command line and the macros share one grammar and
+//! one set of messages.
 //!
-//! A [`Flat`] is the text of a token stream with the place of every token in it. The compiler
-//! reads the text; an error's bytes lead back to the tokens that the author wrote, so rustc
-//! underlines those, and Rust expressions inside a formula are spliced into the output as the
-//! very tokens that they were.
+//! A [`Flat`] is the text of a token stream with the place of every token in it. The compiler reads
+//! the text. The bytes of an error lead back to the tokens that the author wrote, so rustc
+//! underlines those, and a Rust expression inside a formula is put into the output as the very
+//! tokens that it was, with their hygiene and spans.
+//!
+//! `TokenStream::to_string` would give a text too, but its blanks are unspecified and it says
+//! nothing of places.
 
 use proc_macro2::{Delimiter, Group, Spacing, Span, TokenStream, TokenTree};
 use tltl_compiler::source;
 
-/// The text of a token stream, and where each token stands in it.
+/// The text of a token stream, and the place of each token in it.
+///
+/// Places are in the order of the text, and are ranges of its bytes.
 pub(crate) struct Flat {
     pub(crate) text: String,
-    /// Every token tree, groups before what they hold.
+    /// Every token tree with its range of bytes; a group stands before its content.
     places: Vec<(usize, usize, TokenTree)>,
-    /// Whether the text is the content of a string literal, whose parts have no span of their own.
+    /// Whether the text is the content of a string literal, whose parts have no spans of their own.
     literal: bool,
 }
 
 impl Flat {
-    /// Flattens what stands in the macro's brackets: a formula, or one string literal that holds it.
+    /// Flattens the input of a macro: a formula, or one string literal that holds it.
     pub(crate) fn new(input: TokenStream) -> Self {
         let mut trees = visible(input.clone());
         if let [TokenTree::Literal(literal)] = trees.as_slice()
@@ -32,6 +38,7 @@ impl Flat {
         flat
     }
 
+    /// Appends the text of a stream, with a blank where two tokens must not touch.
     fn stream(&mut self, stream: TokenStream) {
         let mut before: Option<TokenTree> = None;
         let mut trees = visible(stream).into_iter().peekable();
@@ -51,6 +58,7 @@ impl Flat {
         }
     }
 
+    /// Appends the text of a token, and its place.
     fn tree(&mut self, tree: &TokenTree) {
         let (start, place) = (self.text.len(), self.places.len());
         self.places.push((start, start, tree.clone()));
@@ -79,7 +87,7 @@ impl Flat {
         (first, touched.last().and_then(|(_, mark)| *mark).unwrap_or(first))
     }
 
-    /// The tokens of a part of the text.
+    /// The tokens of a part of the text. Groups that lie in it are taken whole.
     pub(crate) fn tokens(&self, span: source::Span) -> TokenStream {
         if self.literal {
             let text = self.text.get(span.start..span.end).unwrap_or_default();
@@ -104,7 +112,8 @@ impl Flat {
     }
 }
 
-/// Where a token stands, and its span; of a group, both brackets.
+/// The ranges and spans of a token that an error can point at; for a group, those of its two
+/// brackets.
 fn marks((start, end, tree): &(usize, usize, TokenTree)) -> [((usize, usize), Option<Span>); 2] {
     match tree {
         TokenTree::Group(group) if group.delimiter() != Delimiter::None => [
@@ -116,11 +125,12 @@ fn marks((start, end, tree): &(usize, usize, TokenTree)) -> [((usize, usize), Op
     }
 }
 
+/// Whether a token is a `#`.
 fn is_hash(tree: &TokenTree) -> bool {
     matches!(tree, TokenTree::Punct(punct) if punct.as_char() == '#')
 }
 
-/// The text of `[doc = "…"]`.
+/// The text of `[doc = "…"]`, the form that rustc gives to a doc comment.
 fn doc_line(tree: &TokenTree) -> Option<String> {
     let TokenTree::Group(group) = tree else { return None };
     let inner: Vec<TokenTree> = group.stream().into_iter().collect();
@@ -132,8 +142,8 @@ fn doc_line(tree: &TokenTree) -> Option<String> {
     }
 }
 
-/// The tokens without the invisible brackets that a macro's argument carries, where there is but
-/// one token in them, or a path: text has no such brackets, and needs none there.
+/// The tokens without the invisible brackets around an argument of a `macro_rules!` macro, if these
+/// hold one token or a path: text has no such brackets, and needs none there.
 pub(crate) fn visible(stream: TokenStream) -> Vec<TokenTree> {
     let mut trees = Vec::new();
     for tree in stream {
@@ -149,6 +159,7 @@ pub(crate) fn visible(stream: TokenStream) -> Vec<TokenTree> {
     trees
 }
 
+/// Whether a token can be a part of a path.
 fn is_of_a_path(tree: &TokenTree) -> bool {
     match tree {
         TokenTree::Ident(_) => true,
@@ -157,7 +168,7 @@ fn is_of_a_path(tree: &TokenTree) -> bool {
     }
 }
 
-/// The tokens, as if they stood at `span`.
+/// The tokens with the span of another place.
 fn placed(stream: TokenStream, span: Span) -> TokenStream {
     let placed = stream.into_iter().map(|mut tree| {
         if let TokenTree::Group(group) = &tree {
@@ -170,8 +181,9 @@ fn placed(stream: TokenStream, span: Span) -> TokenStream {
     placed.collect()
 }
 
-/// The brackets of a group. The invisible ones that a macro's argument carries become round, or
-/// braces around what begins like no formula: a closure, a reference.
+/// The brackets of a group. The invisible ones around an argument of a `macro_rules!` macro become
+/// round, so that the text keeps its structure; or braces if the content begins as Rust and not as
+/// a formula: a closure, a reference.
 fn delimiters(group: &Group) -> (&'static str, &'static str) {
     match group.delimiter() {
         Delimiter::Parenthesis => ("(", ")"),
@@ -185,8 +197,9 @@ fn delimiters(group: &Group) -> (&'static str, &'static str) {
     }
 }
 
-/// Whether a blank belongs between two tokens: always where they would run together, else where
-/// a reader wants one. The second may belong with `next`.
+/// Whether a blank belongs between two tokens: always where they would run together, else where a
+/// reader wants one, since messages quote the text. `next` is the token after the second, for
+/// ranges such as `1..5`.
 fn apart(before: &TokenTree, after: &TokenTree, next: Option<&TokenTree>) -> bool {
     let is_dot =
         |tree: &TokenTree| matches!(tree, TokenTree::Punct(punct) if punct.as_char() == '.');
@@ -206,7 +219,9 @@ fn apart(before: &TokenTree, after: &TokenTree, next: Option<&TokenTree>) -> boo
     }
 }
 
-/// The content of a string literal, plain or raw.
+/// The content of a string literal, plain or raw, with its escapes resolved; `None` if it is
+/// another literal. `proc_macro` offers no way to read one on stable Rust, and `syn` would have to
+/// be built for this alone.
 fn unquote(literal: &str) -> Option<String> {
     if let Some(raw) = literal.strip_prefix('r') {
         let body = raw.trim_matches('#');
@@ -228,6 +243,7 @@ fn unquote(literal: &str) -> Option<String> {
     Some(text)
 }
 
+/// The character that an escape stands for, after its backslash.
 fn escaped(rest: &mut std::str::Chars<'_>) -> Option<char> {
     Some(match rest.next()? {
         'n' => '\n',

@@ -22,7 +22,7 @@ use tltl_compiler::tables::tables;
 /// let source = Source::new("formula", "F a && F b");
 /// let compiled = compile::formula(&source, Budget::default())?;
 /// let rust = tltlc::emit::rust::file(&compiled);
-/// assert!(rust.starts_with("///`F a && F b`\npub static FORMULA: ::tltl::Formula ="));
+/// assert!(rust.starts_with("/// `F a && F b`\npub static FORMULA: ::tltl::Formula ="));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[must_use]
