@@ -176,12 +176,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     });
     let text = format!(
         "# Composition of two skills\n\n![Excess steps without traps](composition_steps.svg)\n\n\
-         ![Lost safety with traps](composition_traps.svg)\n\nExact skills (`Progress`, γ 0.95) composed on the paper's 8 × 10 \
-         grid; from scratch: {SCRATCH} environment steps with the default settings. P regret is the \
-         largest possible P(satisfied) less that of the greedy policy, in percent; excess steps are \
-         E[steps given success] over the fewest possible, negative where P is given away for speed. \
-         `Progress` is paid per edge, so its optimum need not have either optimum: `refined` *is* the \
-         optimum of the product for `Progress` (last column). Written by `cargo run --release \
+         ![Lost safety with traps](composition_traps.svg)\n\nTwo skills that are exact optima for \
+         `Progress` (γ 0.95) are composed on the paper's 8 × 10 grid. Learning from scratch takes \
+         {SCRATCH} environment steps with the default settings. P regret is the largest possible \
+         P(satisfied) minus that of the greedy policy, in percent. Excess steps are E[steps given \
+         success] over the fewest possible; they are negative where a policy gives up P for \
+         speed. `Progress` pays for each edge, so its optimum may have neither the largest P nor \
+         the fewest steps: `refined` *is* the optimum of the product for `Progress` (last \
+         column). Written by `cargo run --release \
          --example study_composition`.\n\n## The paper's layout\n\n{paper}\n## 100 random layouts\n\n\
          {random}"
     );

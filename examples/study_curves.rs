@@ -104,9 +104,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let bands = format!("Lines: means over {SEEDS} seeds; bands: their 95 % confidence intervals.");
     let remarks = [bands, EXPLAINED.to_owned()];
     let text = format!(
-        "# Learning curves\n\n![Learning curves](curves.svg)\n\nExpected steps of the greedy policy on \
-         `F a && F b`, episodes cut at {HORIZON}, exact for each policy; mean over {SEEDS} seeds with \
-         Student's 95 % interval. All explore at random. The optimum is 12.2002. Written by `cargo run \
+        "# Learning curves\n\n![Learning curves](curves.svg)\n\nThe curves show the expected \
+         steps of the greedy policy on `F a && F b`, computed exactly for each policy, with \
+         episodes cut at {HORIZON}. They are means over {SEEDS} seeds with Student's 95 % \
+         interval. All learners explore at random. The optimum is 12.2002. Written by `cargo run \
          --release --example study_curves`.\n\n{table}"
     );
     study.publish(".svg", &chart::svg(&title, &[row], &remarks))?;

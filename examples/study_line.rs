@@ -190,8 +190,9 @@ fn picture(rows: &[Composed]) -> String {
 }
 
 fn document(report: &Report, right: bool) -> String {
-    let mut text = "# The line world\n\n![Policies](line.svg)\n\nφ₁ = `F a && F b` composed with φ₂ = `!b U \
-                    a`, a (yellow) at −2, b (green) at 3, `Progress` with a penalty of 1 for the trap. \
+    let mut text = "# The line world\n\n![Policies](line.svg)\n\nThe task φ₁ = `F a && F b` is \
+                    composed with φ₂ = `!b U a`. Place a (yellow) is at −2, b (green) at 3. The reward is \
+                    `Progress` with a penalty of 1 for the trap. \
                     Written by `cargo run --release --example study_line`.\n\n| composition | P(satisfied) | \
                     E[steps] | optimal actions |\n| --- | --- | --- | --- |\n"
         .to_owned();

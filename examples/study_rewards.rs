@@ -187,14 +187,15 @@ fn figure(cases: &[Case]) -> Spread {
 fn head() -> String {
     let gamma = Settings::safe().gamma;
     format!(
-        "# Rewards\n\n![Regret by setting](rewards.svg)\n\nWhat the optimal policy of each reward is \
-         worth for the task itself, on the paper's grid, exactly: regret in P(satisfied) against the \
-         largest possible, and E[steps given success] over the fewest possible (negative where safety \
-         is given away). γ is {GAMMA}, and {gamma} for `Settings::safe`, which pays acceptance alone: \
-         the setting to take where a task has a trap. The last row is what it learns from {} million \
-         steps of experience, replayed, and from {} million where the certificate of that gives away more \
-         than 0.1 %. The figure has the percentages of all tasks and layouts, the \
-         dashed line at 0.1 %. Written by `cargo run --release --example study_rewards`.\n",
+        "# Rewards\n\n![Regret by setting](rewards.svg)\n\nThe tables show what the optimal \
+         policy of each reward is worth for the task itself, computed exactly on the paper's grid: \
+         its regret in P(satisfied) against the largest possible, and its E[steps given success] \
+         over the fewest possible (negative where a policy gives up safety). γ is {GAMMA}, and \
+         {gamma} for `Settings::safe`, which pays for acceptance alone; use this setting if a task \
+         has a trap. The last row is the policy that `Settings::safe` learns from {} million \
+         replayed steps of experience, or from {} million if the certificate after the first shows \
+         a regret of more than 0.1 %. The figure shows the percentages of all tasks and layouts; \
+         the dashed line is at 0.1 %. Written by `cargo run --release --example study_rewards`.\n",
         LEARNED[0] / 1_000_000,
         LEARNED[1] / 1_000_000
     )

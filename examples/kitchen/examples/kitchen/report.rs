@@ -132,18 +132,23 @@ const CLAIMS: [(&str, &[&str]); 6] = [
 const HEAD: &str = "# The kitchen\n\n\
 ![Success, action success and length of both tasks and of their composition](kitchen.svg)\n\n\
 The curves as numbers: [kitchen.csv](kitchen.csv). An episode of the composed policy: [as a table](kitchen_episode.txt), [as pictures](kitchen_episode.svg).\n\n\
-The paper's main experiment (Section 5.2, Figure 3) in an exact simulator: 17 objects, 39 receptacles, 62 \
-actions, hidden objects. The paper ran in AI2-THOR, and its specifications are lost with its supplement; what \
-is known and what is reconstructed is in the documentation of `tltl_kitchen`, and the formulas are in \
-`examples/kitchen/tasks/kitchen.tltl`. A star is a penalty of 0.1 for each failed action.\n\n\
-Double DQN with prioritized replay and PopArt, 2×128 units, one update every two steps; each step updates \
-the heads of all automaton states, and in task 2 it is relabelled with other goals. The network sees what \
-the agent has observed, relative to the goal, and the public rules (what may hold what, where one must \
-look). Curves are of 50 greedy episodes, with bands of a standard error over the seeds; the tables are of 500 (250 for the composition), all from random starts \
-that were not trained on. The composition learns from what the skills have seen, without a step \
-in the kitchen; c1 is their normalised sum, `max` their maximum, c2 the sum compensated, c3 all of Algorithm 2, \
-with advantage learning in both steps ([what that is for](kitchen_notes.md)). \
-From scratch has as many updates, at one environment step each. An episode is cut at 100 steps in task 1, else at 200, and counts as so long. \
+This study repeats the paper's main experiment (Section 5.2, Figure 3) in an exact simulator with \
+17 objects, 39 receptacles, 62 actions and hidden objects. The paper used AI2-THOR, and its \
+specifications are lost with its supplement. The documentation of `tltl_kitchen` says what is \
+known and what is reconstructed; the formulas are in `examples/kitchen/tasks/kitchen.tltl`. A \
+star marks a penalty of 0.1 for each failed action.\n\n\
+The learner is double DQN with prioritized replay and PopArt, with 2×128 units and one update \
+every two steps. Each step updates the heads of all automaton states; in task 2 it is also \
+relabelled with other goals. The network sees what the agent has observed, relative to the goal, \
+and the public rules: which receptacles may hold which objects, and where the agent must look. \
+Each point of a curve is the mean of 50 greedy episodes, with a band of one standard error over \
+the seeds; each entry of a table is the mean of 500 (250 for the composition). All these episodes \
+start at random states that were not trained on. The composition learns from the experience of \
+the skills, without a step in the kitchen: c1 is their normalised sum, `max` their maximum, c2 \
+the compensated sum, and c3 the whole of Algorithm 2, with advantage learning in both steps ([the \
+reasons](kitchen_notes.md)). Learning from scratch has as many updates, with one environment step \
+for each. An episode is cut at 100 steps in task 1 and at 200 elsewhere, and counts with that \
+length. \
 Written by `cargo run --release -p tltl-kitchen --example kitchen -- --full`.\n\n## Results\n";
 
 fn reference(trials: &Trials, problem: usize) -> Result<Reference, Box<dyn Error + Send + Sync>> {
