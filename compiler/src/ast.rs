@@ -4,7 +4,7 @@
 //! pass is a loop and dropping is flat, however deep the author nested. The nodes of one
 //! expression are neighbours, its root the last of them. Nothing is resolved here: whether a
 //! name is a field or a predicate, and whether an operand is a number or a formula, is for
-//! [`check`](crate::check).
+//! [`resolve`](crate::resolve) and [`check`](crate::check).
 
 mod print;
 
@@ -118,29 +118,26 @@ pub enum Node {
     Prefix(Prefix, NodeId),
     /// `left op right`. A chain `a < b < c` is `(a < b) < c` whose left operand has no brackets.
     Infix(Infix, NodeId, NodeId),
-    /// A value of an enumeration, which stands for a bound name.
-    Variant {
-        /// Which enumeration, counted in source order.
-        of: u32,
-        /// Which of its values.
-        number: u32,
-    },
     /// `for all name in set: body`, or `for some`
-    Quantified {
-        /// Whether for all.
-        all: bool,
-        /// The bound name.
-        name: Span,
-        /// What it ranges over.
-        set: Span,
-        /// The elements, if the set lists them, or the ends of a range of numbers: a range of
-        /// [`Ast::arguments`].
-        elements: Range<u32>,
-        /// Whether it is a range of numbers, and then whether the last is one of them.
-        range: Option<bool>,
-        /// The formula.
-        body: NodeId,
-    },
+    Quantified(Quantifier),
+}
+
+/// `for all name in set: body`, or `for some`
+#[derive(Clone, Debug, PartialEq)]
+pub struct Quantifier {
+    /// Whether for all.
+    pub all: bool,
+    /// The bound name.
+    pub name: Span,
+    /// What it ranges over.
+    pub set: Span,
+    /// The elements, if the set lists them, or the ends of a range of numbers: a range of
+    /// [`Ast::arguments`].
+    pub elements: Range<u32>,
+    /// Whether it is a range of numbers, and then whether the last is one of them.
+    pub range: Option<bool>,
+    /// The formula.
+    pub body: NodeId,
 }
 
 /// A node with its places.
@@ -349,9 +346,8 @@ impl Ast {
             Node::Field { base, .. } => vec![*base],
             Node::Index { base, index } => vec![*base, *index],
             Node::Call { callee, arguments } => [&[*callee], self.arguments(arguments)].concat(),
-            Node::Variant { .. } => vec![],
             Node::Prefix(_, a) => vec![*a],
-            Node::Quantified { elements, body, .. } => {
+            Node::Quantified(Quantifier { elements, body, .. }) => {
                 [self.arguments(elements), &[*body]].concat()
             }
             Node::Infix(_, a, b) => vec![*a, *b],

@@ -333,11 +333,22 @@ impl Function {
         ("ceil", Self::Ceil, 1),
     ];
 
-    /// The function called `name`, and how many arguments it takes.
+    /// The function called `name`.
     #[must_use]
-    pub fn named(name: &str) -> Option<(Self, usize)> {
-        let found = Self::ALL.into_iter().find(|(known, ..)| *known == name)?;
-        Some((found.1, found.2))
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|(known, ..)| *known == name).map(|found| found.1)
+    }
+
+    /// How many arguments it takes.
+    #[must_use]
+    pub fn arity(self) -> usize {
+        Self::ALL.into_iter().find(|(_, function, _)| *function == self).map_or(0, |found| found.2)
+    }
+
+    /// Whether it takes so many arguments.
+    #[must_use]
+    pub fn takes(self, count: usize) -> bool {
+        count == self.arity() || matches!(self, Self::Min | Self::Max) && count > 2
     }
 
     /// Its name.

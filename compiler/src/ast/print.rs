@@ -3,7 +3,7 @@
 
 use std::fmt;
 
-use super::{Arithmetic, Ast, Infix, Node, NodeId, Prefix};
+use super::{Arithmetic, Ast, Infix, Node, NodeId, Prefix, Quantifier};
 use crate::token::compact;
 
 /// An expression of an [`Ast`] that can be printed.
@@ -38,7 +38,7 @@ impl Ast {
     fn base(&self, id: NodeId) -> [Piece; 3] {
         let apart = matches!(
             self.node(id),
-            Node::Number(_) | Node::Prefix(..) | Node::Infix(..) | Node::Quantified { .. }
+            Node::Number(_) | Node::Prefix(..) | Node::Infix(..) | Node::Quantified(_)
         );
         let [open, close] = if apart { ["(", ")"] } else { ["", ""] };
         [Piece::Text(open), Piece::Node(id), Piece::Text(close)]
@@ -105,7 +105,7 @@ impl fmt::Display for Printed<'_> {
                         open.push(Step::Field(id));
                         open.extend(self.ast.base(base).into_iter().rev().map(Step::Piece));
                     }
-                    Node::Quantified { all, name, set, body, .. } => {
+                    Node::Quantified(Quantifier { all, name, set, body, .. }) => {
                         let slice = |span| self.ast.source().slice(span);
                         let word = if all { "all" } else { "some" };
                         write!(f, "for {word} {} in {}: ", slice(name), slice(set))?;
@@ -130,7 +130,7 @@ enum Step {
 
 fn level(node: &Node) -> u8 {
     match node {
-        Node::Quantified { .. } => 0,
+        Node::Quantified(_) => 0,
         Node::Infix(Infix::Implies, ..) => 1,
         Node::Infix(Infix::Or, ..) => 2,
         Node::Infix(Infix::And, ..) => 3,
@@ -166,7 +166,7 @@ fn wants_brackets(parent: &Node, ast: &Ast, id: NodeId, left: bool) -> bool {
         ) => left,
         (Node::Infix(Infix::Until | Infix::Then, ..), Node::Infix(Infix::Compare(_), ..)) => true,
         (Node::Prefix(op, _), Node::Infix(..)) => *op != Prefix::Minus || inner < 9,
-        (_, Node::Quantified { .. }) => true,
+        (_, Node::Quantified(_)) => true,
         (Node::Prefix(..), _) => inner < outer,
         (Node::Infix(Infix::Implies, ..), _) => inner < outer,
         _ => inner < outer || inner == outer && !left,

@@ -1,117 +1,106 @@
 //! Temporal operators that cannot stand where they do, or hardly mean what they say.
 
-use crate::ast::{Ast, Infix, Node, NodeId, Prefix};
+use crate::ast::{Infix, Prefix};
 use crate::error::{Error, Kind};
+use crate::resolve::{Expression, ExpressionId, Resolved};
 
 /// The error for the temporal operator `id` under the negation `by`.
-pub(super) fn negated(ast: &Ast, id: NodeId, by: NodeId) -> Error {
-    let operator = ast.entry(id).operator;
-    let symbol = ast.source().slice(operator);
-    let hidden = matches!(ast.node(by), Node::Infix(..));
-    let message = if hidden {
-        let text = bracketed(ast, id);
-        format!("the left side of `=>` is negated, and `!{text}` is outside the language")
-    } else {
-        let direct = matches!(ast.node(by), Node::Prefix(_, operand) if *operand == id);
-        let not = ast.source().slice(ast.entry(by).operator);
-        if direct {
-            format!("`{not}` cannot stand before `{symbol}`")
-        } else {
-            let text = bracketed(ast, id);
-            format!("this `{not}` reaches `{symbol}`, and `!{text}` is outside the language")
+pub(super) fn negated(resolved: &Resolved<'_>, id: ExpressionId, by: ExpressionId) -> Error {
+    let (symbol, not, text) = (resolved.symbol(id), resolved.symbol(by), bracketed(resolved, id));
+    let message = match resolved[by].expression {
+        Expression::Infix(..) => {
+            format!("the left side of `=>` is negated, and `!{text}` is outside the language")
         }
+        Expression::Prefix(_, operand) if operand == id => {
+            format!("`{not}` cannot stand before `{symbol}`")
+        }
+        _ => format!("this `{not}` reaches `{symbol}`, and `!{text}` is outside the language"),
     };
-    let negation = ast.entry(by).operator;
-    let related = if hidden { "`φ => ψ` means `!φ || ψ`" } else { "this negation reaches it" };
-    let (primary, other) = if hidden { (operator, negation) } else { (negation, operator) };
-    let error = Error::new(Kind::NegatedTemporal, message, primary);
-    let error = if hidden {
-        error.label(what(ast.node(id))).related(other, related)
-    } else {
-        error.related(other, what(ast.node(id)))
+    let (operator, negation) = (resolved.operator(id), resolved.operator(by));
+    let what = what(&resolved[id].expression);
+    let error = match resolved[by].expression {
+        Expression::Infix(..) => Error::new(Kind::NegatedTemporal, message, operator)
+            .label(what)
+            .related(negation, "`φ => ψ` means `!φ || ψ`"),
+        _ => Error::new(Kind::NegatedTemporal, message, negation).related(operator, what),
     };
-    advice(ast, id, error)
+    advice(resolved, id, error)
 }
 
 /// What a temporal operator says, for a label.
-fn what(node: &Node) -> &'static str {
-    match node {
-        Node::Prefix(Prefix::Eventually, _) => "\"eventually\"",
-        Node::Prefix(Prefix::Next, _) => "\"at the next state\"",
-        Node::Infix(Infix::Until, ..) => "\"until\"",
+fn what(expression: &Expression) -> &'static str {
+    match expression {
+        Expression::Prefix(Prefix::Eventually, _) => "\"eventually\"",
+        Expression::Prefix(Prefix::Next, _) => "\"at the next state\"",
+        Expression::Infix(Infix::Until, ..) => "\"until\"",
         _ => "\"then\"",
     }
 }
 
 /// Why the negation is outside the language, and what to write instead.
-fn advice(ast: &Ast, id: NodeId, error: Error) -> Error {
-    match *ast.node(id) {
-        Node::Prefix(Prefix::Next, operand) => {
-            let text = bracketed(ast, operand);
-            let next = ast.source().slice(ast.entry(id).operator);
-            error
+fn advice(resolved: &Resolved<'_>, id: ExpressionId, error: Error) -> Error {
+    let (reason, goal) = match resolved[id].expression {
+        Expression::Prefix(Prefix::Next, operand) => {
+            let (text, next) = (bracketed(resolved, operand), resolved.symbol(id));
+            return error
                 .help(format!(
                     "`!{next} {text}` would hold at the end of a trajectory for want of a next state"
                 ))
-                .help(format!("to ask for a next state without it, write `{next} !{text}`"))
+                .help(format!("to ask for a next state without it, write `{next} !{text}`"));
         }
-        Node::Prefix(_, operand) => {
-            let text = bracketed(ast, operand);
-            error
-                .help(format!(
-                    "it is \"always not {text}\": no finite trajectory can ever establish it, for the next state may break it"
-                ))
-                .help(format!("to stay out of {text} until a goal is reached, write `!{text} U goal`"))
+        Expression::Prefix(_, operand) => {
+            let text = bracketed(resolved, operand);
+            let reason = format!(
+                "it is \"always not {text}\": no finite trajectory can ever establish it, for the next state may break it"
+            );
+            (reason, text)
         }
-        Node::Infix(_, _, right) => {
-            let right = bracketed(ast, right);
-            error
-                .help(format!(
-                    "it would hold as long as {right} has not come: no finite trajectory can ever \
-                     establish it, for the next state may bring {right}"
-                ))
-                .help(format!(
-                    "to stay out of {right} until a goal is reached, write `!{right} U goal`"
-                ))
+        Expression::Infix(_, _, right) => {
+            let text = bracketed(resolved, right);
+            let reason = format!(
+                "it would hold as long as {text} has not come: no finite trajectory can ever establish it, for the next state may bring {text}"
+            );
+            (reason, text)
         }
-        _ => error,
-    }
+        _ => return error,
+    };
+    let rewrite = format!("to stay out of {goal} until a goal is reached, write `!{goal} U goal`");
+    error.help(reason).help(rewrite)
 }
 
 /// The text of an expression, in brackets if it has an operator.
-fn bracketed(ast: &Ast, id: NodeId) -> String {
-    let text = ast.quote(id);
-    match ast.node(id) {
-        Node::Prefix(..) | Node::Infix(..) | Node::Quantified { .. } => format!("({text})"),
+fn bracketed(resolved: &Resolved<'_>, id: ExpressionId) -> String {
+    let text = resolved.quote(id);
+    match &resolved[id].expression {
+        Expression::Prefix(..) | Expression::Infix(..) => format!("({text})"),
         _ => text,
     }
 }
 
 /// A warning if the operator `id` orders less than its author seems to think.
-pub(super) fn warning(ast: &Ast, id: NodeId) -> Option<Error> {
-    if let Node::Infix(Infix::Until, left, right) = *ast.node(id) {
-        return idle_until(ast, left, right);
+pub(super) fn warning(resolved: &Resolved<'_>, id: ExpressionId) -> Option<Error> {
+    if let Expression::Infix(Infix::Until, left, right) = resolved[id].expression {
+        return idle_until(resolved, left, right);
     }
-    let Node::Infix(Infix::Then, left, right) = *ast.node(id) else { return None };
-    let entry = ast.entry(left);
-    let right = ast.quote(right);
-    match *ast.node(left) {
-        Node::Prefix(Prefix::Eventually, a) if !entry.is_bracketed() => {
-            let a = ast.quote(a);
-            let f = ast.source().slice(entry.operator);
+    let Expression::Infix(Infix::Then, left, right) = resolved[id].expression else { return None };
+    let right = resolved.quote(right);
+    match resolved[left].expression {
+        Expression::Prefix(Prefix::Eventually, a) if !resolved.is_bracketed(left) => {
+            let a = resolved.quote(a);
+            let f = resolved.symbol(left);
             let message = format!(
                 "`{f} {a} T {right}` reads `({f} {a}) T {right}`, which does not order {a} before {right}"
             );
-            Some(Error::new(Kind::Intent, message, ast.span(left))
+            Some(Error::new(Kind::Intent, message, resolved.span(left))
                 .warning()
-                .related(ast.entry(id).operator, "\"then\" waits only for \"eventually\" to be certain")
+                .related(resolved.operator(id), "\"then\" waits only for \"eventually\" to be certain")
                 .help(format!("for {a} and later {right}, write `{a} T {right}`; to keep this meaning, write the brackets")))
         }
-        Node::Infix(Infix::Then, a, b) => {
-            let (a, b) = (ast.quote(a), ast.quote(b));
+        Expression::Infix(Infix::Then, a, b) => {
+            let (a, b) = (resolved.quote(a), resolved.quote(b));
             let message = format!("`({a} T {b}) T {right}` does not order {b} before {right}");
             Some(
-                Error::new(Kind::Intent, message, entry.outer)
+                Error::new(Kind::Intent, message, resolved[left].outer)
                     .warning()
                     .label(format!("this holds from the start, before {b} has come"))
                     .help(format!("for the three in this order, write `{a} T ({b} T {right})`")),
@@ -122,26 +111,26 @@ pub(super) fn warning(ast: &Ast, id: NodeId) -> Option<Error> {
 }
 
 /// A warning for `a U F b`, which says no more than `F b`.
-fn idle_until(ast: &Ast, left: NodeId, right: NodeId) -> Option<Error> {
-    let goal = match *ast.node(right) {
-        Node::Prefix(Prefix::Eventually, goal) => goal,
-        Node::Infix(Infix::Then, goal, _) => goal,
+fn idle_until(resolved: &Resolved<'_>, left: ExpressionId, right: ExpressionId) -> Option<Error> {
+    let goal = match resolved[right].expression {
+        Expression::Prefix(Prefix::Eventually, goal) => goal,
+        Expression::Infix(Infix::Then, goal, _) => goal,
         _ => return None,
     };
-    let (kept, text) = (ast.quote(left), ast.quote(right));
-    let operand = |id| match ast.node(id) {
-        Node::Prefix(..) => ast.quote(id),
-        _ => bracketed(ast, id),
+    let (kept, text) = (resolved.quote(left), resolved.quote(right));
+    let operand = |id| match &resolved[id].expression {
+        Expression::Prefix(..) => resolved.quote(id),
+        _ => bracketed(resolved, id),
     };
     let (keep, goal) = (operand(left), operand(goal));
     let message = format!(
         "`{kept}` does not matter: `{text}` already looks ahead, so `U` need not wait for it"
     );
     Some(
-        Error::new(Kind::Vacuous, message, ast.entry(left).outer)
+        Error::new(Kind::Vacuous, message, resolved[left].outer)
             .warning()
             .related(
-                ast.entry(right).operator,
+                resolved.operator(right),
                 "this is asked at the first state, not when it comes true",
             )
             .help(format!("to keep to {keep} until {goal} comes, write `{keep} U {goal}`")),

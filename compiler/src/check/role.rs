@@ -1,259 +1,281 @@
-//! From the root down: what each operand has to be, and what negates it.
+//! Roles: what each expression has to be where it stands, and what negates it. From the root down.
 
-use super::{Checker, intent};
-use crate::ast::{Comparison, Infix, Node, NodeId, Prefix};
+use super::intent;
+use crate::ast::{Comparison, Infix, Prefix};
 use crate::error::{Error, Kind};
-use crate::predicate::{Function, ParameterType, Scalar};
+use crate::predicate::{ParameterType, Scalar};
+use crate::resolve::{Callee, Expression, ExpressionId, Resolved};
 
 /// What an expression has to be where it stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Role {
     /// A formula of a task, under the negation `negated`: the `!`, or the `=>` whose left side it is.
-    Formula { negated: Option<NodeId> },
+    Formula { negated: Option<ExpressionId> },
     /// A condition of one state.
     Condition,
     /// A number.
     Number,
     /// The left part of a comparison chain.
     Chain,
-    /// A part of a place or of a Rust expression; whoever stands above reads it.
+    /// A value, an argument or an index; whoever stands above reads it.
     Part,
-    /// There is a mistake here, already told.
+    /// There is a mistake here, already reported.
     Broken,
 }
 
-/// The roles of the nodes of one expression.
+/// The roles of the expressions of one item.
 pub(super) struct Roles {
     first: u32,
     roles: Vec<Role>,
 }
 
 impl Roles {
-    pub(super) fn of(&self, id: NodeId) -> Role {
+    pub(super) fn of(&self, id: ExpressionId) -> Role {
         self.roles[self.position(id)]
     }
 
-    /// Where `id` stands among the nodes of the expression.
-    pub(super) fn position(&self, id: NodeId) -> usize {
+    /// Where `id` stands among the expressions of the item.
+    pub(super) fn position(&self, id: ExpressionId) -> usize {
         (id.0 - self.first) as usize
     }
 
-    /// The nodes of the expression with their roles, operands first.
-    pub(super) fn iter(&self) -> impl Iterator<Item = (NodeId, Role)> {
-        (self.first..).map(NodeId).zip(self.roles.iter().copied())
-    }
-
-    fn set(&mut self, id: NodeId, role: Role) {
-        let position = self.position(id);
-        self.roles[position] = role;
+    /// The expressions of the item with their roles, operands first.
+    pub(super) fn iter(&self) -> impl Iterator<Item = (ExpressionId, Role)> {
+        (self.first..).map(ExpressionId).zip(self.roles.iter().copied())
     }
 }
 
-impl Checker<'_> {
-    /// The roles in the expression `root`, which itself has to be a `role`.
-    pub(super) fn roles(&mut self, root: NodeId, role: Role) -> Roles {
-        let first = self.ast.first(root).0;
-        let count = (root.0 - first + 1) as usize;
-        let mut roles = Roles { first, roles: vec![Role::Part; count] };
-        roles.set(root, role);
-        for id in (first..=root.0).rev().map(NodeId) {
-            self.descend(id, &mut roles);
-        }
-        roles
+/// The roles of the expressions from `first` to `root`, which itself has to be a `role`.
+pub(super) fn roles(
+    resolved: &Resolved<'_>,
+    (first, root): (ExpressionId, ExpressionId),
+    role: Role,
+    mistakes: &mut Vec<Error>,
+) -> Roles {
+    let count = (root.0 - first.0 + 1) as usize;
+    let roles = Roles { first: first.0, roles: vec![Role::Part; count] };
+    let mut descent = Descent { resolved, roles, mistakes };
+    descent.set(root, role);
+    for id in (first.0..=root.0).rev().map(ExpressionId) {
+        descent.descend(id);
+    }
+    descent.roles
+}
+
+struct Descent<'r> {
+    resolved: &'r Resolved<'r>,
+    roles: Roles,
+    mistakes: &'r mut Vec<Error>,
+}
+
+impl Descent<'_> {
+    fn set(&mut self, id: ExpressionId, role: Role) {
+        let position = self.roles.position(id);
+        self.roles.roles[position] = role;
     }
 
-    fn descend(&mut self, id: NodeId, roles: &mut Roles) {
-        match roles.of(id) {
+    fn descend(&mut self, id: ExpressionId) {
+        match self.roles.of(id) {
             Role::Part => {}
-            Role::Broken => self.give(id, roles, Role::Broken),
-            Role::Number => self.descend_number(id, roles),
-            Role::Chain => self.descend_comparison(id, roles),
-            Role::Condition => self.descend_formula(id, roles, Role::Condition, None),
-            role @ Role::Formula { negated } => self.descend_formula(id, roles, role, negated),
+            Role::Broken => self.give(id, Role::Broken),
+            Role::Number => self.number(id),
+            Role::Chain => self.comparison(id),
+            role @ (Role::Condition | Role::Formula { .. }) => self.formula(id, role),
         }
     }
 
     /// Gives all operands of `id` the same role.
-    fn give(&self, id: NodeId, roles: &mut Roles, role: Role) {
-        for operand in self.ast.operands(id) {
-            roles.set(operand, role);
-        }
+    fn give(&mut self, id: ExpressionId, role: Role) {
+        self.resolved.operands(id).into_iter().for_each(|operand| self.set(operand, role));
     }
 
-    fn descend_formula(&mut self, id: NodeId, roles: &mut Roles, role: Role, by: Option<NodeId>) {
+    fn refuse(&mut self, id: ExpressionId, error: Error) {
+        self.mistakes.push(error);
+        self.set(id, Role::Broken);
+        self.give(id, Role::Broken);
+    }
+
+    fn formula(&mut self, id: ExpressionId, role: Role) {
         let flipped = match role {
-            Role::Formula { .. } => Role::Formula { negated: by.is_none().then_some(id) },
+            Role::Formula { negated } => Role::Formula { negated: negated.xor(Some(id)) },
             other => other,
         };
-        match *self.ast.node(id) {
-            Node::Prefix(Prefix::Not, operand) => roles.set(operand, flipped),
-            Node::Infix(Infix::And | Infix::Or, ..) => self.give(id, roles, role),
-            Node::Infix(Infix::Implies, left, right) => {
-                roles.set(left, flipped);
-                roles.set(right, role);
+        match &self.resolved[id].expression {
+            Expression::Prefix(Prefix::Not, operand) => self.set(*operand, flipped),
+            Expression::Infix(Infix::And | Infix::Or, ..) => self.give(id, role),
+            Expression::Infix(Infix::Implies, left, right) => {
+                self.set(*left, flipped);
+                self.set(*right, role);
             }
-            Node::Prefix(Prefix::Eventually | Prefix::Next, _)
-            | Node::Infix(Infix::Until | Infix::Then, ..) => {
-                self.descend_temporal(id, roles, role, by)
+            Expression::Prefix(Prefix::Eventually | Prefix::Next, _)
+            | Expression::Infix(Infix::Until | Infix::Then, ..) => self.temporal(id, role),
+            Expression::Infix(Infix::Compare(_), ..) => self.comparison(id),
+            Expression::Call(Callee { item: Some(item), .. }, arguments) => {
+                self.application(*item, arguments);
             }
-            Node::Infix(Infix::Compare(_), ..) => self.descend_comparison(id, roles),
-            Node::Number(_)
-            | Node::Text
-            | Node::Prefix(Prefix::Minus, _)
-            | Node::Infix(Infix::Calculate(_), ..) => {
-                self.refuse(id, roles, self.not_a_formula(id))
-            }
-            Node::Call { ref arguments, .. } if self.applied(id).is_some() => {
-                let arguments = self.ast.arguments(arguments).to_vec();
-                self.descend_application(id, &arguments, roles);
-            }
-            Node::Call { .. } if self.function(id).is_some() => {
-                self.refuse(id, roles, self.not_a_formula(id));
-            }
-            _ => {}
+            Expression::Truth(_) | Expression::Name(_) => {}
+            Expression::Number(_)
+            | Expression::Text
+            | Expression::Call(..)
+            | Expression::Prefix(Prefix::Minus, _)
+            | Expression::Infix(Infix::Calculate(_), ..) => self.refuse(id, self.not_a_formula(id)),
         }
     }
 
-    fn descend_temporal(&mut self, id: NodeId, roles: &mut Roles, role: Role, by: Option<NodeId>) {
-        if role == Role::Condition {
-            return self.refuse(id, roles, self.temporal_predicate(id));
-        }
-        if let Some(warning) = intent::warning(self.ast, id) {
-            self.mistakes.push(warning);
-        }
-        if let Some(negation) = by {
-            let error = intent::negated(self.ast, id, negation);
-            self.mistakes.push(error);
-            // The rest of the formula may hold mistakes of its own.
-        }
-        self.give(id, roles, Role::Formula { negated: None });
+    fn temporal(&mut self, id: ExpressionId, role: Role) {
+        let Role::Formula { negated } = role else {
+            return self.refuse(id, self.temporal_predicate(id));
+        };
+        self.mistakes.extend(intent::warning(self.resolved, id));
+        self.mistakes.extend(negated.map(|by| intent::negated(self.resolved, id, by)));
+        // The rest of the formula may hold mistakes of its own.
+        self.give(id, Role::Formula { negated: None });
     }
 
-    fn descend_comparison(&mut self, id: NodeId, roles: &mut Roles) {
-        let Node::Infix(Infix::Compare(_), left, right) = *self.ast.node(id) else { return };
-        if let Some(truth) = [left, right].into_iter().find(|side| self.is_truth(*side)) {
-            return self.refuse(id, roles, self.compared_truth(truth));
-        }
-        let chained = self.is_chained(left);
-        let value = |side: &NodeId| self.sort(*side).is_some();
-        if let Some(side) = [left, right].into_iter().skip(usize::from(chained)).find(value) {
-            if let Some(error) = self.ordered_values(id, side, chained) {
-                self.refuse(id, roles, error);
-            }
+    fn comparison(&mut self, id: ExpressionId) {
+        let Expression::Infix(Infix::Compare(op), left, right) = self.resolved[id].expression
+        else {
             return;
+        };
+        let is_truth =
+            |side: &ExpressionId| matches!(&self.resolved[*side].expression, Expression::Truth(_));
+        if let Some(truth) = [left, right].into_iter().find(is_truth) {
+            return self.refuse(id, self.compared_truth(truth));
         }
-        roles.set(left, if chained { Role::Chain } else { Role::Number });
-        roles.set(right, Role::Number);
+        let chained = self.resolved.is_chained(left);
+        let sides = if chained { &[right][..] } else { &[left, right] };
+        match sides.iter().find(|side| self.resolved.sort(**side).is_some()) {
+            Some(_) if !chained && matches!(op, Comparison::Equal | Comparison::Unequal) => {}
+            Some(side) => self.refuse(id, self.ordered_values(id, *side, chained)),
+            None => {
+                self.set(left, if chained { Role::Chain } else { Role::Number });
+                self.set(right, Role::Number);
+            }
+        }
     }
 
     /// A number is an operand of its own; a value is read with the predicate or task.
-    fn descend_application(&self, id: NodeId, arguments: &[NodeId], roles: &mut Roles) {
-        let Some((_, item)) = self.applied(id) else { return };
-        for (argument, parameter) in arguments.iter().zip(self.scope.parameters(item)) {
+    fn application(&mut self, item: usize, arguments: &[ExpressionId]) {
+        for (argument, parameter) in arguments.iter().zip(self.resolved.scope.parameters(item)) {
             if let ParameterType::Scalar(Scalar::Number(_)) = parameter.ty {
-                roles.set(*argument, Role::Number);
+                self.set(*argument, Role::Number);
             }
         }
     }
 
-    /// The error for values that are compared as if they had an order.
-    fn ordered_values(&self, id: NodeId, side: NodeId, chained: bool) -> Option<Error> {
-        let operator = self.ast.entry(id).operator;
-        let symbol = self.ast.source().slice(operator);
-        let text = self.ast.quote(side);
-        match *self.ast.node(id) {
-            Node::Infix(Infix::Compare(Comparison::Equal | Comparison::Unequal), ..)
-                if !chained =>
-            {
-                None
-            }
-            _ if chained => Some(
-                Error::new(
-                    Kind::Chain,
-                    format!("`{text}` is a value, and values are compared two at a time"),
-                    operator,
-                )
-                .help("write each comparison, with `&&` between them"),
-            ),
-            _ => Some(
-                Error::new(
-                    Kind::Type,
-                    format!(
-                        "`{text}` is a value and no number, so `{symbol}` says nothing about it"
-                    ),
-                    operator,
-                )
-                .help("values are compared with `==` and `!=` only"),
-            ),
-        }
-    }
-
-    fn is_truth(&self, id: NodeId) -> bool {
-        matches!(self.ast.node(id), Node::Truth(_))
-    }
-
-    fn compared_truth(&self, truth: NodeId) -> Error {
-        let message = "truth values are not compared";
-        Error::new(Kind::Type, message, self.ast.span(truth))
-            .help("for `p == true` write `p`, for `p == false` write `!p`")
-    }
-
-    /// Whether the left operand of a comparison is the part of a chain before it.
-    pub(super) fn is_chained(&self, left: NodeId) -> bool {
-        matches!(self.ast.node(left), Node::Infix(Infix::Compare(_), ..))
-            && !self.ast.entry(left).is_bracketed()
-    }
-
-    fn descend_number(&mut self, id: NodeId, roles: &mut Roles) {
-        match self.ast.node(id) {
-            Node::Prefix(Prefix::Minus, _) | Node::Infix(Infix::Calculate(_), ..) => {
-                self.give(id, roles, Role::Number);
-            }
-            Node::Call { arguments, .. } if self.function(id).is_some() => {
-                for argument in self.ast.arguments(arguments) {
-                    roles.set(*argument, Role::Number);
-                }
-            }
-            Node::Truth(_) | Node::Prefix(..) | Node::Infix(..) | Node::Quantified { .. } => {
-                self.refuse(id, roles, self.not_a_number(id));
+    fn number(&mut self, id: ExpressionId) {
+        match &self.resolved[id].expression {
+            Expression::Prefix(Prefix::Minus, _)
+            | Expression::Infix(Infix::Calculate(_), ..)
+            | Expression::Call(Callee { function: Some(_), .. }, _) => self.give(id, Role::Number),
+            Expression::Truth(_) | Expression::Prefix(..) | Expression::Infix(..) => {
+                self.refuse(id, self.not_a_number(id));
             }
             _ => {}
         }
     }
 
-    /// The function of numbers that a call calls.
-    pub(super) fn function(&self, id: NodeId) -> Option<(Function, usize)> {
-        let Node::Call { callee, .. } = self.ast.node(id) else { return None };
-        matches!(self.ast.node(*callee), Node::Name)
-            .then(|| Function::named(self.ast.text(*callee)))
-            .flatten()
+    /// The error for values that are compared as if they had an order, or in a chain.
+    fn ordered_values(&self, id: ExpressionId, side: ExpressionId, chained: bool) -> Error {
+        let text = self.resolved.quote(side);
+        let operator = self.resolved.operator(id);
+        if chained {
+            let message = format!("`{text}` is a value, and values are compared two at a time");
+            return Error::new(Kind::Chain, message, operator)
+                .help("write each comparison, with `&&` between them");
+        }
+        let symbol = self.resolved.symbol(id);
+        let message =
+            format!("`{text}` is a value and no number, so `{symbol}` says nothing about it");
+        Error::new(Kind::Type, message, operator)
+            .help("values are compared with `==` and `!=` only")
     }
 
-    fn refuse(&mut self, id: NodeId, roles: &mut Roles, error: Error) {
-        self.mistakes.push(error);
-        roles.set(id, Role::Broken);
-        self.give(id, roles, Role::Broken);
+    fn compared_truth(&self, truth: ExpressionId) -> Error {
+        let message = "truth values are not compared";
+        self.resolved
+            .type_error(truth, message)
+            .help("for `p == true` write `p`, for `p == false` write `!p`")
     }
 
-    fn not_a_formula(&self, id: NodeId) -> Error {
-        let text = self.ast.quote(id);
+    fn not_a_formula(&self, id: ExpressionId) -> Error {
+        let text = self.resolved.quote(id);
         let message = format!("`{text}` is a number, but a formula is needed here");
-        Error::new(Kind::Type, message, self.ast.entry(id).outer)
+        Error::new(Kind::Type, message, self.resolved[id].outer)
             .help(format!("compare it with something, such as `{text} < 1`"))
     }
 
-    fn not_a_number(&self, id: NodeId) -> Error {
-        let text = self.ast.quote(id);
+    fn not_a_number(&self, id: ExpressionId) -> Error {
+        let text = self.resolved.quote(id);
         let message = format!("`{text}` is true or false, but a number is needed here");
-        Error::new(Kind::Type, message, self.ast.entry(id).outer)
+        Error::new(Kind::Type, message, self.resolved[id].outer)
             .help("comparisons and arithmetic take numbers; `!`, `&&` and `F` give none")
     }
 
-    fn temporal_predicate(&self, id: NodeId) -> Error {
-        let entry = self.ast.entry(id);
-        let symbol = self.ast.source().slice(entry.operator);
+    fn temporal_predicate(&self, id: ExpressionId) -> Error {
+        let symbol = self.resolved.symbol(id);
         let message = format!("a predicate speaks of one state, so `{symbol}` cannot stand in it");
-        Error::new(Kind::Type, message, entry.operator)
+        Error::new(Kind::Type, message, self.resolved.operator(id))
             .help("declare it as a `task`: a task can be used inside other tasks")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::resolve::Names;
+    use crate::resolve::tests::{messages, read};
+
+    /// The roles of a formula's expressions, operands first, a letter each, and what is refused.
+    fn found(text: &str, role: Role) -> (String, Vec<String>) {
+        let (roles, mistakes) = read(Names::Free, text, |resolved, item, mistakes| {
+            let expressions = resolved.expressions[item].unwrap();
+            let letter = |role| match role {
+                Role::Formula { negated: None } => 'f',
+                Role::Formula { negated: Some(_) } => '!',
+                Role::Condition => 'c',
+                Role::Number => 'n',
+                Role::Chain => '-',
+                Role::Part => '.',
+                Role::Broken => 'x',
+            };
+            let roles = roles(resolved, expressions, role, mistakes);
+            roles.iter().map(|(_, role)| letter(role)).collect()
+        });
+        (roles, messages(mistakes))
+    }
+
+    #[test]
+    fn what_each_operand_has_to_be() {
+        for (text, expected) in [
+            ("F a && b", "ffff"),
+            ("!(a && !b) || c", "!f!!fff"),
+            ("(a => b) => c", "f!!ff"),
+            ("x < 3", "nnf"),
+            ("1 < x < -3", "nn-nnf"),
+            ("min(x + 1, 2) < y", ".nnnnnnf"),
+            ("x.y[i] == 2", "...nnf"),
+        ] {
+            let role = Role::Formula { negated: None };
+            assert_eq!(found(text, role), (expected.to_owned(), vec![]), "{text}");
+        }
+        assert_eq!(found("!a && x < 1", Role::Condition), ("ccnncc".to_owned(), vec![]));
+    }
+
+    #[test]
+    fn what_cannot_be_it_is_refused_once() {
+        for (text, roles, expected) in [
+            ("x + 1", "xxx", "`x + 1` is a number, but a formula is needed here"),
+            ("F (a && b) < 1", "xxxnff", "`a && b` is true or false, but a number is needed here"),
+            ("!F a", "f!f", "`!` cannot stand before `F`"),
+            ("!(b || F a)", "!f!!f", "this `!` reaches `F`, and `!(F a)` is outside the language"),
+            ("x == true", "xxx", "truth values are not compared"),
+        ] {
+            let role = Role::Formula { negated: None };
+            assert_eq!(found(text, role), (roles.to_owned(), vec![expected.to_owned()]), "{text}");
+        }
+        let expected = "a predicate speaks of one state, so `F` cannot stand in it";
+        let (roles, mistakes) = found("a && F (b && c)", Role::Condition);
+        assert_eq!((roles.as_str(), mistakes), ("cxxxxc", vec![expected.to_owned()]));
     }
 }

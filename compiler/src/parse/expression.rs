@@ -6,7 +6,7 @@
 
 use super::item::place;
 use super::{Pair, message};
-use crate::ast::{Arithmetic, Ast, Comparison, Infix, Node, NodeId, Prefix};
+use crate::ast::{Arithmetic, Ast, Comparison, Infix, Node, NodeId, Prefix, Quantifier};
 use crate::error::{Error, Kind};
 use crate::grammar::Rule;
 use crate::source::Span;
@@ -304,7 +304,8 @@ impl Yard<'_> {
                 let body = self.pop();
                 let whole = span.to(self.outer(body));
                 let elements = elements.0..elements.1;
-                self.push(Node::Quantified { all, name, set, elements, range, body }, whole, span);
+                let quantifier = Quantifier { all, name, set, elements, range, body };
+                self.push(Node::Quantified(quantifier), whole, span);
             }
             _ => {}
         }

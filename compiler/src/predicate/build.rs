@@ -223,9 +223,9 @@ impl Arena {
         self.add_term(term)
     }
 
-    /// A calculation, or its value if that is known and finite.
-    fn folded(&mut self, term: Term) -> TermId {
-        let value = match term {
+    /// The value of a calculation with known numbers; it may be infinite, or no number.
+    pub(crate) fn value(&self, term: &Term) -> Option<f64> {
+        match *term {
             Term::Negate(a) => self.constant(a).map(|value| -value),
             Term::Calculate(op, a, b) => {
                 self.constant(a).zip(self.constant(b)).map(|(x, y)| op.value(x, y))
@@ -235,11 +235,20 @@ impl Arena {
                 self.constant(a).zip(y).map(|(x, y)| function.value(x, y))
             }
             _ => None,
-        };
-        match value.filter(|value| value.is_finite()) {
-            Some(value) => self.add_term(Term::Number(Number(value + 0.0))),
+        }
+    }
+
+    /// A calculation, or its value if that is known and finite.
+    pub(crate) fn folded(&mut self, term: Term) -> TermId {
+        match self.value(&term).filter(|value| value.is_finite()) {
+            Some(value) => self.number(value),
             None => self.add_term(term),
         }
+    }
+
+    /// A number. There is one zero: its sign is no part of any meaning here.
+    pub(crate) fn number(&mut self, value: f64) -> TermId {
+        self.add_term(Term::Number(Number(value + 0.0)))
     }
 
     /// The step to the element of an array of `length` at a number; it stays unknown if there is

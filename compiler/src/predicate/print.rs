@@ -26,17 +26,31 @@ impl Module {
     /// The condition `root` as text.
     #[must_use]
     pub fn display(&self, root: ConditionId) -> Printed<'_> {
-        self.printed(Piece::Condition(root, 0))
+        self.arena.display_condition(root, &self.predicates)
     }
 
     /// The term `root` as text.
     #[must_use]
     pub fn display_term(&self, root: TermId) -> Printed<'_> {
-        self.printed(Piece::Term(root, 0))
+        self.arena.display(root)
+    }
+}
+
+impl Arena {
+    /// The term `root` as text.
+    #[must_use]
+    pub fn display(&self, root: TermId) -> Printed<'_> {
+        Printed { arena: self, predicates: &[], root: Piece::Term(root, 0) }
     }
 
-    fn printed(&self, root: Piece) -> Printed<'_> {
-        Printed { arena: &self.arena, predicates: &self.predicates, root }
+    /// The condition `root`, which may be made of `predicates`, as text.
+    #[must_use]
+    pub fn display_condition<'a>(
+        &'a self,
+        root: ConditionId,
+        predicates: &'a [Predicate],
+    ) -> Printed<'a> {
+        Printed { arena: self, predicates, root: Piece::Condition(root, 0) }
     }
 }
 

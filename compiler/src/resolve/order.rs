@@ -1,9 +1,11 @@
-//! The order in which items are checked: each after the ones that it uses.
+//! The order of the items: each after the ones that it uses.
 
-use super::scope::Scope;
-use crate::ast::{Ast, ItemKind, Node, NodeId};
+use crate::ast::Ast;
 use crate::error::{Error, Kind};
 use crate::source::Span;
+
+/// The use of an item: which, and where.
+pub(super) type Use = (usize, Span);
 
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Mark {
@@ -12,11 +14,10 @@ enum Mark {
     Done,
 }
 
-/// All items; the ones on a circle of uses are reported and left out.
-pub(super) fn order(ast: &Ast, scope: &Scope<'_>, mistakes: &mut Vec<Error>) -> Vec<usize> {
-    let uses: Vec<_> = (0..ast.items().len()).map(|item| uses(ast, scope, item)).collect();
+/// All items, given the uses in each, and the uses that close a circle.
+pub(super) fn order(uses: &[Vec<Use>]) -> (Vec<usize>, Vec<Use>) {
     let mut marks = vec![Mark::New; uses.len()];
-    let mut order = Vec::new();
+    let (mut order, mut circles) = (Vec::new(), Vec::new());
     for start in 0..uses.len() {
         if marks[start] != Mark::New {
             continue;
@@ -36,29 +37,16 @@ pub(super) fn order(ast: &Ast, scope: &Scope<'_>, mistakes: &mut Vec<Error>) -> 
                     marks[used] = Mark::Open;
                     path.push((used, 0));
                 }
-                Mark::Open => mistakes.push(circle(ast, used, span)),
+                Mark::Open => circles.push((used, span)),
                 Mark::Done => {}
             }
         }
     }
-    order
+    (order, circles)
 }
 
-/// The items that `item` uses, with the place of the use.
-fn uses(ast: &Ast, scope: &Scope<'_>, item: usize) -> Vec<(usize, Span)> {
-    let (ItemKind::Constant(_, root) | ItemKind::Predicate(_, root) | ItemKind::Task(_, root)) =
-        ast.items()[item].kind
-    else {
-        return Vec::new();
-    };
-    let nodes = (ast.first(root).0..=root.0).map(NodeId);
-    nodes
-        .filter(|id| matches!(ast.node(*id), Node::Name))
-        .filter_map(|id| Some((scope.item(ast.text(id))?, ast.span(id))))
-        .collect()
-}
-
-fn circle(ast: &Ast, item: usize, span: Span) -> Error {
+/// The error for the use at `span`, which closes a circle.
+pub(super) fn circle(ast: &Ast, item: usize, span: Span) -> Error {
     let entry = &ast.items()[item];
     let name = ast.source().slice(entry.name);
     Error::new(Kind::Cycle, format!("`{name}` is defined by itself"), span)

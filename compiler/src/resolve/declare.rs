@@ -1,0 +1,336 @@
+//! Declarations: the items of a source to its [`Scope`], names first, then types, the state, what
+//! predicates and tasks take, and units.
+
+use rustc_hash::FxHashMap;
+
+use super::name::suggestion;
+use super::scope::{Declared, Scope, duplicate};
+use super::{Names, Value};
+use crate::ast::{Ast, Declaration, FieldType, Item, ItemKind, WrittenUnit, quoted};
+use crate::error::{Error, Kind};
+use crate::predicate::{
+    Enum, Field, Numeric, Parameter, ParameterType, Scalar, Struct, TaskId, Type,
+};
+use crate::source::Span;
+use crate::unit::{MOST_NAMES, MOST_POWER, Unit, Units};
+
+/// Reads all declarations.
+pub(super) fn declare(ast: &Ast, names: Names) -> Scope<'_> {
+    let mut scope = Scope {
+        ast,
+        names,
+        items: FxHashMap::default(),
+        declared: vec![Declared::default(); ast.items().len()],
+        tasks: 0,
+        structs: Vec::new(),
+        enums: Vec::new(),
+        state: None,
+        fields: FxHashMap::default(),
+        variants: FxHashMap::default(),
+        known: Vec::new(),
+        units: Units::default(),
+        measured: false,
+        incomplete: false,
+        mistakes: Vec::new(),
+    };
+    scope.declare_names();
+    scope.declare_types();
+    scope.declare_state();
+    scope.declare_parameters();
+    scope.declare_constants();
+    scope
+}
+
+impl<'a> Scope<'a> {
+    fn declare_names(&mut self) {
+        let mut first: FxHashMap<&str, Span> = FxHashMap::default();
+        for (index, item) in self.ast.items().iter().enumerate() {
+            let text = self.text(item.name);
+            self.incomplete |= is_broken_type(self.ast, item);
+            if matches!(item.kind, ItemKind::Task(..)) {
+                self.declared[index].task = Some(TaskId(self.tasks));
+                self.tasks += 1;
+            }
+            if text.is_empty() {
+                continue;
+            }
+            if let Some(before) = first.get(text) {
+                self.mistakes.push(duplicate(text, item.name, *before));
+                continue;
+            }
+            first.insert(text, item.name);
+            if is_value(&item.kind) {
+                self.items.insert(text, index);
+                self.known.push(text);
+            }
+        }
+    }
+
+    fn declare_types(&mut self) {
+        for item in self.ast.items() {
+            if let ItemKind::Enum(variants) = &item.kind {
+                self.declare_variants(item.name, variants);
+                let (name, docs) = (self.text(item.name).to_owned(), item.docs.clone());
+                let variants = variants.iter().map(|span| self.text(*span).to_owned()).collect();
+                self.enums.push(Enum { name, docs, variants });
+            }
+        }
+        for item in self.ast.items() {
+            if let ItemKind::Struct(fields) = &item.kind {
+                let declared = self.declare_struct(item, fields);
+                self.structs.push(declared);
+            }
+        }
+    }
+
+    fn declare_variants(&mut self, of: Span, names: &[Span]) {
+        if names.is_empty() {
+            let message = format!("the enumeration `{}` has no values", self.text(of));
+            self.mistakes.push(
+                Error::new(Kind::Type, message, of)
+                    .help("list them: `enum Room { kitchen, hall }`"),
+            );
+        }
+        let of = index(self.enums.len());
+        let mut first: FxHashMap<&str, Span> = FxHashMap::default();
+        for (number, span) in (0..).zip(names) {
+            let name = self.text(*span);
+            self.is_new(&mut first, *span);
+            self.variants.entry(name).or_default().push(Value { of, number });
+            self.known.push(name);
+        }
+    }
+
+    fn declare_state(&mut self) {
+        let mut first: Option<&Item> = None;
+        for item in self.ast.items() {
+            if !matches!(item.kind, ItemKind::State(_) | ItemKind::Host(_)) {
+                continue;
+            }
+            if let Some(first) = first {
+                self.mistakes.push(
+                    Error::new(Kind::DuplicateName, "the state is declared twice", item.name)
+                        .related(first.name, "first declared here"),
+                );
+                continue;
+            }
+            first = Some(item);
+            let ItemKind::State(fields) = &item.kind else { continue };
+            for field in fields {
+                let name = self.text(field.name);
+                self.fields.insert(name, field.name);
+                self.known.push(name);
+                if let Some(other) = self.items.get(name) {
+                    let other = self.ast.items()[*other].name;
+                    self.mistakes.push(duplicate(name, other, field.name));
+                }
+            }
+            self.state = Some(self.declare_struct(item, fields));
+        }
+    }
+
+    fn declare_struct(&mut self, item: &Item, declarations: &[Declaration]) -> Struct {
+        let mut first: FxHashMap<&str, Span> = FxHashMap::default();
+        let mut fields = Vec::new();
+        for field in declarations {
+            let text = self.text(field.name);
+            if !self.is_new(&mut first, field.name) {
+                continue;
+            }
+            let ty = self.written_type(&field.ty).map_err(|error| self.mistakes.push(error)).ok();
+            let unit = self.declared_unit(field, ty.as_ref().is_none_or(has_numbers));
+            if let Some(ty) = ty {
+                let docs = field.docs.clone();
+                fields.push(Field { name: text.to_owned(), docs, ty, unit });
+            }
+        }
+        Struct { name: self.text(item.name).to_owned(), docs: item.docs.clone(), fields }
+    }
+
+    /// Whether the name at `span` is not among the ones before, which it joins.
+    fn is_new(&mut self, names: &mut FxHashMap<&'a str, Span>, span: Span) -> bool {
+        let before = names.insert(self.text(span), span);
+        self.mistakes.extend(before.map(|before| duplicate(self.text(span), span, before)));
+        before.is_none()
+    }
+
+    fn declare_parameters(&mut self) {
+        for (item, entry) in self.ast.items().iter().enumerate() {
+            let (ItemKind::Predicate(declared, _)
+            | ItemKind::Task(declared, _)
+            | ItemKind::Broken(declared)) = &entry.kind
+            else {
+                continue;
+            };
+            let mut first: FxHashMap<&str, Span> = FxHashMap::default();
+            for declaration in declared {
+                let (text, span) = (self.text(declaration.name), declaration.name);
+                if !self.is_new(&mut first, span) {
+                    continue;
+                }
+                self.mistakes.extend(self.shadowed(span));
+                let ty = self.parameter_type(&declaration.ty);
+                let is_number = match &ty {
+                    Ok(ty) => matches!(ty.scalar(), Some(Scalar::Number(_))),
+                    Err(_) => true,
+                };
+                let unit = self.declared_unit(declaration, is_number);
+                let name = text.to_owned();
+                match ty {
+                    Ok(ty) => {
+                        self.declared[item].parameters.push(Parameter { name, ty, unit, span });
+                    }
+                    Err(error) => {
+                        self.mistakes.push(error);
+                        self.declared[item].unclear.push(name);
+                    }
+                }
+            }
+        }
+    }
+
+    fn parameter_type(&self, written: &FieldType) -> Result<ParameterType, Error> {
+        let text = self.text(written.name);
+        let known = Scalar::named(text).is_some() || self.enumeration(text).is_some();
+        if self.names == Names::Host && !known && written.lengths.is_empty() && !written.optional {
+            return Ok(ParameterType::Host(written.span));
+        }
+        match self.written_type(written)? {
+            Type::Scalar(scalar) if scalar != Scalar::Number(Numeric::F32) => {
+                Ok(ParameterType::Scalar(scalar))
+            }
+            _ => {
+                let text = self.text(written.span);
+                let message = format!("`{text}` cannot be the type of a parameter");
+                Err(Error::new(Kind::Type, message, written.span)
+                    .help("a parameter is a number (f64, i8 to i64, u8 to u64), a bool, or a value of an enumeration"))
+            }
+        }
+    }
+
+    /// The type that an author wrote. A struct can hold only structs that stand before it, so that
+    /// none holds itself.
+    fn written_type(&self, written: &FieldType) -> Result<Type, Error> {
+        let text = self.text(written.name);
+        let mut ty = if let Some(scalar) = Scalar::named(text) {
+            Type::Scalar(scalar)
+        } else if let Some(at) = self.structs.iter().position(|known| known.name == text) {
+            Type::Struct(index(at))
+        } else if let Some(of) = self.enumeration(text) {
+            Type::Scalar(Scalar::Enum { of, optional: written.optional })
+        } else {
+            return Err(self.unknown_type(written.name));
+        };
+        if written.optional && !matches!(ty, Type::Scalar(Scalar::Enum { .. })) {
+            let message = format!("`{text}` cannot be optional");
+            return Err(Error::new(Kind::Type, message, written.span)
+                .help("only a value of an enumeration can be absent: `Object?`"));
+        }
+        for length in &written.lengths {
+            ty = match self.enumeration(self.text(*length)) {
+                Some(of) => Type::Table(Box::new(ty), of),
+                None => Type::Array(Box::new(ty), self.length(*length)?),
+            };
+        }
+        Ok(ty)
+    }
+
+    fn length(&self, span: Span) -> Result<u32, Error> {
+        let text = self.text(span).replace('_', "");
+        text.parse().map_err(|_| {
+            let message = format!("`{text}` is not a length");
+            Error::new(Kind::Type, message, span)
+                .help("the length of an array is a whole number, or the name of an enumeration")
+        })
+    }
+
+    fn unknown_type(&self, span: Span) -> Error {
+        let text = self.text(span);
+        let scalars = ["f64", "f32", "i32", "i64", "u32", "u64", "i8", "i16", "u8", "u16", "bool"];
+        let structs = self.structs.iter().map(|known| known.name.as_str());
+        let enums = self.enums.iter().map(|known| known.name.as_str());
+        let error = Error::new(Kind::UnknownName, format!("there is no type `{text}`"), span);
+        let near = suggestion(text, &mut scalars.into_iter().chain(structs).chain(enums));
+        let types = "the types are f64, f32, i8 to i64, u8 to u64, bool, arrays such as `[f64; 6]`, \
+                     enumerations, and structs declared above";
+        error.help(near.unwrap_or_else(|| types.to_owned()))
+    }
+
+    fn declare_constants(&mut self) {
+        for (item, entry) in self.ast.items().iter().enumerate() {
+            if let ItemKind::Constant(Some(written), _) = &entry.kind {
+                let unit = self.unit(written);
+                self.declared[item].unit = unit.map(|unit| (unit, written.span));
+            }
+        }
+    }
+
+    /// The unit of a field or a parameter; what is not a number has none.
+    fn declared_unit(&mut self, declaration: &Declaration, is_number: bool) -> Option<Unit> {
+        let written = declaration.unit.as_ref()?;
+        if is_number {
+            return self.unit(written);
+        }
+        let (name, ty) = (self.text(declaration.name), declaration.ty.span);
+        let message = format!("only numbers have units, and `{name}` is none");
+        let label = format!("`{}` is no type of numbers", quoted(self.text(ty)));
+        self.mistakes.push(Error::new(Kind::Unit, message, written.span).related(ty, label));
+        None
+    }
+
+    fn unit(&mut self, written: &WrittenUnit) -> Option<Unit> {
+        self.measured = true;
+        self.written_unit(written).map_err(|error| self.mistakes.push(error)).ok()
+    }
+
+    /// The unit that an author wrote.
+    fn written_unit(&mut self, written: &WrittenUnit) -> Result<Unit, Error> {
+        let mut powers = Vec::with_capacity(written.factors.len());
+        for factor in &written.factors {
+            let mut power = 1_i64;
+            if let Some((digits, minus)) = factor.power {
+                let digits = self.text(digits).replace('_', "");
+                power = match digits.parse::<i64>() {
+                    Ok(power) if power <= MOST_POWER.into() => power * if minus { -1 } else { 1 },
+                    _ => return Err(large_unit("this power is too large".to_owned(), factor.span)),
+                };
+            }
+            let name = self.units.name(self.text(factor.name));
+            powers.push((name, if factor.divides { -power } else { power }));
+        }
+        let unit = Unit::product(powers);
+        unit.ok_or_else(|| large_unit("this unit is too large".to_owned(), written.span))
+    }
+}
+
+/// The error for a unit beyond the bounds.
+pub(crate) fn large_unit(message: String, span: Span) -> Error {
+    Error::new(Kind::Unit, message, span).help(format!(
+        "a unit is made of at most {MOST_NAMES} names, with powers from -{MOST_POWER} to {MOST_POWER}"
+    ))
+}
+
+fn index(at: usize) -> u32 {
+    u32::try_from(at).expect("fewer than 2^32 of a kind")
+}
+
+/// Whether a type is that of numbers, or of an array of them.
+fn has_numbers(mut ty: &Type) -> bool {
+    while let Type::Array(element, _) | Type::Table(element, _) = ty {
+        ty = element;
+    }
+    matches!(ty, Type::Scalar(Scalar::Number(_)))
+}
+
+fn is_broken_type(ast: &Ast, item: &Item) -> bool {
+    let text = ast.source().slice(item.span);
+    matches!(item.kind, ItemKind::Broken(_))
+        && (["state", "struct", "enum"].iter().any(|word| text.contains(word)))
+}
+
+fn is_value(kind: &ItemKind) -> bool {
+    matches!(
+        kind,
+        ItemKind::Constant(..) | ItemKind::Predicate(..) | ItemKind::Task(..) | ItemKind::Broken(_)
+    )
+}

@@ -1,0 +1,385 @@
+//! Expressions: `for all` and `for some` written out as finite conjunctions and disjunctions, and
+//! each name answered.
+//!
+//! Copies keep their places in the source, so a mistake in one is reported where its author made
+//! it. A bound name becomes the value or the listed element that it stands for. Rust expressions
+//! stay as they are; the environment of an expression tells what the bound names in it stand for.
+
+use super::name::suggestion;
+use super::order::{self, Use};
+use super::place::Part;
+use super::{Entry, Expression, ExpressionId, Name, Resolved, Value};
+use crate::ast::{Ast, Infix, Item, ItemKind, Node, NodeId, Quantifier, quoted};
+use crate::error::{Error, Kind};
+use crate::source::Span;
+
+/// The most operators and operands that all quantifiers of a source may have, written out; and all
+/// conditions with arguments.
+pub(crate) const MOST_NODES: usize = 200_000;
+
+/// The deepest nesting of `for`.
+const DEEPEST: usize = 32;
+
+/// What a name stands for that a quantifier may bind.
+#[derive(Clone, Copy)]
+pub(crate) enum Bound {
+    /// A value of an enumeration.
+    Value(Value),
+    /// An element of a listed set, a name or a number of the source; a free name, itself.
+    Node(NodeId),
+    /// A number of a range.
+    Number(f64),
+}
+
+/// A name bound by a quantifier, within others.
+pub(super) struct Binder {
+    /// Where the name stands; nowhere if it is called like something else and binds nothing.
+    name: Span,
+    bound: Bound,
+    outer: Environment,
+    depth: usize,
+}
+
+/// The innermost of the names that are bound around an expression.
+pub(crate) type Environment = Option<u32>;
+
+impl Resolved<'_> {
+    /// The bound names of an environment, innermost first.
+    pub(crate) fn binders(&self, environment: Environment) -> impl Iterator<Item = (&str, Bound)> {
+        let at = |at: Environment| at.map(|at| &self.binders[at as usize]);
+        std::iter::successors(at(environment), move |binder| at(binder.outer))
+            .map(|binder| (self.ast.source().slice(binder.name), binder.bound))
+    }
+
+    /// What the name `node` stands for if a quantifier binds it, else itself.
+    pub(crate) fn bound(&self, node: NodeId, environment: Environment) -> Bound {
+        let text = self.ast.text(node);
+        let binder = self.binders(environment).find(|(name, _)| *name == text);
+        binder.map_or(Bound::Node(node), |(_, bound)| bound)
+    }
+}
+
+/// Writes the expressions of all items down in `resolved`, and answers which items each of them uses.
+pub(super) fn expand(resolved: &mut Resolved<'_>, mistakes: &mut Vec<Error>) -> Vec<Vec<Use>> {
+    let ast = resolved.ast;
+    let (constants, others) = constants_first(resolved);
+    let uses = vec![Vec::new(); ast.items().len()];
+    let mut expansion = Expansion { resolved, mistakes, item: 0, uses, copied: 0, full: false };
+    for item in constants.into_iter().chain(others) {
+        if let Some(root) = root(&ast.items()[item]) {
+            expansion.item = item;
+            let first = ExpressionId(expansion.resolved.entries.len() as u32);
+            let root = expansion.copy(root, None);
+            expansion.resolved.expressions[item] = Some((first, root));
+        }
+    }
+    expansion.uses
+}
+
+fn root(item: &Item) -> Option<NodeId> {
+    match item.kind {
+        ItemKind::Constant(_, root) | ItemKind::Predicate(_, root) | ItemKind::Task(_, root) => {
+            Some(root)
+        }
+        _ => None,
+    }
+}
+
+/// The constants, each after those that it is made of, for arrays are indexed by their values; and
+/// the other items.
+fn constants_first(resolved: &Resolved<'_>) -> (Vec<usize>, Vec<usize>) {
+    let ast = resolved.ast;
+    let constants = |item: &Item| match item.kind {
+        ItemKind::Constant(_, root) => {
+            let nodes = (ast.first(root).0..=root.0).map(NodeId);
+            let uses = nodes.filter_map(|node| used(resolved, node));
+            uses.filter(|(item, _)| resolved.is_constant(*item)).collect()
+        }
+        _ => Vec::new(),
+    };
+    let uses: Vec<Vec<Use>> = ast.items().iter().map(constants).collect();
+    order::order(&uses).0.into_iter().partition(|item| resolved.is_constant(*item))
+}
+
+/// The item that a node is the name of.
+fn used(resolved: &Resolved<'_>, node: NodeId) -> Option<Use> {
+    let is_name = matches!(resolved.ast.node(node), Node::Name);
+    let item = resolved.scope.item(resolved.ast.text(node)).filter(|_| is_name)?;
+    Some((item, resolved.ast.span(node)))
+}
+
+/// The quantifiers of an expression that stand within no other, each with its first node and
+/// itself; the last one first.
+fn outermost(ast: &Ast, first: NodeId, root: NodeId) -> Vec<(NodeId, NodeId, &Quantifier)> {
+    let mut quantifiers = Vec::new();
+    let mut next = Some(root.0);
+    while let Some(id) = next.filter(|id| *id >= first.0).map(NodeId) {
+        let mut start = id;
+        if let Node::Quantified(quantifier) = ast.node(id) {
+            start = ast.first(id);
+            quantifiers.push((start, id, quantifier));
+        }
+        next = start.0.checked_sub(1);
+    }
+    quantifiers
+}
+
+struct Expansion<'r, 'a> {
+    resolved: &'r mut Resolved<'a>,
+    mistakes: &'r mut Vec<Error>,
+    /// The item whose expression this is.
+    item: usize,
+    /// Which items each item uses, and where, from left to right.
+    uses: Vec<Vec<Use>>,
+    /// How many nodes have been copied within quantifiers.
+    copied: usize,
+    /// Whether there is no room for more.
+    full: bool,
+}
+
+impl Expansion<'_, '_> {
+    /// Copies the expression `root`, its quantifiers written out. Calls itself for the quantifiers in
+    /// quantifiers only, of which [`DEEPEST`] may nest.
+    fn copy(&mut self, root: NodeId, environment: Environment) -> ExpressionId {
+        let first = self.resolved.ast.first(root);
+        let mut quantifiers = outermost(self.resolved.ast, first, root);
+        let mut copies: Vec<ExpressionId> = Vec::with_capacity((root.0 - first.0 + 1) as usize);
+        let mut at = first;
+        while at <= root {
+            if let Some((_, id, quantifier)) = quantifiers.pop_if(|(start, ..)| *start == at) {
+                let copy = self.quantifier(id, quantifier, environment);
+                copies.resize((id.0 - first.0 + 1) as usize, copy);
+                at = id;
+            } else {
+                let copy = self.one(at, environment, &|id| copies[(id.0 - first.0) as usize]);
+                copies.push(copy);
+            }
+            at = NodeId(at.0 + 1);
+        }
+        copies[copies.len() - 1]
+    }
+
+    /// Copies a node, given the copies of its operands; a bound name becomes what it stands for.
+    fn one(
+        &mut self,
+        node: NodeId,
+        environment: Environment,
+        of: &dyn Fn(NodeId) -> ExpressionId,
+    ) -> ExpressionId {
+        let ast = self.resolved.ast;
+        let mut place = node;
+        let expression = match self.resolved.bound(node, environment) {
+            Bound::Value(value) => Expression::Name(Name::Value(value)),
+            Bound::Number(value) => Expression::Number(value),
+            Bound::Node(node) => {
+                place = node;
+                self.uses[self.item].extend(used(self.resolved, node));
+                self.expression(node, of)
+            }
+        };
+        self.copied += usize::from(environment.is_some());
+        let entry = ast.entry(node);
+        let outer = if entry.is_bracketed() { entry.outer } else { ast.span(place) };
+        let first = ast.operands(place).first().map(|operand| self.resolved[of(*operand)].first);
+        self.push(expression, place, outer, first, environment)
+    }
+
+    fn push(
+        &mut self,
+        expression: Expression,
+        node: NodeId,
+        outer: Span,
+        first: Option<ExpressionId>,
+        environment: Environment,
+    ) -> ExpressionId {
+        let id = u32::try_from(self.resolved.entries.len()).expect("fewer than 2^32 expressions");
+        let value = self.resolved.calculated(&expression);
+        let first = first.unwrap_or(ExpressionId(id));
+        self.resolved.entries.push(Entry { expression, node, outer, first, value, environment });
+        ExpressionId(id)
+    }
+
+    fn expression(&self, node: NodeId, of: &dyn Fn(NodeId) -> ExpressionId) -> Expression {
+        let resolved = &*self.resolved;
+        match *resolved.ast.node(node) {
+            Node::Truth(value) => Expression::Truth(value),
+            Node::Number(value) => Expression::Number(value),
+            Node::Text => Expression::Text,
+            Node::Prefix(op, a) => Expression::Prefix(op, of(a)),
+            Node::Infix(op, a, b) => Expression::Infix(op, of(a), of(b)),
+            Node::Call { callee, ref arguments } => match resolved.callee(of(callee)) {
+                Ok(callee) => {
+                    let arguments = resolved.ast.arguments(arguments).iter();
+                    Expression::Call(callee, arguments.map(|argument| of(*argument)).collect())
+                }
+                Err(name) => Expression::Name(name),
+            },
+            Node::Field { base, field } => {
+                Expression::Name(resolved.part(of(base), Part::Field(field), self.item))
+            }
+            Node::Index { base, index } => {
+                let part = Part::Index(node, of(index));
+                Expression::Name(resolved.part(of(base), part, self.item))
+            }
+            _ => Expression::Name(resolved.name(node, self.item)),
+        }
+    }
+
+    /// All copies of the body, joined.
+    fn quantifier(
+        &mut self,
+        id: NodeId,
+        quantifier: &Quantifier,
+        environment: Environment,
+    ) -> ExpressionId {
+        let Quantifier { all, name, set, ref elements, range, body } = *quantifier;
+        let ast = self.resolved.ast;
+        let (span, operator) = (ast.span(id), ast.entry(id).operator);
+        let refused = self.refused(name, environment);
+        // What is called like something else is that, and binds nothing; it still counts as deep.
+        let name = if refused.is_some() { Span::default() } else { name };
+        self.mistakes.extend(refused);
+        let values = match (range, ast.arguments(elements)) {
+            (Some(inclusive), &[first, end]) => {
+                self.numbers(set, [first, end], inclusive, environment)
+            }
+            (_, listed) => self.values(set, listed, environment),
+        };
+        let op = if all { Infix::And } else { Infix::Or };
+        let mut joined = None;
+        for bound in values {
+            if self.no_room(operator, environment) {
+                break;
+            }
+            let depth = self.depth(environment) + 1;
+            let inner = u32::try_from(self.resolved.binders.len()).ok();
+            self.resolved.binders.push(Binder { name, bound, outer: environment, depth });
+            let copy = self.copy(body, inner);
+            joined = Some(match joined {
+                None => copy,
+                Some(before) => {
+                    let first = Some(self.resolved[before].first);
+                    self.push(Expression::Infix(op, before, copy), id, span, first, None)
+                }
+            });
+        }
+        joined.unwrap_or_else(|| self.push(Expression::Truth(all), id, span, None, None))
+    }
+
+    fn depth(&self, environment: Environment) -> usize {
+        environment.map_or(0, |at| self.resolved.binders[at as usize].depth)
+    }
+
+    /// The error for a name that cannot be bound.
+    fn refused(&self, name: Span, environment: Environment) -> Option<Error> {
+        let text = self.resolved.ast.source().slice(name);
+        if self.resolved.binders(environment).any(|(known, _)| known == text) {
+            let message = format!("`{text}` is bound twice");
+            return Some(
+                Error::new(Kind::DuplicateName, message, name)
+                    .help("give the inner one another name"),
+            );
+        }
+        self.resolved.scope.shadowed(name)
+    }
+
+    fn no_room(&mut self, span: Span, environment: Environment) -> bool {
+        let deep = self.depth(environment) >= DEEPEST;
+        let many = self.copied > MOST_NODES;
+        if (deep || many) && !std::mem::replace(&mut self.full, true) {
+            let (kind, message) = match deep {
+                true => (Kind::Nesting, format!("`for` nests more than {DEEPEST} deep")),
+                false => (
+                    Kind::Budget,
+                    format!("written out, this has more than {MOST_NODES} operators and operands"),
+                ),
+            };
+            self.mistakes.push(
+                Error::new(kind, message, span).help("range over fewer values, or nest less"),
+            );
+        }
+        self.full
+    }
+
+    /// What a bound name ranges over.
+    fn values(&mut self, set: Span, listed: &[NodeId], environment: Environment) -> Vec<Bound> {
+        let resolved = &*self.resolved;
+        let text = resolved.ast.source().slice(set);
+        if !listed.is_empty() {
+            return listed.iter().map(|id| resolved.bound(*id, environment)).collect();
+        }
+        if let Some(of) = resolved.scope.enumeration(text) {
+            let count = resolved.scope.enums[of as usize].variants.len();
+            return (0..).take(count).map(|number| Bound::Value(Value { of, number })).collect();
+        }
+        self.mistakes.extend(not_a_set(resolved, text, set));
+        Vec::new()
+    }
+
+    /// The numbers of a range; not many more than can be written out.
+    fn numbers(
+        &mut self,
+        set: Span,
+        ends: [NodeId; 2],
+        inclusive: bool,
+        environment: Environment,
+    ) -> Vec<Bound> {
+        let ends = ends.map(|end| self.end(end, environment));
+        let [Some(first), Some(end)] = ends else { return Vec::new() };
+        let end = if inclusive { end + 1.0 } else { end };
+        if first >= end {
+            let message = format!("no number is in `{}`", self.resolved.ast.source().slice(set));
+            self.mistakes.push(
+                Error::new(Kind::Type, message, set)
+                    .help("`0..6` is from 0 to 5, and `0..=6` from 0 to 6"),
+            );
+        }
+        let numbers = std::iter::successors(Some(first), |at| Some(at + 1.0));
+        let numbers = numbers.take_while(|at| *at < end).take(MOST_NODES + 1);
+        numbers.map(Bound::Number).collect()
+    }
+
+    /// The whole number that an end of a range is: written there, or what its name stands for.
+    fn end(&mut self, id: NodeId, environment: Environment) -> Option<f64> {
+        let (ast, scope) = (self.resolved.ast, &self.resolved.scope);
+        let constant = || match ast.items()[scope.item(ast.text(id))?].kind {
+            ItemKind::Constant(_, root) => Some(root),
+            _ => None,
+        };
+        let written = match self.resolved.bound(id, environment) {
+            Bound::Number(value) => return Some(value),
+            Bound::Node(node) if node != id => node,
+            _ => constant().unwrap_or(id),
+        };
+        if let Node::Number(value) = *ast.node(written)
+            && value.fract() == 0.0
+        {
+            return Some(value);
+        }
+        let message = format!("`{}` cannot be the end of a range", quoted(ast.text(id)));
+        self.mistakes.push(Error::new(Kind::Type, message, ast.span(id)).help(
+            "a range goes from one whole number to another, or to a constant that is written as one",
+        ));
+        None
+    }
+}
+
+fn not_a_set(resolved: &Resolved<'_>, text: &str, set: Span) -> Option<Error> {
+    if text.starts_with('{') {
+        return Some(
+            Error::new(Kind::Type, "this set lists nothing", set)
+                .help("list what the name stands for: `{apple, mug}`"),
+        );
+    }
+    let mut names = resolved.scope.enums.iter().map(|known| known.name.as_str());
+    let message = format!("`{text}` is not an enumeration that is declared here");
+    let error = Error::new(Kind::UnknownName, message, set);
+    if resolved.scope.is_broken(text) {
+        return None;
+    }
+    Some(error.help(suggestion(text, &mut names).unwrap_or_else(|| {
+        format!(
+            "declare it, `enum {text} {{ … }}`, or list the elements: `for all x in {{a, b}}: …`"
+        )
+    })))
+}

@@ -1,0 +1,166 @@
+//! What the items of a source declare, for looking names up.
+
+use rustc_hash::FxHashMap;
+
+use super::{Names, Value};
+use crate::ast::{Ast, ItemKind};
+use crate::error::{Error, Kind};
+use crate::predicate::{Enum, Field, Parameter, State, Struct, TaskId, Type};
+use crate::source::Span;
+use crate::unit::{Unit, Units};
+
+/// The declared names and types.
+pub(crate) struct Scope<'a> {
+    pub(super) ast: &'a Ast,
+    pub(super) names: Names,
+    pub(super) items: FxHashMap<&'a str, usize>,
+    /// What each item declares.
+    pub(super) declared: Vec<Declared>,
+    pub(super) tasks: u32,
+    pub(crate) structs: Vec<Struct>,
+    pub(crate) enums: Vec<Enum>,
+    pub(super) state: Option<Struct>,
+    /// Where the fields of the state are declared.
+    pub(super) fields: FxHashMap<&'a str, Span>,
+    pub(super) variants: FxHashMap<&'a str, Vec<Value>>,
+    /// All names that can stand in a formula, in the order of the source within each kind.
+    pub(super) known: Vec<&'a str>,
+    pub(crate) units: Units,
+    /// Whether anything has a declared unit.
+    pub(super) measured: bool,
+    /// Whether an item of types could not be read.
+    pub(super) incomplete: bool,
+    /// The mistakes in the declarations.
+    pub(super) mistakes: Vec<Error>,
+}
+
+/// What one item declares.
+#[derive(Clone, Default)]
+pub(super) struct Declared {
+    pub(super) task: Option<TaskId>,
+    /// What a predicate or a task takes.
+    pub(super) parameters: Vec<Parameter>,
+    /// The parameters whose types have mistakes.
+    pub(super) unclear: Vec<String>,
+    /// The unit of a constant, and where it stands.
+    pub(super) unit: Option<(Unit, Span)>,
+}
+
+impl<'a> Scope<'a> {
+    /// The item called `name`, types and the state aside.
+    pub(crate) fn item(&self, name: &str) -> Option<usize> {
+        self.items.get(name).copied()
+    }
+
+    pub(crate) fn task_id(&self, item: usize) -> Option<TaskId> {
+        self.declared[item].task
+    }
+
+    pub(crate) fn task_count(&self) -> usize {
+        self.tasks as usize
+    }
+
+    /// The values called `name`, or `Enumeration::name`.
+    pub(crate) fn variants(&self, name: &str) -> Vec<Value> {
+        let (of, name) = name.rsplit_once("::").map_or((None, name), |(of, name)| (Some(of), name));
+        let all = self.variants.get(name.trim()).map_or(&[][..], Vec::as_slice);
+        let wanted = |at: &&Value| of.is_none_or(|of| self.enums[at.of as usize].name == of.trim());
+        all.iter().filter(wanted).copied().collect()
+    }
+
+    /// The enumeration called `name`.
+    pub(crate) fn enumeration(&self, name: &str) -> Option<u32> {
+        (0..).zip(&self.enums).find(|(_, known)| known.name == name).map(|(of, _)| of)
+    }
+
+    /// The first value of an enumeration, for an example.
+    pub(crate) fn first_variant(&self, of: u32) -> &str {
+        self.enums[of as usize].variants.first().map_or("value", String::as_str)
+    }
+
+    /// What the item takes when it is used.
+    pub(crate) fn parameters(&self, item: usize) -> &[Parameter] {
+        &self.declared[item].parameters
+    }
+
+    /// The parameters of the item whose types have mistakes: nothing is known of them.
+    pub(crate) fn unclear(&self, item: usize) -> &[String] {
+        &self.declared[item].unclear
+    }
+
+    /// The declared unit of the constant `item`, and where it stands.
+    pub(crate) fn constant_unit(&self, item: usize) -> Option<&(Unit, Span)> {
+        self.declared[item].unit.as_ref()
+    }
+
+    /// Whether anything has a declared unit.
+    pub(crate) fn has_units(&self) -> bool {
+        self.measured
+    }
+
+    /// Whether `name` is unknown only because its declaration has a mistake.
+    pub(crate) fn is_broken(&self, name: &str) -> bool {
+        self.incomplete || self.fields.contains_key(name)
+    }
+
+    pub(crate) fn has_state(&self) -> bool {
+        self.state.is_some()
+    }
+
+    /// The fields of the state, or of a struct.
+    pub(crate) fn fields_of(&self, ty: Option<&Type>) -> &[Field] {
+        match ty {
+            None => self.state.as_ref().map_or(&[], |state| &state.fields),
+            Some(Type::Struct(index)) => &self.structs[*index as usize].fields,
+            Some(_) => &[],
+        }
+    }
+
+    /// All names that can stand in a formula.
+    pub(crate) fn known(&self) -> impl Iterator<Item = &str> {
+        self.known.iter().copied()
+    }
+
+    /// What predicates are about.
+    pub(crate) fn state(&self) -> State {
+        match (&self.state, self.host(), self.names) {
+            (Some(state), ..) => State::Declared(state.clone()),
+            (None, Some((name, ty, span)), _) => State::Host { name: name.to_owned(), ty, span },
+            (None, None, Names::Host) => State::Inferred,
+            (None, None, _) => State::Free,
+        }
+    }
+
+    /// The name that stands for the state in Rust expressions, its type, and where it stands.
+    pub(crate) fn host(&self) -> Option<(&'a str, Span, Span)> {
+        let host = self.ast.items().iter().find_map(|item| match item.kind {
+            ItemKind::Host(ty) => Some((self.text(item.name), ty, item.name)),
+            _ => None,
+        });
+        host.filter(|_| self.state.is_none())
+    }
+
+    /// The error for a parameter or a bound name that something else is called too.
+    pub(super) fn shadowed(&self, span: Span) -> Option<Error> {
+        let name = self.text(span);
+        let item = self.items.get(name).map(|item| self.ast.items()[*item].name);
+        let host = || {
+            let mut items = self.ast.items().iter();
+            let is_host = |kind: &ItemKind| matches!(kind, ItemKind::Host(_));
+            items.find(|item| is_host(&item.kind) && self.text(item.name) == name)
+        };
+        let first = item.or(self.fields.get(name).copied()).or_else(|| Some(host()?.name))?;
+        Some(duplicate(name, span, first).help("give this one another name"))
+    }
+
+    pub(super) fn text(&self, span: Span) -> &'a str {
+        self.ast.source().slice(span)
+    }
+}
+
+/// The error for a name that is declared at `first` already.
+pub(super) fn duplicate(name: &str, span: Span, first: Span) -> Error {
+    Error::new(Kind::DuplicateName, format!("`{name}` is declared twice"), span)
+        .label("declared again here")
+        .related(first, "first declared here")
+}
