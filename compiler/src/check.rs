@@ -4,7 +4,7 @@
 //! operand has to be, a number or a formula, and whether it stands under a negation. From the
 //! leaves up, `lower` makes terms of the numbers, `unit` checks what they are measured in, and
 //! `atom` makes conditions of comparisons, names and applied predicates, or finds that a leaf is a
-//! task. `condition` joins them to a predicate, `spec` to the [`Spec`](crate::spec::Spec) of a task.
+//! task. `condition` joins them to a predicate, `spec` to the [`Spec`] of a task.
 //! All are loops over the arena. A mistake is noted once, where it is made, and what depends on it
 //! is left alone.
 
