@@ -80,7 +80,7 @@ const ORDER: [(&str, &str); 3] = [
     (
         "compiler",
         "source error arena token reserved ast unit bdd dfa grammar parse spec predicate linear \
-         arithmetic check translate minimize factor judge compile hoa tables emit",
+         arithmetic resolve check translate minimize factor judge compile hoa tables emit",
     ),
     ("macros", "tokens expand"),
     ("tools", "semantics tables format evaluate vacuity task product trace diff emit explain cli"),
