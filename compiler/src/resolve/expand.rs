@@ -51,10 +51,11 @@ impl Resolved<'_> {
             .map(|binder| (self.ast.source().slice(binder.name), binder.bound))
     }
 
-    /// What the name `node` stands for if a quantifier binds it, else itself.
-    pub(crate) fn bound(&self, node: NodeId, environment: Environment) -> Bound {
+    /// What `node` stands for if it is a name that a quantifier binds, else itself.
+    fn bound(&self, node: NodeId, environment: Environment) -> Bound {
         let text = self.ast.text(node);
-        let binder = self.binders(environment).find(|(name, _)| *name == text);
+        let is_name = matches!(self.ast.node(node), Node::Name);
+        let binder = self.binders(environment).find(|(name, _)| is_name && *name == text);
         binder.map_or(Bound::Node(node), |(_, bound)| bound)
     }
 }

@@ -91,10 +91,7 @@ impl Resolved<'_> {
 }
 
 /// The help that offers the candidate nearest to `name`, if one is near enough to be meant.
-pub(crate) fn suggestion(
-    name: &str,
-    candidates: &mut dyn Iterator<Item = &str>,
-) -> Option<String> {
+pub(crate) fn suggestion(name: &str, candidates: &mut dyn Iterator<Item = &str>) -> Option<String> {
     nearest(name, candidates).map(|near| format!("did you mean `{near}`?"))
 }
 
