@@ -1,10 +1,20 @@
 //! Walks over arenas of ids, and maps from ids to ids.
+//!
+//! Expressions, conditions, terms, formulas and nodes of diagrams are all stored the same way: in a
+//! vector, operands before the operators that use them, and known by an index that is a type of its
+//! own. Equal entries are stored once (hash-consing; Filliâtre and Conchon, "Type-Safe Modular
+//! Hash-Consing", 2006), so equality is equality of indices. That gives three things: a pass is a
+//! loop over the vector and never recurses on what an author nested; a memo of a pass is a vector
+//! or a [`Memo`]; dropping is flat.
+//!
+//! The walks here take plain numbers, so that each exists once in the binary rather than once for
+//! each type of id.
 
 use std::marker::PhantomData;
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// The number of a thing.
+/// A type that is a number: an index into an arena.
 pub(crate) trait Id: Copy {
     fn new(number: u32) -> Self;
     fn number(self) -> u32;
@@ -20,7 +30,7 @@ impl Id for u32 {
     }
 }
 
-/// Makes an id of a type that is a number.
+/// Implements [`Id`] for a tuple struct of one `u32`.
 macro_rules! id {
     ($id:ident) => {
         impl crate::arena::Id for $id {
@@ -36,7 +46,7 @@ macro_rules! id {
 }
 pub(crate) use id;
 
-/// One id, or two.
+/// What a [`Memo`] can be asked for: one id, or two, packed into 64 bits without loss.
 pub(crate) trait Key {
     fn key(self) -> u64;
 }
@@ -53,8 +63,14 @@ impl<A: Id, B: Id> Key for (A, B) {
     }
 }
 
-/// A map from ids, or pairs of them, to ids. Of whatever kinds these are, one type of table is
-/// behind it, for each more would be built into every crate that uses the macros.
+/// A map from ids, or pairs of them, to ids.
+///
+/// One type of hash table is behind every such map, whatever the types of its ids are: each further
+/// one would be compiled by every user of the macros. `PhantomData<fn(K) -> V>` keeps the map
+/// `Send` and `Sync` for all ids.
+///
+/// It is never iterated, so the order of the table is never visible: the same input gives the same
+/// output.
 #[derive(Clone, Debug)]
 pub(crate) struct Memo<K, V> {
     known: FxHashMap<u64, u32>,
@@ -76,7 +92,8 @@ impl<K: Key, V: Id> Memo<K, V> {
         self.known.insert(key.key(), value.number());
     }
 
-    /// The value of `key`, which becomes `fresh` if there is none.
+    /// The value of `key`; it becomes `fresh` if there is none. A caller that passes the next free
+    /// number sees from the result whether the key was new.
     pub(crate) fn get_or_insert(&mut self, key: K, fresh: V) -> V {
         V::new(*self.known.entry(key.key()).or_insert(fresh.number()))
     }
@@ -86,7 +103,10 @@ impl<K: Key, V: Id> Memo<K, V> {
     }
 }
 
-/// All ids that `roots` are made of, these among them, rising; `operands` adds those of one id.
+/// All ids that `roots` are made of, the roots included, rising. `operands` adds those of one id
+/// and is called once for each.
+///
+/// Operands stand first in every arena, so the result is in the order in which a pass can go.
 pub(crate) fn needed(roots: Vec<u32>, operands: &mut dyn FnMut(u32, &mut Vec<u32>)) -> Vec<u32> {
     let mut seen = FxHashSet::default();
     let mut open = roots;
@@ -100,8 +120,12 @@ pub(crate) fn needed(roots: Vec<u32>, operands: &mut dyn FnMut(u32, &mut Vec<u32
     needed
 }
 
-/// The things that share ties, directly or by way of others: groups of places in `ties`, by their
-/// first place, each rising.
+/// Groups things that share ties, directly or by way of others: the connected components. The
+/// result holds places in `ties`, in each group rising, and the groups by their first place.
+///
+/// Union–find (Galler and Fischer, 1964) with path halving; the smaller place always becomes the
+/// root, which gives the order for free. Linking by rank would bring nothing: groups are of the
+/// size of one formula.
 pub(crate) fn groups(ties: &[Vec<u32>]) -> Vec<Vec<usize>> {
     // Each place points to an earlier one of its group; the first, to itself.
     let mut earlier: Vec<usize> = (0..ties.len()).collect();
@@ -121,7 +145,7 @@ pub(crate) fn groups(ties: &[Vec<u32>]) -> Vec<Vec<usize>> {
     groups
 }
 
-/// The first place of the group of `place`.
+/// The first place of the group of `place`; halves the path to it.
 fn first(earlier: &mut [usize], mut place: usize) -> usize {
     while earlier[place] != place {
         earlier[place] = earlier[earlier[place]];

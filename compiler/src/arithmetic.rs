@@ -1,19 +1,41 @@
-//! Which letters can occur: what arithmetic knows of the predicates of a task.
+//! Which letters can occur: how arithmetic ties the predicates of a task.
 //!
-//! Two predicates are not free propositions when arithmetic ties them: no state has `x < 3` and
-//! `x > 5`. Every comparison is brought into the form *linear form ⋚ threshold*; the thresholds of
-//! one form cut the number line into cells, of which a state is in exactly one (integers between
-//! two neighbours, and values outside a field's type, are in none). A decision diagram with the
-//! propositions above the cuts relates the two; a valuation is possible iff the diagram below it
-//! is not empty.
+//! Two predicates are not free propositions when arithmetic ties them: no state has both `x < 3`
+//! and `x > 5`. Without this knowledge an automaton has edges that no trajectory takes, states that
+//! nothing reaches, and a task that cannot be satisfied looks as if it could.
+//!
+//! # Method
+//!
+//! Every comparison is brought into the form *linear form ⋚ threshold*. The thresholds of one form
+//! cut the number line into cells, and every state is in exactly one of them. Cells without a value
+//! are dropped: an integer has none between two neighbours, and a field none outside its type. A
+//! decision diagram with the propositions above the cuts relates the two; a valuation is possible
+//! iff the diagram below it is not empty.
 //!
 //! Forms that share variables (`x < 1`, `y < 1`, `x + y > 2`) are related by deciding which
-//! combinations of their cells have a real point, see [`linear`](crate::linear).
+//! combinations of their cells have a real point, see [`linear`](crate::linear). This is the eager
+//! way of SMT with difference and linear constraints: predicates are few, and all their relations
+//! are wanted, not one model.
 //!
-//! Everything is exact rational arithmetic on what the source says. Non-linear terms, and sums of
-//! very many, count as variables of their own, and what is too entangled to relate within
-//! [`NODE_LIMIT`] nodes or [`CELL_LIMIT`] combinations counts as independent: sound, for it only
-//! leaves letters possible that are not.
+//! # What it never does
+//!
+//! All arithmetic is exact and rational, on the numbers that the source writes. Non-linear terms,
+//! and sums of very many, count as variables of their own, and predicates too entangled to relate
+//! within [`NODE_LIMIT`] nodes or [`CELL_LIMIT`] combinations count as independent. That is sound:
+//! it leaves letters possible that are not, and never removes one that is. Integers are relaxed to
+//! reals across forms, so `2*x == 2*y + 1` counts as possible.
+//!
+//! ```
+//! use tltl_compiler::{arithmetic, check, source::Source};
+//!
+//! let module = check::formula(&Source::new("formula", "F (x < 3) && F (x > 5)"))?;
+//! let mut possible = arithmetic::possible(&module, &module.tasks[0]);
+//! assert!(!possible.all());
+//! // No state is below 3 and above 5; each alone can be.
+//! assert!(possible.excludes(&[(0, true), (1, true)]));
+//! assert_eq!(possible.values(0), (true, true));
+//! # Ok::<(), tltl_compiler::error::Errors>(())
+//! ```
 
 mod form;
 mod relation;
@@ -24,12 +46,17 @@ use crate::predicate::{ConditionId, Module, PredicateId, Task};
 
 use relation::Analysis;
 
-/// Diagrams of entangled predicates above this many nodes are given up.
+/// Predicates whose relation needs more nodes than this count as independent. A million nodes with
+/// their tables take about 90 MB.
 pub const NODE_LIMIT: usize = 1 << 20;
-/// Combinations of cells of linear forms above this number are given up.
+/// Linear forms with more combinations of cells than this count as independent. Each combination is
+/// one system of inequalities to decide.
 pub const CELL_LIMIT: usize = 1 << 12;
 
-/// The letters of a task that can occur.
+/// The letters of a task that can occur: a Boolean function of its propositions.
+///
+/// Invariant: at least one letter can occur, since every component of related predicates has a
+/// state.
 pub struct Possible {
     diagram: Diagram,
     letters: Bdd,
@@ -43,7 +70,8 @@ pub fn possible(module: &Module, task: &Task) -> Possible {
     possible_conditions(module, &roots)
 }
 
-/// The valuations of some conditions, as propositions in this order, that some state has.
+/// The valuations of some conditions, taken as propositions in this order, that some state has.
+/// Conditions that share no variable are related apart, and the results conjoined.
 #[must_use]
 pub fn possible_conditions(module: &Module, roots: &[ConditionId]) -> Possible {
     let analysis = Analysis::new(module);
@@ -72,7 +100,7 @@ impl Possible {
         (yes != Bdd::FALSE, no != Bdd::FALSE)
     }
 
-    /// Whether no letter has all of these values.
+    /// Whether no possible letter has all of these values.
     #[must_use]
     pub fn excludes(&mut self, literals: &[(u32, bool)]) -> bool {
         let mut letters = self.letters;
@@ -86,10 +114,11 @@ impl Possible {
         letters == Bdd::FALSE
     }
 
-    /// The automaton without the edges that only impossible letters take. States and the
-    /// accepting state stay; [`minimize`](crate::minimize::minimize) then merges what no possible
-    /// letter tells apart, and the result is minimal over the possible letters, for the
-    /// diagrams of two states are equal iff they are on all of those.
+    /// The automaton without the edges that only impossible letters take.
+    ///
+    /// States and the accepting state stay; [`minimize`](crate::minimize::minimize) then merges
+    /// states that no possible letter tells apart. The result is minimal over the possible letters,
+    /// because *constrain* makes the diagrams of two states equal iff they agree on all of those.
     #[must_use]
     pub fn restrict(&self, dfa: &Dfa) -> Dfa {
         let mut diagram = dfa.diagram.clone();
@@ -109,7 +138,8 @@ impl Possible {
         restricted
     }
 
-    /// The state before the first letter counts as accepting if every possible letter accepts.
+    /// Lets the initial state accept if every possible letter leads it to acceptance: a trajectory
+    /// has at least one letter.
     fn settle_initial(&self, dfa: &mut Dfa) {
         if let Some(accepting) = dfa.accepting
             && dfa.transitions[0] == Bdd::leaf(accepting)
@@ -119,7 +149,7 @@ impl Possible {
         }
     }
 
-    /// Writes the possible letters into an automaton, for its guards.
+    /// Writes the possible letters into an automaton, where its guards use them.
     pub fn attach(&self, dfa: &mut Dfa) {
         if !self.all() {
             dfa.possible = Some(dfa.diagram.import(&self.diagram, self.letters));

@@ -1,4 +1,27 @@
 //! The pipeline: source to automata, in one place.
+//!
+//! Three entries ([`formula()`], [`file()`], [`fragment()`]) differ only in how they parse. After
+//! checking, every task takes the same way: translate, minimize, ask arithmetic which letters can
+//! occur, restrict and minimize again, check that the result can be written out, judge it. A task
+//! marked `#[factored]` is taken apart first and each part takes that way alone.
+//!
+//! All mistakes are collected before one is reported: a task that exceeds its budget does not hide
+//! the unsatisfiable predicate of the next one. No stage before the translation depends on the
+//! budget, so mistakes of form and of type are the same for every budget.
+//!
+//! The cost is that of the translations; everything else is linear in what they produce. Where a
+//! task exceeds its budget, `culprit` translates it O(log² n) times more to point at the subformula
+//! that grows.
+//!
+//! ```
+//! use tltl_compiler::{compile, source::Source, translate::Budget};
+//!
+//! let source = Source::new("tasks", "state Cell { y: f64 }\npredicate near = x < 1\ntask home = F near\n");
+//! let errors = compile::file(&source, Budget::EMITTED).unwrap_err();
+//! // `x` is not declared.
+//! assert_eq!(errors.first().kind().name(), "unknown-name");
+//! assert_eq!(source.slice(errors.first().span()), "x");
+//! ```
 
 use crate::arithmetic;
 use crate::check;
@@ -13,44 +36,67 @@ use crate::spec::{FormulaId, Spec};
 use crate::translate::{Budget, Exceeded, Resource, translate};
 
 /// A source and everything that it means.
+///
+/// Invariant: `module.tasks` and `automata` have the same length and order. Factored tasks are in
+/// neither: they have several automata each, so they stand in `factored` with their parts.
 #[derive(Clone, Debug)]
 pub struct Compiled {
     /// What it declares.
     pub module: Module,
-    /// The automata of each of its tasks, in the same order.
+    /// The automata of each task of `module.tasks`, in the same order.
     pub automata: Vec<Automata>,
-    /// Its factored tasks, which are not among the others.
+    /// The tasks marked `#[factored]`, in source order.
     pub factored: Vec<Factored>,
-    /// What the author should look at.
+    /// What the author should look at, in source order; none of them is an error.
     pub warnings: Vec<Error>,
 }
 
-/// A conjunction whose parts run side by side.
+/// A conjunction whose parts run side by side, each with an automaton of its own.
+///
+/// n unordered goals are 2n states in n parts, and 2^n in one automaton.
 #[derive(Clone, Debug)]
 pub struct Factored {
     /// The task as a whole.
     pub task: Task,
     /// Its parts, in source order.
     pub parts: Vec<Part>,
-    /// Whether parts that share propositions are one, so that no dead end is missed.
+    /// Whether all conjuncts that share propositions are in one part. If so, the trap of a part
+    /// holds every dead end of its conjuncts together; if not, dead ends of several parts together
+    /// were not searched.
     pub joint: bool,
 }
 
 /// A part of a factored task.
+///
+/// Its propositions are numbered anew from 0, so its automaton does not depend on the parts beside
+/// it.
 #[derive(Clone, Debug)]
 pub struct Part {
     /// The part as a task, over its own propositions.
     pub task: Task,
     /// Its automata.
     pub automata: Automata,
-    /// The place among the whole's propositions of each of its own.
+    /// For each proposition of the part, its index among the propositions of the whole task.
     pub propositions: Vec<u32>,
 }
 
-/// The formula of a part is quoted up to this length in bytes.
+/// The formula of a part is quoted up to this length in bytes. A formula is a graph of shared
+/// operators; written out, it can be exponentially longer, so some bound is needed.
 const LONGEST: usize = 4096;
 
 /// Compiles a bare formula, whose names are free: one task without a name.
+///
+/// ```
+/// use tltl_compiler::{compile, source::Source, translate::Budget};
+///
+/// let source = Source::new("formula", "!unsafe_area U goal");
+/// let compiled = compile::formula(&source, Budget::default())?;
+/// let task = &compiled.module.tasks[0];
+/// assert_eq!(task.spec.propositions(), ["unsafe_area", "goal"]);
+/// // Initial, accepting, trap.
+/// assert_eq!(compiled.automata[0].dfa.len(), 3);
+/// # Ok::<(), tltl_compiler::error::Errors>(())
+/// ```
 ///
 /// # Errors
 /// All mistakes of the source, or that the budget does not suffice.
@@ -58,7 +104,17 @@ pub fn formula(source: &Source, budget: Budget) -> Result<Compiled, Errors> {
     check::formula(source).and_then(|module| automata(module, budget))
 }
 
-/// Compiles a task file.
+/// Compiles a task file: declarations of a state, constants, predicates and tasks.
+///
+/// ```
+/// use tltl_compiler::{compile, source::Source, translate::Budget};
+///
+/// let text = "state Cell { x: i32 }\npredicate home = x == 0\ntask back = F (!home && F home)\n";
+/// let compiled = compile::file(&Source::new("cell.tltl", text), Budget::EMITTED)?;
+/// assert_eq!(compiled.module.predicates[0].name, "home");
+/// assert_eq!(compiled.automata.len(), compiled.module.tasks.len());
+/// # Ok::<(), tltl_compiler::error::Errors>(())
+/// ```
 ///
 /// # Errors
 /// All mistakes of the source, or that the budget does not suffice.
@@ -66,7 +122,8 @@ pub fn file(source: &Source, budget: Budget) -> Result<Compiled, Errors> {
     check::file(source).and_then(|module| automata(module, budget))
 }
 
-/// Compiles what stands inside `tltl!{ … }`: a formula with or without a header, or declarations.
+/// Compiles the input of `tltl!{ … }`: a formula with or without a header, or declarations. The
+/// first token decides which of them it is.
 ///
 /// # Errors
 /// All mistakes of the source, or that the budget does not suffice.
@@ -74,6 +131,7 @@ pub fn fragment(source: &Source, budget: Budget) -> Result<Compiled, Errors> {
     check::fragment(source).and_then(|module| automata(module, budget))
 }
 
+/// Compiles every task of a module; a task that fails leaves its mistake and the others go on.
 fn automata(mut module: Module, budget: Budget) -> Result<Compiled, Errors> {
     let mut mistakes = std::mem::take(&mut module.warnings);
     let split = std::mem::take(&mut module.tasks);
@@ -100,7 +158,8 @@ fn automata(mut module: Module, budget: Budget) -> Result<Compiled, Errors> {
     Ok(Compiled { module, automata, factored, warnings })
 }
 
-/// The budget with what the task's attributes say.
+/// The budget of one task: what its attributes set, and `budget` for the rest. An attribute may
+/// also allow more than the caller does: the author of a task knows what it is worth.
 fn allowed(task: &Task, budget: Budget) -> Budget {
     let options = task.options;
     Budget {
@@ -111,6 +170,7 @@ fn allowed(task: &Task, budget: Budget) -> Budget {
     }
 }
 
+/// The parts of a factored task with their automata, and whether they are [`Factored::joint`].
 fn task_parts(
     module: &Module,
     task: &Task,
@@ -129,6 +189,12 @@ fn task_parts(
     Ok((parts, factors.joint))
 }
 
+/// The automata of one task.
+///
+/// The propositional automaton is minimized first although the restricted one is minimized again:
+/// restriction costs one *constrain* a state, and the minimal automaton has fewest. It is kept,
+/// because it is what other tools compute from the formula alone and what [`judge`] asks for the
+/// reason of a contradiction.
 fn task_automata(
     module: &Module,
     task: &Task,
@@ -154,8 +220,12 @@ fn task_automata(
     Ok(automata)
 }
 
-/// Whether an automaton can be written out: counts edges and the products of their guards, but
-/// not far beyond the limits. Nothing to count where any number of edges will do.
+/// Checks that an automaton can be written out.
+///
+/// Counts edges and the products of their guards, and stops soon after a limit is passed: the count
+/// of products can be exponential in the number of propositions. With an unlimited number of edges
+/// there is nothing to count: the automaton is only looked at, and its guards are checked by those
+/// who print them.
 fn check_size(dfa: &Dfa, budget: Budget) -> Result<(), Exceeded> {
     if budget.edges == usize::MAX {
         return Ok(());
@@ -180,6 +250,7 @@ pub fn check_guards(dfa: &Dfa, budget: Budget) -> Result<(), Exceeded> {
     if fits { Ok(()) } else { Err(Exceeded { what: Resource::Products, limit }) }
 }
 
+/// The error for a task that needs more than its budget, with what to write instead.
 fn exceeds(task: &Task, budget: Budget, exceeded: Exceeded) -> Error {
     let Exceeded { what, limit } = exceeded;
     let name = task.name.as_ref().map_or("the formula".to_owned(), |name| format!("task `{name}`"));
@@ -208,11 +279,18 @@ fn exceeds(task: &Task, budget: Budget, exceeded: Exceeded) -> Error {
     }
 }
 
-/// Where a subformula stands whose own automaton is too large, but that of none of its parts.
+/// The place of a subformula whose own automaton exceeds the budget, while those of its operands do
+/// not.
 ///
-/// Each try can cost the whole budget. So the parts are not tried one by one: on the way down, into
-/// the larger operand each time, the last one that is too large is found by halving, and then the
-/// smaller operand beside the way is tried. For n operators that makes O(log² n) tries.
+/// Each translation can cost the whole budget, so the subformulas are not tried one by one. The
+/// path down into the larger operand is searched by halving for its last subformula that exceeds
+/// the budget; then the smaller operand beside the path is tried, and if it exceeds the budget too,
+/// the search starts again there. Operands at least halve with each such step to the side, so n
+/// operators make O(log² n) translations.
+///
+/// Halving assumes that an automaton grows with its formula. Where it does not (a large operand
+/// under a conjunction with a small contradiction), the result is still a subformula that exceeds
+/// the budget, but perhaps not the smallest.
 fn culprit(spec: &Spec, budget: Budget) -> Span {
     let mut sizes: Vec<usize> = Vec::new();
     for (_, formula) in spec.formulas() {

@@ -1,9 +1,33 @@
 //! Deterministic automata over the valuations of propositions, with a shared decision diagram as
 //! their transition function.
 //!
-//! A [`Dfa`] may be raw (as translated) or canonical (as [`minimize`](crate::minimize::minimize)
-//! leaves it): complete, reachable, states numbered breadth-first, letters in lexicographic order
-//! (proposition 0 first, false before true), the nodes of the diagram in postorder.
+//! A letter is a valuation: one truth value for each proposition. Over n propositions there are 2^n
+//! of them, so a table would be hopeless beyond about ten; a diagram shares what the states have in
+//! common.
+//!
+//! A [`Dfa`] may be raw (as [`translate`](crate::translate::translate) makes it) or canonical (as
+//! [`minimize`](crate::minimize::minimize) makes it): complete, reachable, states numbered
+//! breadth-first, letters in lexicographic order (proposition 0 first, false before true), the
+//! nodes of the diagram in postorder. Two canonical automata over the same propositions are equal
+//! iff their languages are.
+//!
+//! An automaton reads at least one letter: a trajectory has an initial state of the world. So the
+//! initial state of the automaton accepts only if every first letter does.
+//!
+//! ```
+//! use tltl_compiler::{compile, source::Source, translate::Budget};
+//!
+//! let source = Source::new("formula", "!water U home");
+//! let dfa = &compile::formula(&source, Budget::EMITTED)?.automata[0].dfa;
+//! let (accepting, trap) = (dfa.accepting.unwrap(), dfa.trap.unwrap());
+//! // Proposition 0 is `water`, 1 is `home`.
+//! assert_eq!(dfa.next(0, |proposition| proposition == 1), accepting);
+//! assert_eq!(dfa.next(0, |proposition| proposition == 0), trap);
+//! assert_eq!(dfa.distances(), [Some(1), Some(0), None]);
+//! let edge = dfa.edges().into_iter().find(|edge| edge.to == trap).unwrap();
+//! assert_eq!(edge.guard, [[(0, true), (1, false)]]);
+//! # Ok::<(), tltl_compiler::error::Errors>(())
+//! ```
 
 mod edge;
 
@@ -16,34 +40,45 @@ pub type State = u32;
 
 /// A complete deterministic automaton with at most one accepting state and at most one trap, both
 /// absorbing.
+///
+/// One accepting state suffices: a co-safe formula that is satisfied stays satisfied (Kupferman and
+/// Vardi, "Model Checking of Safety Properties", 2001), so all good prefixes end in one state. For
+/// the same reason one trap suffices.
+///
+/// Invariant: `transitions` is not empty, every leaf of it is below its length, and every level in
+/// the diagram is below the number of propositions.
 #[derive(Clone, Debug)]
 pub struct Dfa {
     /// The propositions; bit i of a letter is proposition i.
     pub propositions: Vec<String>,
-    /// The nodes that the transitions of all states share. Levels are propositions: formulas are
-    /// mostly written in the order in which things shall happen, and then later goals share the
-    /// diagrams of earlier ones (the opposite order makes nested goals cubic).
+    /// The nodes that the transitions of all states share. Levels are propositions, in the order in
+    /// which the formula names them: formulas are mostly written in the order in which things shall
+    /// happen, and later goals then share the diagrams of earlier ones. The opposite order makes
+    /// nested goals cubic.
     pub diagram: Diagram,
-    /// The transition function of each state, whose leaves are states.
+    /// The transition function of each state; its leaves are states.
     pub transitions: Vec<Bdd>,
-    /// The accepting state, if there is one.
+    /// The accepting state; `None` if no trajectory is accepted.
     pub accepting: Option<State>,
-    /// The rejecting trap, if there is one.
+    /// The state from which acceptance cannot be reached; `None` if there is none.
     pub trap: Option<State>,
-    /// The letters that can occur, as a Boolean function; `None` if all can.
+    /// The letters that can occur, as a Boolean function in `diagram`; `None` if all can. Guards
+    /// are shortened by what cannot occur; transitions under such letters are arbitrary.
     pub possible: Option<Bdd>,
 }
 
-/// The two automata of a task.
+/// The two automata of a task. They are the same where arithmetic does not tie its predicates.
 #[derive(Clone, Debug)]
 pub struct Automata {
-    /// Minimal with all predicates taken for free propositions: what other tools compute.
+    /// Minimal with all predicates taken for free propositions: the automaton that other tools
+    /// compute from the formula.
     pub propositional: Dfa,
-    /// Minimal over the letters that can occur: what is emitted.
+    /// Minimal over the letters that can occur: the automaton that is emitted.
     pub dfa: Dfa,
 }
 
-/// How big an automaton is, under the usual conventions.
+/// The size of an automaton, under the usual conventions: parallel edges between two states count
+/// as one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Size {
     /// States, the trap included.
@@ -76,10 +111,8 @@ impl Dfa {
         0..self.transitions.len() as State
     }
 
-    /// The next state from `q` under the letter that `holds` answers.
-    ///
-    /// # Panics
-    /// If `q` is not a state.
+    /// The next state from `q` under the letter that `holds` gives, one proposition at a time; only
+    /// those that matter in `q` are asked.
     pub fn next(&self, q: State, holds: impl Fn(u32) -> bool) -> State {
         self.diagram.evaluate(self.transitions[q as usize], &holds)
     }
@@ -112,7 +145,8 @@ impl Dfa {
         size
     }
 
-    /// For each state the least number of moves to the accepting state, if there is a way.
+    /// For each state the least number of transitions to the accepting state; `None` if there is no
+    /// way. Breadth-first and backwards; linear in the number of edges.
     #[must_use]
     pub fn distances(&self) -> Vec<Option<u32>> {
         let mut predecessors = vec![Vec::new(); self.len()];
@@ -138,18 +172,35 @@ impl Dfa {
 }
 
 /// The guards of an automaton, each as an irredundant sum of products.
+///
+/// Making one computes for all states at once under which letters they move where; a guard is then
+/// a lookup and a sum of products ([`Diagram::sum_of_products`]). Letters that cannot occur may be
+/// in a guard or not, whichever is shorter.
+///
+/// ```
+/// use tltl_compiler::{compile, dfa::Guards, source::Source, translate::Budget};
+///
+/// let source = Source::new("formula", "F (a && F b)");
+/// let dfa = &compile::formula(&source, Budget::EMITTED)?.automata[0].dfa;
+/// let mut guards = Guards::new(dfa);
+/// // From the initial state: `a` alone is progress, `a` with `b` too.
+/// assert_eq!(guards.progress(0), [[(0, true)]]);
+/// assert!(guards.are_below(1));
+/// # Ok::<(), tltl_compiler::error::Errors>(())
+/// ```
 pub struct Guards<'a> {
     dfa: &'a Dfa,
     /// Boolean functions of the propositions.
     diagram: Diagram,
+    /// The letters that can occur, in `diagram`.
     possible: Bdd,
-    /// For each state the states that it moves to, rising, and when: what states share of their
-    /// transition functions is looked at once.
+    /// For each state its successors, rising, and the letters that lead there. Computed for all
+    /// states in one pass, because states share most of their transition functions.
     moves: Vec<Vec<(State, Bdd)>>,
 }
 
 impl<'a> Guards<'a> {
-    /// Guards of `dfa`; letters that cannot occur are used to shorten them.
+    /// The guards of `dfa`. Costs the number of pairs of a node and a state that it leads to.
     #[must_use]
     pub fn new(dfa: &'a Dfa) -> Self {
         let mut diagram = Diagram::default();
@@ -158,20 +209,21 @@ impl<'a> Guards<'a> {
         Self { dfa, diagram, possible, moves }
     }
 
-    /// ψ_{q,to}: when `q` moves to `to`. Literals are `(proposition, value)`, by rising
-    /// proposition.
+    /// ψ_{q,to}: the letters under which `q` moves to `to`, as a sum of products. Literals are
+    /// `(proposition, value)`, by rising proposition; no products if there is no such edge.
     pub fn edge(&mut self, q: State, to: State) -> Vec<Cube> {
         let when = self.when(q, to);
         self.sum(when)
     }
 
-    /// D_φ^q: when `q` moves to another state that is not the trap (paper, Eq. 3A3).
+    /// D_φ^q: the letters under which `q` moves to another state that is not the trap (paper, Eq.
+    /// 3A3).
     pub fn progress(&mut self, q: State) -> Vec<Cube> {
         let when = self.progresses(q);
         self.sum(when)
     }
 
-    /// Whether no guard has more than `most` products.
+    /// Whether no guard has more than `most` products. Counts them without writing one out.
     pub fn are_below(&mut self, most: usize) -> bool {
         self.dfa.states().all(|q| {
             let mut guards = self.moves[q as usize].clone();
@@ -190,15 +242,15 @@ impl<'a> Guards<'a> {
         place.map_or(Bdd::FALSE, |place| moves[place].1)
     }
 
-    /// The letters under which `q` moves on, and not into the trap.
+    /// The letters under which `q` moves to another state that is not the trap.
     fn progresses(&mut self, q: State) -> Bdd {
         let falls = self.dfa.trap.map_or(Bdd::FALSE, |trap| self.when(q, trap));
         let rests = self.diagram.or(self.when(q, q), falls);
         self.diagram.not(rests)
     }
 
-    /// What a sum of products must cover, and what it may: all letters of `when` that can occur,
-    /// and besides them any that cannot.
+    /// The bounds of a sum of products: the letters of `when` that can occur, which it must cover,
+    /// and with them all letters that cannot occur, which it may cover.
     fn bounds(&mut self, when: Bdd) -> (Bdd, Bdd) {
         let impossible = self.diagram.not(self.possible);
         (self.diagram.and(when, self.possible), self.diagram.or(when, impossible))

@@ -1,9 +1,30 @@
-//! What is wrong with a source, told to its author.
+//! Mistakes of a source, reported to its author.
 //!
-//! An [`Error`] says in one sentence what is wrong, in the author's own words, points at the
-//! place, points at the other places that matter, and ends with what to do. The command line, the
-//! macro and the tests show the same text. All mistakes of a source are reported together, in
-//! the order in which they stand there.
+//! An [`Error`] says in one sentence what is wrong, in the author's own words, points at the place
+//! and at the other places that matter, and ends with what to do. The command line, the macros and
+//! the tests show the same text. All mistakes of a source are collected and reported together, in
+//! source order: a stage never stops at the first.
+//!
+//! Errors are opaque: a kind, a span and a message with private fields, built by chained methods,
+//! so that a new part (such as `related`) changes no caller. Warnings are errors of a lower
+//! [`Severity`]; they travel the same way and do not stop the compilation.
+//!
+//! ```
+//! use tltl_compiler::error::{Error, Kind, Style};
+//! use tltl_compiler::source::{Source, Span};
+//!
+//! let source = Source::new("room.tltl", "task home = F hme\n");
+//! let error = Error::new(Kind::UnknownName, "`hme` is not declared", Span::new(14, 17))
+//!     .help("did you mean `home`?");
+//! assert_eq!(error.render(&source, Style::Plain), "\
+//! error[unknown-name]: `hme` is not declared
+//!  --> room.tltl:1:15
+//!   |
+//! 1 | task home = F hme
+//!   |               ^^^
+//!   = help: did you mean `home`?
+//! ");
+//! ```
 
 mod render;
 
@@ -13,7 +34,8 @@ pub use render::Style;
 
 use crate::source::{Source, Span};
 
-/// What sort of mistake it is; its [`name`](Kind::name) is part of the output for machines.
+/// The kind of a mistake. Its [`name`](Kind::name) is part of the output for machines and stays the
+/// same across versions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Kind {
@@ -23,9 +45,9 @@ pub enum Kind {
     Nesting,
     /// A number is too large to be exact.
     Number,
-    /// An operator of other temporal logics.
+    /// An operator of another temporal logic, which is not co-safe or looks back.
     UnsupportedOperator,
-    /// A negation stands before a temporal operator.
+    /// A negation before a temporal operator, whose negation is not co-safe.
     NegatedTemporal,
     /// A name is not declared.
     UnknownName,
@@ -37,23 +59,23 @@ pub enum Kind {
     Cycle,
     /// A number where a formula is needed, or the like.
     Type,
-    /// Numbers of different units, or a unit that there is not.
+    /// Numbers of different units, or a unit that does not exist.
     Unit,
     /// A comparison chain that points both ways.
     Chain,
-    /// Nothing uses it.
+    /// A declaration that nothing uses.
     Unused,
-    /// It can never hold.
+    /// A predicate or task that never holds.
     Unsatisfiable,
-    /// It always holds.
+    /// A predicate or task that always holds.
     Valid,
-    /// It probably means something else.
+    /// A formula that probably means something else than it says.
     Intent,
-    /// A part of a formula does not matter.
+    /// A part of a formula that does not matter.
     Vacuous,
     /// The automaton grows beyond its budget.
     Budget,
-    /// An automaton is not one that a formula could have.
+    /// An automaton that no formula could have.
     Automaton,
 }
 
@@ -94,7 +116,7 @@ pub enum Severity {
     Warning,
 }
 
-/// One mistake.
+/// One mistake: a sentence, the place, further places, and what to do.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Error {
     kind: Kind,
@@ -107,7 +129,7 @@ pub struct Error {
 }
 
 impl Error {
-    /// The mistake that `message` tells, one sentence without a full stop, at `span`.
+    /// The mistake that `message` reports, one sentence without a full stop, at `span`.
     #[must_use]
     pub fn new(kind: Kind, message: impl Into<String>, span: Span) -> Self {
         Self {
@@ -149,7 +171,7 @@ impl Error {
         self
     }
 
-    /// What sort of mistake it is.
+    /// The kind of the mistake.
     #[must_use]
     pub fn kind(&self) -> Kind {
         self.kind
@@ -167,46 +189,48 @@ impl Error {
         self.severity == Severity::Warning
     }
 
-    /// What is wrong, in one sentence.
+    /// The sentence that says what is wrong.
     #[must_use]
     pub fn message(&self) -> &str {
         &self.message
     }
 
-    /// Where.
+    /// The place of the mistake.
     #[must_use]
     pub fn span(&self) -> Span {
         self.span
     }
 
-    /// What stands beside the place of the mistake; empty if nothing does.
+    /// The text beside the place of the mistake; empty if there is none.
     #[must_use]
     pub fn place_label(&self) -> &str {
         &self.label
     }
 
-    /// The other places that matter, each with what it is.
+    /// The other places that matter, each with its text.
     #[must_use]
     pub fn places(&self) -> &[(Span, String)] {
         &self.related
     }
 
-    /// What to do about it, a string a line.
+    /// The advice, a string a line.
     #[must_use]
     pub fn helps(&self) -> &[String] {
         &self.help
     }
 
-    /// The whole report, with the lines of `source` that it speaks of.
+    /// The whole report, with the lines of `source` that it points at.
     #[must_use]
     pub fn render(&self, source: &Source, style: Style) -> String {
         render::report(self, source, style)
     }
 }
 
-/// The longest sentence that anyone reads; names and formulas in it may be of any length.
+/// The longest sentence, in characters. Names and formulas in a message may have any length, and
+/// nobody reads more.
 const LONGEST: usize = 400;
 
+/// The text, cut to the longest sentence.
 fn bounded(mut text: String) -> String {
     if let Some((end, _)) = text.char_indices().nth(LONGEST) {
         text.truncate(end);
@@ -225,15 +249,28 @@ impl fmt::Display for Error {
 
 impl std::error::Error for Error {}
 
-/// The most mistakes that are reported at once.
+/// The most mistakes that are reported at once. A source with more is most likely not of this
+/// language.
 const MOST: usize = 100;
 
 /// All mistakes of a source: at least one error, in source order; warnings may stand among them.
+///
+/// ```
+/// use tltl_compiler::{compile, source::Source, translate::Budget};
+///
+/// let text = "state Cell { x: i32 }\ntask a = F (x < up)\ntask b = F (y > 0)\n";
+/// let errors = compile::file(&Source::new("cell.tltl", text), Budget::EMITTED).unwrap_err();
+/// // Both mistakes, not only the first.
+/// let names: Vec<&str> = errors.iter().map(|error| error.kind().name()).collect();
+/// assert_eq!(names, ["unknown-name", "unknown-name"]);
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Errors(Vec<Error>);
 
 impl Errors {
-    /// `Err` of the mistakes if one of them is an error, else the warnings.
+    /// `Err` of the mistakes if one of them is an error, else the warnings. Sorts them by place and
+    /// drops repetitions: the body of a quantifier is checked once for each element, and reports
+    /// the same mistake each time.
     ///
     /// # Errors
     /// If there is an error among them.
@@ -266,7 +303,7 @@ impl Errors {
         self.0.iter()
     }
 
-    /// The first error, warnings left aside.
+    /// The first error; warnings are passed over.
     #[must_use]
     pub fn first(&self) -> &Error {
         self.0.iter().find(|error| !error.is_warning()).unwrap_or(&self.0[0])
@@ -280,7 +317,8 @@ impl Errors {
     }
 }
 
-/// Brings mistakes into the order of the source.
+/// Sorts mistakes by their place. The sort is stable: those at one place stay in the order in which
+/// they were found.
 fn sort(mistakes: &mut [Error]) {
     mistakes.sort_by_key(|mistake| mistake.span);
 }

@@ -1,40 +1,62 @@
-//! A conjunction as parts that run side by side.
+//! A conjunction taken apart into parts that run side by side.
 //!
-//! Conjuncts that share a proposition belong together, for they can be lost together while each
-//! could still go on alone; their joint automaton is built if it stays within [`PART`], and then
-//! its trap holds those dead ends. Conjuncts of a group that does not stay within it run
-//! apart, and the task is marked: its joint dead ends were not searched.
+//! n unordered goals have 2^n states in one automaton, and 2n in n automata. The price is that each
+//! part knows only its own dead ends: two conjuncts can be lost together while each could still be
+//! satisfied alone, as `!b U a` and `!a U b` once neither `a` nor `b` can come first.
+//!
+//! Only conjuncts that share a proposition can be lost together in this way. So they belong to one
+//! group, and the joint automaton of a group is built if it stays within [`PART`]; its trap then
+//! holds those dead ends. Conjuncts of a group that exceeds it run apart, and the task is marked:
+//! its joint dead ends were not searched ([`Factors::joint`]).
+//!
+//! Known weakness: propositions that differ but are tied by arithmetic (`x < 1`, `x < 2`) do not
+//! make a group, so dead ends that arithmetic alone makes are not seen.
+//!
+//! ```
+//! use tltl_compiler::{check, factor::factors, source::Source, translate::Budget};
+//!
+//! let module = check::formula(&Source::new("formula", "F a && F b && (c U a)"))?;
+//! let factors = factors(&module.tasks[0].spec, Budget::EMITTED).unwrap();
+//! // `a` ties the first conjunct and the third.
+//! let texts: Vec<String> = factors.parts.iter().map(|part| part.spec.to_string()).collect();
+//! assert_eq!(texts, ["F a && (c U a)", "F b"]);
+//! assert!(factors.joint);
+//! # Ok::<(), tltl_compiler::error::Errors>(())
+//! ```
 
 use crate::arena;
 use crate::spec::{Formula, FormulaId, Spec};
 use crate::translate::{Budget, Exceeded, translate};
 
-/// What the joint automaton of conjuncts that share propositions may need.
+/// The budget of the joint automaton of conjuncts that share propositions.
 ///
-/// Eight goals with one hazard in common have 257 states and run apart, seven have 129 and run as
-/// one. A try that fails costs an unoptimised macro at most a fifth of a second (30 such goals: 0.1 s);
-/// with [`Budget::EMITTED`] it would cost these 3.4 s.
+/// Eight goals with one hazard in common have 257 states and run apart; seven have 129 and run as
+/// one. A try that fails costs an unoptimized macro at most a fifth of a second (30 such goals: 0.1
+/// s); with [`Budget::EMITTED`] these would cost 3.4 s.
 pub const PART: Budget = Budget { states: 256, nodes: 1 << 16, ..Budget::EMITTED };
 
-/// One part: its formula, and the propositions of the whole that its own ones are.
+/// One part: its formula, over its own propositions.
 #[derive(Clone, Debug)]
 pub struct Factor {
-    /// The formula.
+    /// The formula of the part.
     pub spec: Spec,
-    /// The place in the whole's propositions of each of the part's.
+    /// For each proposition of the part, its index among those of the whole formula; rising.
     pub propositions: Vec<u32>,
 }
 
-/// The parts of a conjunction.
+/// The parts of a conjunction. The conjunction of their formulas means the same as the whole.
 #[derive(Clone, Debug)]
 pub struct Factors {
-    /// The parts, in the order in which the formula says them first.
+    /// The parts, in the order in which the source has their first conjuncts.
     pub parts: Vec<Factor>,
     /// Whether every group of conjuncts that share propositions is one part.
     pub joint: bool,
 }
 
-/// Takes a conjunction apart; any other formula is one part.
+/// Takes a conjunction apart. A formula that is not a conjunction is one part.
+///
+/// Each part is translated once to see that it stays within the budget; [`compile`](crate::compile)
+/// translates it again, for its automata are a later stage.
 ///
 /// # Errors
 /// If the automaton of a single conjunct needs more than `budget`.
@@ -53,7 +75,7 @@ pub fn factors(spec: &Spec, budget: Budget) -> Result<Factors, Exceeded> {
     Ok(factors)
 }
 
-/// The conjuncts, those together that share propositions, in source order.
+/// The groups of conjuncts that share propositions, in source order.
 fn groups(spec: &Spec) -> Vec<Vec<FormulaId>> {
     let conjuncts = conjuncts(spec);
     let ties: Vec<_> = conjuncts.iter().map(|&conjunct| propositions(spec, &[conjunct])).collect();
@@ -61,6 +83,7 @@ fn groups(spec: &Spec) -> Vec<Vec<FormulaId>> {
     groups.map(|group| group.into_iter().map(|place| conjuncts[place]).collect()).collect()
 }
 
+/// The conjuncts: the operands of the outermost chain of `&&`, in source order, each once.
 fn conjuncts(spec: &Spec) -> Vec<FormulaId> {
     let mut conjuncts = Vec::new();
     arena::needed(vec![spec.root().0], &mut |id, open| match spec.formula(FormulaId(id)) {
@@ -71,7 +94,7 @@ fn conjuncts(spec: &Spec) -> Vec<FormulaId> {
     conjuncts
 }
 
-/// Everything that some formulas are made of, operands first.
+/// All subformulas of some formulas, operands first.
 fn parts(spec: &Spec, roots: &[FormulaId]) -> Vec<FormulaId> {
     let roots = roots.iter().map(|root| root.0).collect();
     let parts = arena::needed(roots, &mut |id, open| {
@@ -92,7 +115,8 @@ fn propositions(spec: &Spec, roots: &[FormulaId]) -> Vec<u32> {
     found
 }
 
-/// The conjunction of some subformulas, over the propositions that they mention.
+/// The conjunction of some subformulas, over the propositions that they mention, which are numbered
+/// anew.
 fn extract(spec: &Spec, roots: &[FormulaId]) -> Factor {
     let chosen = propositions(spec, roots);
     let names = chosen.iter().map(|&p| spec.propositions()[p as usize].clone()).collect();

@@ -1,7 +1,30 @@
-//! Predicates and tasks that can hardly be meant: never satisfied, or always; and why.
+//! Finds predicates and tasks that can hardly be meant, because they never hold or always do, and
+//! says why.
 //!
-//! The reasons come from the same arithmetic as the letters that can occur: a set of comparisons is
-//! made smaller until each is needed for the contradiction.
+//! Which letters can occur is known ([`Possible`]), so an unsatisfiable predicate is one that no
+//! possible letter has, and an unsatisfiable task one whose automaton has no accepting state. The
+//! work is the reason. It comes from the same arithmetic: a set of comparisons is reduced until
+//! each of them is needed for the contradiction (an irreducible infeasible subset, by the deletion
+//! filter of Chinneck and Dravnieks, 1991). The message then names those and points at them.
+//!
+//! ```text
+//! error[unsatisfiable]: the predicate `stuck` can never hold
+//!    `x < 1` and `x > 3` exclude each other
+//! ```
+//!
+//! In a bare formula all of it is a warning: such a formula may be there to be explored. Nothing
+//! here changes an automaton. Cost: one emptiness test for each comparison of a contradiction.
+//! Known weakness: a contradiction over several instants is found (the automaton shows it) but not
+//! explained.
+//!
+//! ```
+//! use tltl_compiler::{compile, source::Source, translate::Budget};
+//!
+//! let source = Source::new("formula", "F (x < 1 && x > 3)");
+//! let compiled = compile::formula(&source, Budget::EMITTED)?;
+//! assert!(compiled.warnings.iter().any(|warning| warning.kind().name() == "unsatisfiable"));
+//! # Ok::<(), tltl_compiler::error::Errors>(())
+//! ```
 
 use crate::arithmetic::{self, Possible};
 use crate::dfa::{Automata, Dfa};
@@ -9,8 +32,7 @@ use crate::error::{Error, Kind};
 use crate::predicate::{Condition, ConditionId, Module, Task};
 use crate::source::Span;
 
-/// What the author of a task should look at. In a bare formula, which may be there to be explored,
-/// all of it is a warning.
+/// The mistakes of one task, its predicates first.
 pub(crate) fn task(
     module: &Module,
     task: &Task,
@@ -25,7 +47,7 @@ pub(crate) fn task(
     mistakes
 }
 
-/// A predicate that never holds, or always does, is surely a mistake.
+/// A mistake for each predicate that never holds, and a warning for each that always does.
 fn predicates(module: &Module, task: &Task, possible: &mut Possible) -> Vec<Error> {
     let mut mistakes = Vec::new();
     for (proposition, &id) in (0..).zip(&task.predicates) {
@@ -51,7 +73,8 @@ fn predicates(module: &Module, task: &Task, possible: &mut Possible) -> Vec<Erro
     mistakes
 }
 
-/// The error with the places of what contradicts each other.
+/// The error with the places of the parts of a contradiction; a contradiction of one part has no
+/// place beside that of the error itself.
 fn pointing(error: Error, core: &[Part]) -> Error {
     let several = core.iter().filter(|_| core.len() > 1);
     several.fold(error, |error, part| match (part.place, part.holds) {
@@ -61,6 +84,7 @@ fn pointing(error: Error, core: &[Part]) -> Error {
     })
 }
 
+/// The reason why a predicate never holds.
 fn never(core: &[Part]) -> String {
     match core {
         [] => "no state satisfies this".to_owned(),
@@ -69,6 +93,7 @@ fn never(core: &[Part]) -> String {
     }
 }
 
+/// The reason why a predicate always holds: its negation never does.
 fn always(core: &[Part]) -> String {
     match core {
         [] => "every state satisfies this".to_owned(),
@@ -77,11 +102,12 @@ fn always(core: &[Part]) -> String {
     }
 }
 
+/// The texts of some parts.
 fn texts(parts: &[Part]) -> Vec<String> {
     parts.iter().map(|part| part.text.clone()).collect()
 }
 
-/// Why things cannot hold together.
+/// The sentence that some conditions cannot hold together.
 fn excluding(all: &[String]) -> String {
     match all {
         [one, other] => format!("{one} and {other} exclude each other"),
@@ -89,6 +115,7 @@ fn excluding(all: &[String]) -> String {
     }
 }
 
+/// The same as the end of a sentence.
 fn failing(all: &[String]) -> String {
     match all {
         [one, other] => format!("{one} and {other}, which exclude each other"),
@@ -96,6 +123,7 @@ fn failing(all: &[String]) -> String {
     }
 }
 
+/// A list of words: "a, b and c".
 fn listed(all: &[String]) -> String {
     match all.split_last() {
         Some((last, rest)) if !rest.is_empty() => format!("{} and {last}", rest.join(", ")),
@@ -103,18 +131,21 @@ fn listed(all: &[String]) -> String {
     }
 }
 
-/// A part of a contradiction: a condition that has to hold, or to fail.
+/// A part of a contradiction: a condition together with the value that it must have.
 struct Part {
     id: ConditionId,
+    /// Whether it must hold; it must fail otherwise.
     holds: bool,
-    /// What has to hold.
+    /// The condition that must hold, as text in backquotes.
     text: String,
-    /// Where the source says so.
+    /// Where the source says so, if it does.
     place: Option<Span>,
 }
 
-/// The parts of some conditions, or of their negations, that contradict each other; none if one is
-/// a constant, or if the contradiction is not one of their parts alone.
+/// The parts of some conditions, or of their negations, that contradict each other. Each condition
+/// comes with the value that it must have and the place of its predicate.
+///
+/// Empty if a condition is a constant, or if these parts alone do not contradict each other.
 fn contradiction(module: &Module, conditions: &[(ConditionId, bool, Span)]) -> Vec<Part> {
     let mut parts = parts(module, conditions);
     let roots: Vec<_> = parts.iter().map(|part| part.id).collect();
@@ -126,8 +157,9 @@ fn contradiction(module: &Module, conditions: &[(ConditionId, bool, Span)]) -> V
     parts
 }
 
-/// What has to hold, or to fail, for conditions to have these values: a conjunction. Each condition
-/// comes with the place of the predicate that it is.
+/// The parts that must hold, or fail, for conditions to have the given values: their conjuncts,
+/// through negation and the conditions of other predicates. A disjunction that must hold is one
+/// part.
 fn parts(module: &Module, conditions: &[(ConditionId, bool, Span)]) -> Vec<Part> {
     let mut parts: Vec<Part> = Vec::new();
     let open = conditions.iter().rev().map(|&(id, holds, from)| (id, holds, from, None));
@@ -155,14 +187,16 @@ fn parts(module: &Module, conditions: &[(ConditionId, bool, Span)]) -> Vec<Part>
     parts
 }
 
-/// Where the source has a condition: the first place from there on, or the first of all.
+/// The place of a condition in the source: the first from `from` on, or the first of all. Equal
+/// comparisons are one condition, so the one that is meant is the one inside its own predicate.
 fn place(module: &Module, id: ConditionId, from: Span) -> Option<Span> {
     let same = |known: ConditionId| known == id || negates(module, known, id);
     let places = || module.places.iter().filter(|(known, _)| same(*known)).map(|(_, span)| *span);
     places().filter(|span| span.start >= from.start).min().or_else(|| places().min())
 }
 
-/// Whether two comparisons are each other's negation.
+/// Whether two comparisons are each other's negation. The source may have either, because `!`
+/// before a comparison becomes the opposite comparison.
 fn negates(module: &Module, a: ConditionId, b: ConditionId) -> bool {
     match (module.arena.condition(a), module.arena.condition(b)) {
         (Condition::Compare(one, x, y), Condition::Compare(other, u, v)) => {
@@ -172,6 +206,7 @@ fn negates(module: &Module, a: ConditionId, b: ConditionId) -> bool {
     }
 }
 
+/// A condition that must hold, or the negation of one that must fail, in backquotes.
 fn part_text(module: &Module, part: ConditionId, holds: bool) -> String {
     let text = match (module.arena.condition(part), holds) {
         (_, true) => module.display(part).to_string(),
@@ -187,7 +222,8 @@ fn part_text(module: &Module, part: ConditionId, holds: bool) -> String {
     format!("`{text}`")
 }
 
-/// The literals without which the others can occur; none if all can occur together.
+/// A minimal subset of `literals` that no possible letter has, by deletion: each literal is left
+/// out, and put back if the rest can occur. Empty if all can occur together.
 fn core(possible: &mut Possible, mut literals: Vec<(u32, bool)>) -> Vec<(u32, bool)> {
     if !possible.excludes(&literals) {
         return Vec::new();
@@ -203,7 +239,7 @@ fn core(possible: &mut Possible, mut literals: Vec<(u32, bool)>) -> Vec<(u32, bo
     literals
 }
 
-/// A formula that no trajectory satisfies, or every one.
+/// The mistake of a formula that no trajectory satisfies, or that every one does.
 fn formula(
     module: &Module,
     task: &Task,
@@ -245,7 +281,11 @@ fn formula(
     }
 }
 
-/// What a formula asks for at one instant that no state has.
+/// The demand of a formula that no state meets at one instant: the literals of a guard of which a
+/// subset cannot occur.
+///
+/// Looks at the edges of the propositional automaton that lead nearer to acceptance. If every cube
+/// of the guard of one of them is impossible, that edge is a reason.
 fn obstacle(possible: &mut Possible, dfa: &Dfa) -> Option<Vec<(u32, bool)>> {
     dfa.accepting?;
     let distances = dfa.distances();
@@ -260,6 +300,7 @@ fn obstacle(possible: &mut Possible, dfa: &Dfa) -> Option<Vec<(u32, bool)>> {
     None
 }
 
+/// A literal as text, in backquotes.
 fn name(task: &Task, (proposition, holds): (u32, bool)) -> String {
     let name = &task.spec.propositions()[proposition as usize];
     if holds { format!("`{name}`") } else { format!("`!({name})`") }

@@ -1,21 +1,35 @@
-//! Whether a system of linear inequalities over the reals has a solution: Fourier–Motzkin
+//! Decides whether a system of linear inequalities over the reals has a solution: Fourier–Motzkin
 //! elimination in exact integer arithmetic.
 //!
-//! One variable after the other is eliminated by adding every upper bound on it to every lower one,
-//! the variable with the fewest such pairs first. That can grow doubly exponentially, so systems
-//! that outgrow [`MOST`] inequalities or 100 bits are given up; the systems that predicates make
-//! have a handful of each.
+//! # Method
+//!
+//! One variable after the other is eliminated by adding every upper bound on it to every lower
+//! bound, the variable with the fewest such pairs first (Schrijver, "Theory of Linear and Integer
+//! Programming", 1986, section 12.2). What is left are inequalities between numbers.
+//!
+//! # Why this way
+//!
+//! The simplex method has the better worst case and needs fractions, pivoting rules and strict
+//! bounds as a special case. Elimination can grow doubly exponentially, so systems that outgrow
+//! [`MOST`] inequalities or 62 bits are given up; the systems that predicates make have a handful
+//! of each, and the code is a page.
+//!
+//! # Limits
+//!
+//! Solutions are real: `2*x == 1` has one although no integer satisfies it. The answer `None` means
+//! "not known", and callers then treat the inequalities as independent.
 
 use rustc_hash::FxHashSet;
 
 use crate::predicate::TermId;
 
-/// More inequalities than this are not looked at.
+/// Systems with more inequalities than this are given up.
 pub const MOST: usize = 512;
-/// Coefficients stay below this, so that sums of two products do not overflow.
+/// Coefficients stay below this, so that the sum of two products does not overflow an `i128`.
 const LARGE: i128 = 1 << 62;
 
-/// Variables with their coefficients, by variable; none is 0.
+/// Variables with their coefficients, sorted by variable. No coefficient is 0 and no variable
+/// stands twice, so equal forms are equal values.
 pub type Form = Vec<(TermId, i128)>;
 
 /// Σ coefficient × variable ≤ bound, or < bound.
@@ -29,7 +43,19 @@ pub struct Inequality {
     pub strict: bool,
 }
 
-/// Whether the system has a real solution; `None` if that would be too much work to find out.
+/// Whether the system has a real solution; `None` if finding out would exceed a limit.
+///
+/// ```
+/// use tltl_compiler::linear::{Inequality, feasible};
+/// use tltl_compiler::predicate::TermId;
+///
+/// let [x, y] = [0, 1].map(TermId);
+/// let below = |form: &[(TermId, i128)], bound| Inequality { form: form.to_vec(), bound, strict: true };
+/// // x < 1 and y < 1, and x + y > 2.
+/// let system = [below(&[(x, 1)], 1), below(&[(y, 1)], 1), below(&[(x, -1), (y, -1)], -2)];
+/// assert_eq!(feasible(&system[..2]), Some(true));
+/// assert_eq!(feasible(&system), Some(false));
+/// ```
 #[must_use]
 pub fn feasible(system: &[Inequality]) -> Option<bool> {
     let mut system: FxHashSet<Inequality> = system.iter().map(reduced).collect();
@@ -55,7 +81,8 @@ pub fn feasible(system: &[Inequality]) -> Option<bool> {
     Some(system.iter().all(|row| row.bound > 0 || row.bound == 0 && !row.strict))
 }
 
-/// The variable whose elimination makes the fewest new rows, the first of them.
+/// The variable whose elimination makes the fewest new inequalities, the first of several; `None`
+/// if no variable is left.
 fn cheapest(system: &FxHashSet<Inequality>) -> Option<TermId> {
     // How many rows bound each variable from above and from below, by variable.
     let mut bounds: Vec<(TermId, usize, usize)> = Vec::new();
@@ -71,12 +98,13 @@ fn cheapest(system: &FxHashSet<Inequality>) -> Option<TermId> {
     bounds.iter().min_by_key(|(_, above, below)| above * below).map(|known| known.0)
 }
 
-/// The coefficient of a variable.
+/// The coefficient of a variable; 0 if the form does not have it.
 fn coefficient(form: &Form, variable: TermId) -> i128 {
     form.binary_search_by_key(&variable, |known| known.0).map_or(0, |place| form[place].1)
 }
 
-/// The sum of an upper and a lower bound on `variable`, without it; `None` on overflow.
+/// The sum of an upper and a lower bound on `variable` in which it cancels out; `None` if a number
+/// grows too large.
 fn eliminated(upper: &Inequality, lower: &Inequality, variable: TermId) -> Option<Inequality> {
     let up = -coefficient(&lower.form, variable);
     let down = coefficient(&upper.form, variable);
@@ -88,7 +116,8 @@ fn eliminated(upper: &Inequality, lower: &Inequality, variable: TermId) -> Optio
     (row.form.iter().all(|known| small(known.1)) && small(row.bound)).then_some(row)
 }
 
-/// Two sums as one, `sum` giving the coefficients; `None` where it does.
+/// Merges two forms; `sum` gives the coefficient of each variable from those in `left` and `right`.
+/// `None` if `sum` returns it.
 pub fn combined(
     left: &Form,
     right: &Form,
@@ -114,7 +143,8 @@ pub fn combined(
     Some(form)
 }
 
-/// The same inequality without a common divisor.
+/// The same inequality divided by the greatest common divisor of its numbers: equal inequalities
+/// are then equal values, and numbers grow slowly.
 fn reduced(row: &Inequality) -> Inequality {
     let divisor = divisor(&row.form, row.bound.abs()).max(1);
     Inequality {

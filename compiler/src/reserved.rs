@@ -1,10 +1,13 @@
-//! The words that Rust reserves, which no name in generated code can be as it stands.
+//! The words that Rust reserves. A source may use them as names; generated code writes them as raw
+//! identifiers (`r#match`), except for the few that cannot be raw.
 
 use std::borrow::Cow;
 
-/// The letters of a name in generated code, which is a raw identifier if they are a keyword: the
-/// source may have written `r#`, and a few words cannot be raw. Names of the source that are one
-/// here are one in Rust.
+/// The letters of a name in generated code, without `r#`, which the source may have written itself.
+/// `self`, `Self`, `super`, `crate` and `_` cannot be raw identifiers and get an underscore.
+///
+/// Two names of a source that are equal here would be one name in Rust, so declaring both is an
+/// error.
 pub(crate) fn rust_name(name: &str) -> Cow<'_, str> {
     let name = name.strip_prefix("r#").unwrap_or(name);
     match name {
@@ -13,12 +16,13 @@ pub(crate) fn rust_name(name: &str) -> Cow<'_, str> {
     }
 }
 
-/// Whether `word` is a keyword of Rust, strict or reserved, that is a name when written `r#word`.
+/// Whether generated code must write `word` as `r#word`.
 pub(crate) fn is_keyword(word: &str) -> bool {
     KEYWORDS.contains(&word)
 }
 
-/// Rust's strict and reserved words that a raw identifier may be.
+/// The strict and reserved words of Rust, editions 2015 to 2024, that may be raw identifiers. Those
+/// of all editions are here because generated code is compiled in the edition of its user.
 const KEYWORDS: [&str; 48] = [
     "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "do", "dyn",
     "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let",

@@ -1,10 +1,32 @@
 //! Source text and places in it.
+//!
+//! A [`Source`] is a text with a name. Every later stage keeps [`Span`]s (ranges of bytes) instead
+//! of copies of the text, so that an error can underline the very characters that it is about.
+//! Bytes become lines and columns only when an error is printed: [`Source::place`] scans the text,
+//! which takes microseconds and happens once an error.
+//!
+//! The macros flatten their tokens to one text and keep a table from byte ranges back to tokens; so
+//! files, the command line and the macros share one grammar and one set of messages.
+//!
+//! Nothing here panics on a span of another text: it is cut to what there is.
+//!
+//! ```
+//! use tltl_compiler::source::{Source, Span};
+//!
+//! let source = Source::new("room.tltl", "task a = F b\ntask c = F d\n");
+//! let d = Span::new(24, 25);
+//! assert_eq!(source.slice(d), "d");
+//! assert_eq!(source.place(d.start).to_string(), "2:12");
+//! assert_eq!(source.slice(source.line(d.start)), "task c = F d");
+//! assert_eq!(source.slice(Span::new(90, 99)), "");
+//! ```
 
 use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// A range of bytes of a source.
+/// A range of bytes of a source. Ordered by its start, then by its end: the order in which errors
+/// are reported.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Span {
     /// The first byte.
@@ -21,12 +43,18 @@ impl Span {
     }
 
     /// The smallest span that covers both.
+    ///
+    /// ```
+    /// # use tltl_compiler::source::Span;
+    /// assert_eq!(Span::new(4, 6).to(Span::new(0, 1)), Span::new(0, 6));
+    /// ```
     #[must_use]
     pub fn to(self, other: Self) -> Self {
         Self { start: self.start.min(other.start), end: self.end.max(other.end) }
     }
 
-    /// The same span `by` bytes further on.
+    /// The same span `by` bytes further on: the place in the file of a span that was found in a
+    /// part of it.
     #[must_use]
     pub const fn shifted(self, by: usize) -> Self {
         Self { start: self.start + by, end: self.end + by }
@@ -39,7 +67,8 @@ impl From<Range<usize>> for Span {
     }
 }
 
-/// A line and a column, both counted from 1; columns count characters.
+/// A line and a column, both counted from 1. Columns count characters, as editors do, neither bytes
+/// nor terminal cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Place {
     /// The line.
@@ -54,7 +83,10 @@ impl fmt::Display for Place {
     }
 }
 
-/// A text with the name under which errors show it. Cheap to clone.
+/// A text with the name under which errors show it.
+///
+/// Cheap to clone: the name and the text are shared. `Send` and `Sync`, because whatever was
+/// compiled keeps its source.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Source {
     name: Arc<str>,
@@ -86,7 +118,8 @@ impl Source {
         self.text.get(span.start..span.end).unwrap_or_default()
     }
 
-    /// The line and column of a byte; the end of the text if it lies beyond.
+    /// The line and column of a byte; the end of the text if it lies beyond. Scans the text up to
+    /// there.
     #[must_use]
     pub fn place(&self, byte: usize) -> Place {
         let before = self.before(byte);
@@ -97,7 +130,7 @@ impl Source {
         }
     }
 
-    /// The span of the line that holds `byte`, without its line break.
+    /// The span of the line that holds `byte`, without its line break, be it `\n` or `\r\n`.
     #[must_use]
     pub fn line(&self, byte: usize) -> Span {
         let byte = self.before(byte).len();
@@ -107,7 +140,7 @@ impl Source {
         Span::new(start, start + line.len())
     }
 
-    /// The text up to `byte`, moved down to a character's start.
+    /// The text up to `byte`. A byte inside a character counts as the start of that character.
     fn before(&self, byte: usize) -> &str {
         let mut byte = byte.min(self.text.len());
         while !self.text.is_char_boundary(byte) {

@@ -1,12 +1,37 @@
-//! What a source *means*: typed predicates over one state, and formulas over them in negation
-//! normal form.
+//! The meaning of a formula: propositions and operators in negation normal form.
 //!
-//! A value of type [`Spec`] is co-safe by construction: there is no way to write a negated
-//! temporal operator. Formulas, conditions and terms live in arenas, children before parents, so
-//! every pass over them is a loop, never a recursion, and no input is too deep. The constructors
-//! hash-cons and apply the simplifications that hold at every instant of every finite trajectory,
-//! next instants included; nothing is ever simplified to `true` *under* `X`, because `X true` asks
-//! for a second state.
+//! # Invariants
+//!
+//! A value of type [`Spec`] is co-safe by construction: only propositions can be negated, and every
+//! operator is one that a finite prefix can satisfy for good (Kupferman and Vardi, "Model Checking
+//! of Safety Properties", 2001). Release, *always* and weak operators cannot be written. So no
+//! later stage asks whether a formula is in the fragment.
+//!
+//! Formulas live in an arena, operands before the operators that use them, so every pass is a loop,
+//! never a recursion, and no input is too deep. The constructors hash-cons: equal formulas have
+//! equal ids.
+//!
+//! # Simplification
+//!
+//! The constructors apply only laws that hold at every instant of every finite trajectory and for
+//! robustness too, such as φ ∧ ⊤ = φ or ◇◇φ = ◇φ. Nothing is ever simplified to ⊤ under ○: `X true`
+//! asks for a second state. Laws that shorten a formula but change what is shared (distribution)
+//! are left to the automaton, whose minimization finds all of them.
+//!
+//! ```
+//! use tltl_compiler::{source::Span, spec::{Formula, Spec}};
+//!
+//! let mut spec = Spec::new(vec!["a".into(), "b".into()]);
+//! let at = Span::default();
+//! let [a, b] = [0, 1].map(|proposition| spec.literal(proposition, false, at));
+//! let later = spec.eventually(b, at);
+//! // a U F b holds iff F b does.
+//! assert_eq!(spec.until(a, later, at), later);
+//! let then = spec.then(a, b, at);
+//! assert_eq!(spec.formula(then), Formula::Then(a, later));
+//! spec.set_root(then);
+//! assert_eq!(spec.to_string(), "a T b");
+//! ```
 
 mod print;
 
@@ -16,11 +41,12 @@ pub use print::Printed;
 
 use crate::source::Span;
 
-/// A formula of a [`Spec`]: an index into its arena.
+/// A formula of a [`Spec`]: an index into its arena. Ids of one spec are equal iff their formulas
+/// are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct FormulaId(pub u32);
 
-/// One operator of a formula in negation normal form.
+/// One operator of a formula in negation normal form, over operands of the same spec.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Formula {
     /// ⊤
@@ -38,13 +64,14 @@ pub enum Formula {
     And(FormulaId, FormulaId),
     /// φ ∨ ψ
     Or(FormulaId, FormulaId),
-    /// ○φ, strong
+    /// ○φ, strong: there must be a next state.
     Next(FormulaId),
     /// ◇φ
     Eventually(FormulaId),
-    /// φ U ψ, strong
+    /// φ U ψ, strong: ψ must come.
     Until(FormulaId, FormulaId),
-    /// φ T ψ = ◇(φ ∧ ○◇ψ); the operands are φ and ◇ψ
+    /// φ T ψ = ◇(φ ∧ ○◇ψ): the operands are φ and ◇ψ, which is an operator of its own, for it
+    /// becomes an obligation of its own.
     Then(FormulaId, FormulaId),
 }
 
@@ -60,7 +87,7 @@ impl Formula {
         pair.into_iter().flatten()
     }
 
-    /// The same operator over other operands.
+    /// The same operator over the images of its operands.
     #[must_use]
     fn over(self, mut image: impl FnMut(FormulaId) -> FormulaId) -> Self {
         use Formula::{And, Eventually, False, Literal, Next, Or, Then, True, Until};
@@ -78,7 +105,8 @@ impl Formula {
 
 /// A formula over propositions: hash-consed, in negation normal form, co-safe.
 ///
-/// Invariant: operands stand before the operators that use them.
+/// Invariants: operands stand before the operators that use them; `known` holds the id of every
+/// operator; `spans` has one entry for each.
 #[derive(Clone, Debug)]
 pub struct Spec {
     propositions: Vec<String>,
@@ -89,8 +117,8 @@ pub struct Spec {
 }
 
 impl Spec {
-    /// A spec over `propositions` (their names, all different) that is `true` until
-    /// [`set_root`](Self::set_root) says otherwise.
+    /// A spec over `propositions` (their names, all different). Its formula is `true` until
+    /// [`set_root`](Self::set_root) sets another.
     #[must_use]
     pub fn new(propositions: Vec<String>) -> Self {
         let mut spec = Self {
@@ -104,8 +132,8 @@ impl Spec {
         spec
     }
 
-    /// The names of the propositions, in order of first appearance in the source; some may not
-    /// occur in the formula any more.
+    /// The names of the propositions, in order of first appearance in the source. Some may not
+    /// occur in the formula any more: simplification can remove the last occurrence.
     #[must_use]
     pub fn propositions(&self) -> &[String] {
         &self.propositions
@@ -135,7 +163,7 @@ impl Spec {
         self.formulas.iter().enumerate().map(|(i, &formula)| (FormulaId(i as u32), formula))
     }
 
-    /// Where the source says `id` first.
+    /// The place of `id` in the source; the first one, for equal formulas are one.
     #[must_use]
     pub fn span(&self, id: FormulaId) -> Span {
         self.spans[id.0 as usize]
@@ -154,7 +182,7 @@ impl Spec {
         reachable
     }
 
-    /// ⊤
+    /// ⊤ or ⊥
     pub fn truth(&mut self, value: bool, span: Span) -> FormulaId {
         self.intern(if value { Formula::True } else { Formula::False }, span)
     }
@@ -164,7 +192,8 @@ impl Spec {
         self.intern(Formula::Literal { proposition, negated }, span)
     }
 
-    /// φ ∧ ψ
+    /// φ ∧ ψ. A chain keeps the order in which it was written: that order becomes the order of
+    /// levels.
     pub fn and(&mut self, a: FormulaId, b: FormulaId, span: Span) -> FormulaId {
         match (self.formula(a), self.formula(b)) {
             (Formula::True, _) => b,
@@ -188,7 +217,7 @@ impl Spec {
         }
     }
 
-    /// ○φ
+    /// ○φ. `X false` is false; `X true` is not true.
     pub fn next(&mut self, a: FormulaId, span: Span) -> FormulaId {
         match self.formula(a) {
             Formula::False => a,
@@ -196,7 +225,7 @@ impl Spec {
         }
     }
 
-    /// ◇φ
+    /// ◇φ. An operator that is satisfied later whenever it is satisfied now, ◇ and T, absorbs it.
     pub fn eventually(&mut self, a: FormulaId, span: Span) -> FormulaId {
         match self.formula(a) {
             Formula::True | Formula::False | Formula::Eventually(_) | Formula::Then(..) => a,
@@ -204,7 +233,8 @@ impl Spec {
         }
     }
 
-    /// φ U ψ
+    /// φ U ψ. Where ψ may wait by itself (◇ψ, or the same φ U ψ again), the outer until adds
+    /// nothing.
     pub fn until(&mut self, a: FormulaId, b: FormulaId, span: Span) -> FormulaId {
         match (self.formula(a), self.formula(b)) {
             (_, Formula::True | Formula::False) | (Formula::False, _) => b,
@@ -216,7 +246,7 @@ impl Spec {
         }
     }
 
-    /// φ T ψ
+    /// φ T ψ, as the conjunction of φ now and ◇ψ from the next state on, sometime.
     pub fn then(&mut self, a: FormulaId, b: FormulaId, span: Span) -> FormulaId {
         match (self.formula(a), self.formula(b)) {
             (Formula::False, _) => a,
@@ -228,7 +258,7 @@ impl Spec {
         }
     }
 
-    /// An operator over formulas of this spec, simplified as its own constructor does.
+    /// An operator over formulas of this spec, simplified as its own constructor simplifies it.
     pub fn add(&mut self, formula: Formula, span: Span) -> FormulaId {
         match formula {
             Formula::True | Formula::False | Formula::Literal { .. } => self.intern(formula, span),
@@ -264,6 +294,7 @@ impl Spec {
         images
     }
 
+    /// The id of an operator, which is added if it is new; the first span stays.
     fn intern(&mut self, formula: Formula, span: Span) -> FormulaId {
         let fresh =
             FormulaId(u32::try_from(self.formulas.len()).expect("fewer than 2^32 operators"));

@@ -1,8 +1,30 @@
-//! An automaton and its formula as tables: flat arrays of integers, ready to be read by a program.
+//! An automaton and its formula as tables: flat arrays of integers that a program can read without
+//! preparation.
 //!
-//! The last stage before code: [`emit`](crate::emit) writes these tables as Rust, and a program that
-//! compiles formulas while it runs hands the same tables to the runtime. They mirror the runtime's
-//! `automaton::Tables` and `robustness::Op` field by field; the two crates do not know each other.
+//! This is the last stage before code. [`emit`](crate::emit) writes these tables as Rust, and a
+//! program that compiles formulas while it runs hands the same tables to the runtime. They mirror
+//! the runtime's `automaton::Tables` and `robustness::Op` field by field; the two crates do not
+//! know each other, and the tests that compile generated code guard the names.
+//!
+//! There are two forms of the transition function. A dense table costs one lookup a step after all
+//! propositions are evaluated; the decision diagram costs one branch a node but evaluates only the
+//! propositions that it asks. Few propositions and states take the table, others the diagram.
+//! Valuations that no state tells apart share a column, as bytes do in the DFAs of regular
+//! expressions.
+//!
+//! ```
+//! use tltl_compiler::{compile, source::Source, tables::{Transitions, tables}, translate::Budget};
+//!
+//! let source = Source::new("formula", "!water U home");
+//! let compiled = compile::formula(&source, Budget::EMITTED)?;
+//! let tables = tables(&compiled.automata[0].dfa);
+//! assert_eq!((tables.states, tables.accepting, tables.trap), (3, Some(1), Some(2)));
+//! // Where `home` holds, `water` does not matter: three classes of four valuations.
+//! let Transitions::Table { class, width, next } = &tables.transitions else { panic!() };
+//! assert_eq!((&class[..], *width), (&[0, 1, 2, 2][..], 3));
+//! assert_eq!(next[..3], [0, 2, 1]);
+//! # Ok::<(), tltl_compiler::error::Errors>(())
+//! ```
 
 use rustc_hash::FxHashMap;
 
@@ -10,16 +32,19 @@ use crate::bdd::Cube;
 use crate::dfa::{Dfa, Guards, State};
 use crate::spec::{Formula, Spec};
 
-/// A dense table has up to this many entries; a larger automaton keeps its decision diagram. 16 KB
-/// are half of the first-level cache of a small processor.
+/// A dense table has up to this many entries; a larger automaton keeps its decision diagram. 4,096
+/// entries of four bytes are 16 KB, half of the first-level cache of a small processor: the table
+/// must leave room for the program around it.
 const DENSE_LIMIT: usize = 4096;
-/// And only up to this many propositions, for all of them are evaluated to index it.
+/// A dense table has up to this many propositions. All of them are evaluated to index it, while a
+/// diagram evaluates only those on one path; and the array of classes has 2^n entries.
 const DENSE_PROPOSITIONS: usize = 10;
 
 /// All data of an automaton.
 ///
 /// `edges` and `guards` are offsets into the table after them: entry `i` is where item `i` begins,
-/// one last entry is where the last item ends.
+/// and one last entry is where the last item ends. All other arrays have one entry for each item
+/// that their docs name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Tables {
     /// The names of the propositions.
@@ -34,25 +59,27 @@ pub struct Tables {
     pub transitions: Transitions,
     /// For each state where its edges begin in `targets`.
     pub edges: Vec<u32>,
-    /// The state that each edge enters; ascending among the edges of one state.
+    /// The state that each edge enters; rising among the edges of one state, that state included
+    /// where it has a self-loop.
     pub targets: Vec<State>,
     /// For each guard where it begins in `literals`: first for each state that of progress (paper,
-    /// Eq. 3A3), then those of all edges.
+    /// Eq. 3A3), then for each edge its own.
     pub guards: Vec<u32>,
-    /// All guards in DIMACS style: `3` is "proposition number 2 is true", `-3` "it is false", `0`
-    /// ends a cube.
+    /// All guards in DIMACS style: `3` means that proposition number 2 is true, `-3` that it is
+    /// false, and `0` ends a cube. One array of integers rather than nested slices, each of which
+    /// would need a pointer and a token tree of its own.
     pub literals: Vec<i32>,
-    /// For each state the least number of moves to the accepting state; `u32::MAX` if there is no
-    /// way.
+    /// For each state the least number of transitions to the accepting state; `u32::MAX` if there
+    /// is no way.
     pub distance: Vec<u32>,
 }
 
-/// How the next state is found.
+/// The two forms of a transition function; see the module's docs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Transitions {
-    /// For few propositions: no state tells apart two valuations of one class.
+    /// For few propositions. A class is a set of valuations that no state tells apart.
     Table {
-        /// The class of each valuation; bit i is proposition i.
+        /// The class of each valuation; bit i of its index is proposition i.
         class: Vec<u16>,
         /// The number of classes.
         width: u32,
@@ -74,7 +101,8 @@ impl Transitions {
     pub const LEAF: u32 = 1 << 31;
 }
 
-/// One operator of a formula; operands are indices of earlier operators.
+/// One operator of a formula. Its operands are indices of earlier operators, so a formula is
+/// evaluated by one pass over an array.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Operator {
     /// ⊤
@@ -99,7 +127,8 @@ pub enum Operator {
     Then(u32, u32),
 }
 
-/// The operators of a formula, operands first; the last one is the whole.
+/// The operators of a formula, operands first; the last one is the whole formula. Operators that
+/// the root does not need are left out, and shared ones stand there once.
 #[must_use]
 pub fn operators(spec: &Spec) -> Vec<Operator> {
     let reachable = spec.reachable();
@@ -124,7 +153,9 @@ pub fn operators(spec: &Spec) -> Vec<Operator> {
     operators
 }
 
-/// The tables of an automaton.
+/// The tables of an automaton, which should be minimal: the guards are written out, and there may
+/// be exponentially many products in one. [`check_guards`](crate::compile::check_guards) tells
+/// beforehand.
 #[must_use]
 pub fn tables(dfa: &Dfa) -> Tables {
     let distance = dfa.distances().iter().map(|known| known.unwrap_or(u32::MAX)).collect();
@@ -153,6 +184,7 @@ pub fn tables(dfa: &Dfa) -> Tables {
 }
 
 impl Tables {
+    /// Appends a guard, a list of cubes.
     fn push_guard(&mut self, cubes: &[Cube]) {
         for cube in cubes {
             let number = |proposition: u32| proposition as i32 + 1;
@@ -165,6 +197,10 @@ impl Tables {
 }
 
 /// The transitions as a dense table; `None` if it would be too large.
+///
+/// Compares whole columns of the table to find the classes, and gives up as soon as the columns
+/// found so far are too many: the work is at most the size of a table that is kept, times the
+/// number of valuations.
 fn dense(dfa: &Dfa) -> Option<Transitions> {
     let count = dfa.propositions.len();
     if count > DENSE_PROPOSITIONS {
@@ -189,6 +225,7 @@ fn dense(dfa: &Dfa) -> Option<Transitions> {
     Some(Transitions::Table { class, width: order.len() as u32, next: next.collect() })
 }
 
+/// The transitions as the nodes that the automaton already has.
 fn diagram(dfa: &Dfa) -> Transitions {
     let nodes = dfa.diagram.nodes().iter();
     Transitions::Diagram {

@@ -1,16 +1,30 @@
-//! Words and symbols as a reader sees them: for messages, for finding the next item after a mistake,
-//! and for expressions of Rust, which the grammar takes as they are. Parsing itself does not use this.
+//! Words and symbols as a reader sees them.
+//!
+//! The parser does not use this module: pest recognizes the tokens of a source. Three jobs need
+//! tokens without a grammar. Messages quote the word at which parsing failed and the word before
+//! it. After a mistake, the next item must be found in text that has no parse ([`next_item`]). And
+//! expressions of Rust, which the grammar takes verbatim, get other names for their parameters
+//! ([`renamed`]).
+//!
+//! Any text is a sequence of tokens, broken ones included: an unclosed comment ends with the text,
+//! and an unknown character is a token by itself. Nothing here fails.
 
 use crate::source::Span;
 
+/// The words with which an item begins. None of them is reserved, so a name after them is what
+/// makes an item ([`begins_item`]).
 const ITEM_WORDS: [&str; 6] = ["state", "struct", "enum", "const", "predicate", "task"];
 
+/// The symbols of more than one character, and those of one that begin them: the first that fits is
+/// the token, so longer ones stand before their beginnings. Other characters are tokens by
+/// themselves. Operators of other logics (`<>`, `[]`, `**`, `=<`) are among them, for a message
+/// must quote them whole.
 const SYMBOLS: [&str; 24] = [
     "<=>", "<->", "///", "//!", "=>", "->", "&&", "||", "==", "!=", "<=", ">=", "<>", "[]", "::",
     "**", "=<", "&", "|", "<", ">", "=", "-", "/",
 ];
 
-/// What a keyword means; `None` if `word` is an ordinary name.
+/// The meaning of a keyword, as messages give it; `None` if `word` is an ordinary name.
 pub(crate) fn keyword(word: &str) -> Option<&'static str> {
     Some(match word {
         "F" => "\"eventually\"",
@@ -25,7 +39,8 @@ pub(crate) fn keyword(word: &str) -> Option<&'static str> {
     })
 }
 
-/// Whether `text` begins like an item.
+/// Whether `text` begins like an item, after its attributes: the input of the macro is then a file,
+/// else a formula.
 pub(crate) fn starts_with_item(text: &str) -> bool {
     let mut tokens = Tokens::new(text, 0);
     let Some(mut first) = tokens.next() else { return false };
@@ -38,15 +53,19 @@ pub(crate) fn starts_with_item(text: &str) -> bool {
     word == "///" || word == "//!" || begins_item(text, first)
 }
 
-/// The name of the item that starts in `span`.
+/// The name of the item that starts in `span`; `None` if no item does.
 pub(crate) fn item_name(text: &str, span: Span) -> Option<Span> {
     let mut tokens = Tokens::new(text, span.start);
     let word = tokens.find(|token| ITEM_WORDS.contains(&&text[token.start..token.end]))?;
     (word.end <= span.end && begins_item(text, word)).then(|| tokens.next()).flatten()
 }
 
-/// Where the next item starts, at `from` or later but after the item that starts at `at`: its word
-/// is the first of a line, or follows a `;`.
+/// The byte at which the next item starts, at `from` or later but after the item that starts at
+/// `at`; the end of the text if there is none.
+///
+/// An item starts where its word is the first of a line or follows a `;`, and its doc comments and
+/// attributes belong to it. Requiring one of the two keeps a name like `state` inside a formula
+/// from ending the item that is being skipped.
 pub(crate) fn next_item(text: &str, at: usize, from: usize) -> usize {
     let mut first = true;
     let mut item_seen = false;
@@ -77,7 +96,9 @@ pub(crate) fn next_item(text: &str, at: usize, from: usize) -> usize {
     text.len()
 }
 
-/// A text without the blanks and comments that make no difference.
+/// A text without the blanks and comments that make no difference, so that equal expressions of
+/// Rust are equal texts. A text with quotes in it stays as it is, for blanks inside a literal
+/// matter.
 pub(crate) fn compact(text: &str) -> String {
     if text.contains(['"', '\'']) {
         return text.trim().to_owned();
@@ -94,7 +115,8 @@ pub(crate) fn compact(text: &str) -> String {
     compact
 }
 
-/// The Rust expression `text` with other words in the place of some names.
+/// The Rust expression `text` with other words in the place of some names. Works on tokens, so `x`
+/// in `max` or in a comment stays.
 pub(crate) fn renamed(text: &str, words: &[(&str, String)]) -> String {
     let mut renamed = String::new();
     let mut end = 0;
@@ -109,11 +131,13 @@ pub(crate) fn renamed(text: &str, words: &[(&str, String)]) -> String {
     renamed + &text[end..]
 }
 
-/// Whether the Rust expression `text` has the word `name` in it.
+/// Whether the Rust expression `text` has the word `name` in it. A field or a method of that name
+/// counts too: without a parser for Rust the two cannot be told apart.
 pub(crate) fn mentions(text: &str, name: &str) -> bool {
     Tokens::new(text, 0).any(|token| &text[token.start..token.end] == name)
 }
 
+/// Whether the token is the word of an item: a name follows it.
 fn begins_item(text: &str, token: Span) -> bool {
     ITEM_WORDS.contains(&&text[token.start..token.end])
         && Tokens::new(text, token.end)
@@ -121,7 +145,8 @@ fn begins_item(text: &str, token: Span) -> bool {
             .is_some_and(|next| text[next.start..].starts_with(is_word_start))
 }
 
-/// The tokens of a text from some byte on; comments are skipped, doc comments are one token `///`.
+/// The tokens of a text from some byte on. Comments are skipped; a doc comment is one token, `///`
+/// or `//!`, and its text is skipped.
 pub(crate) struct Tokens<'a> {
     text: &'a str,
     at: usize,
@@ -132,6 +157,8 @@ impl<'a> Tokens<'a> {
         Self { text, at }
     }
 
+    /// Skips blanks, a byte order mark, and comments. Four slashes begin an ordinary comment, as in
+    /// Rust.
     fn skip_trivia(&mut self) {
         loop {
             let rest = &self.text[self.at..];
@@ -172,6 +199,7 @@ impl Iterator for Tokens<'_> {
     }
 }
 
+/// Whether a name can begin with `c`.
 pub(crate) fn is_word_start(c: char) -> bool {
     c.is_alphabetic() || c == '_'
 }

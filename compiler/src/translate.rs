@@ -1,18 +1,59 @@
 //! Formula to automaton, through decision diagrams: no valuation is ever enumerated.
 //!
-//! What a formula asks of a trajectory from here on is split into what it asks of this state and
-//! what of the rest: its *expansion*, a Boolean function of the propositions (read now) and of
-//! *obligations* (subformulas that must hold at the next state, which must exist). One diagram
-//! holds both, propositions above obligations, so an expansion cut at the boundary is a transition
-//! function whose leaves are Boolean functions of obligations. Those are the automaton's states:
-//! ⊤ is acceptance, ⊥ the trap. A state expands by putting the expansion of each of its
-//! obligations in its place. Obligations are strong: `X true` is one, and not ⊤.
+//! # Method
 //!
-//! This is the derivative construction of LTLf with a canonical form for positive combinations (as
-//! in Spot's finite-trace translation and in "Zhu et al., Symbolic LTLf synthesis, 2017"). Two
-//! states with the same expansion read every continuation alike and are one state. The cost
-//! is the number of states times the size of their diagrams; a [`Budget`] bounds it. The known
-//! weakness is the order of the levels, which is that of first appearance and never searched for.
+//! The demand that a formula makes on a trajectory from here on splits into a demand on this state
+//! and a demand on the rest. Its *expansion* is a Boolean function of both: of the propositions
+//! (read now) and of *obligations* (subformulas that must hold at the next state, which must
+//! exist). One diagram holds both, propositions above obligations. So an expansion that is cut at
+//! the boundary is a transition function whose leaves are Boolean functions of obligations, and
+//! these functions are the states of the automaton: ⊤ is acceptance, ⊥ the trap. A state expands by
+//! putting the expansion of each of its obligations in its place. Obligations are strong: `X true`
+//! is one, and not ⊤.
+//!
+//! With φ′ for the obligation to satisfy φ at the next state:
+//!
+//! ```text
+//! exp(Xφ)    = φ′
+//! exp(Fφ)    = exp(φ) ∨ (Fφ)′
+//! exp(φ U ψ) = exp(ψ) ∨ exp(φ) ∧ (φ U ψ)′
+//! exp(φ T ψ) = exp(φ) ∧ (Fψ)′ ∨ (φ T ψ)′
+//! ```
+//!
+//! # Sources
+//!
+//! LTL on finite traces and its automata: De Giacomo and Vardi, "Linear Temporal Logic and Linear
+//! Dynamic Logic on Finite Traces" (2013). The construction is the derivative construction
+//! (Brzozowski, 1964) with a canonical form for positive combinations. Decision diagrams for it:
+//! Zhu, Tabajara, Li, Pu and Vardi, "Symbolic LTLf Synthesis" (2017); multi-terminal ones, with
+//! states as leaves: Duret-Lutz and others, "Engineering an LTLf Synthesis Tool" (2025), in Spot.
+//!
+//! # Why this way
+//!
+//! A formula in the co-safe fragment has no negated temporal operator, so all functions of
+//! obligations are monotone: expanding a state needs ∧ and ∨ only. States that have the same
+//! expansion read every continuation alike and are one state; this merges most of what
+//! [`minimize`](crate::minimize::minimize) would merge later.
+//!
+//! # Cost and weakness
+//!
+//! The cost is the number of states times the size of their diagrams, and both can be exponential
+//! in the formula: n unordered goals have 2^n states, whatever the method. A [`Budget`] bounds it.
+//! The known weakness is the order of the levels: that of first appearance, never searched for.
+//! Nothing here looks at a clock.
+//!
+//! ```
+//! use tltl_compiler::{check, source::Source, translate::{Budget, translate}};
+//!
+//! let module = check::formula(&Source::new("formula", "a T b"))?;
+//! let dfa = translate(&module.tasks[0].spec, Budget::EMITTED).unwrap();
+//! assert_eq!((dfa.len(), dfa.trap), (3, None));
+//! // `a` now is the first step, `b` at a later state the second.
+//! let first = dfa.next(0, |proposition| proposition == 0);
+//! let second = dfa.next(first, |proposition| proposition == 1);
+//! assert_eq!(Some(second), dfa.accepting);
+//! # Ok::<(), tltl_compiler::error::Errors>(())
+//! ```
 
 use std::fmt;
 
@@ -23,28 +64,42 @@ use crate::bdd::{Bdd, Diagram, Node};
 use crate::dfa::{Dfa, State};
 use crate::spec::{Formula, FormulaId, Spec};
 
-/// Bounds on the work of a translation. They count, they never look at a clock: the same source
-/// always gives the same answer.
+/// Bounds on the work of a translation. They count things and never look at a clock: the same
+/// source always gives the same answer, on every machine.
+///
+/// ```
+/// use tltl_compiler::{check, source::Source, translate::{Budget, Resource, translate}};
+///
+/// let goals: Vec<String> = (0..20).map(|i| format!("F g{i}")).collect();
+/// let module = check::formula(&Source::new("formula", goals.join(" && ")))?;
+/// // 2^20 states: the nodes run out first.
+/// let exceeded = translate(&module.tasks[0].spec, Budget::EMITTED).unwrap_err();
+/// assert_eq!((exceeded.what, exceeded.limit), (Resource::Nodes, 1 << 20));
+/// # Ok::<(), tltl_compiler::error::Errors>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Budget {
-    /// States of the automaton before minimisation.
+    /// States of the automaton before minimization.
     pub states: usize,
-    /// Nodes of decision diagrams, a measure of both memory and time.
+    /// Nodes of decision diagrams: a measure of both memory and time.
     pub nodes: usize,
-    /// Edges of the minimal automaton, each of which gets a guard where it is written out.
+    /// Edges of the minimal automaton. Each gets a guard where the automaton is written out.
     pub edges: usize,
-    /// Products of one guard.
+    /// Products (cubes) of one guard. A guard can have exponentially more products than its diagram
+    /// has nodes.
     pub products: usize,
 }
 
 impl Budget {
-    /// For what becomes Rust: 16,384 states, about a million nodes and 16,384 edges, which is a
-    /// second in an unoptimised macro and two megabytes of generated code.
+    /// For automata that become Rust: 16,384 states, about a million nodes and 16,384 edges. At
+    /// these limits an unoptimized macro runs for about a second and writes about two megabytes of
+    /// code.
     pub const EMITTED: Self =
         Self { states: 1 << 14, nodes: 1 << 20, edges: 1 << 14, products: 1 << 12 };
 
-    /// For what is only looked at: a million states, fifty million nodes, any number of edges
-    /// and 65,536 products of one guard, which is a minute and a few gigabytes.
+    /// For automata that are only looked at: a million states, fifty million nodes, any number of
+    /// edges and 65,536 products of one guard. At these limits a translation takes about a minute
+    /// and a few gigabytes.
     pub const SHOWN: Self =
         Self { states: 1_000_000, nodes: 50_000_000, edges: usize::MAX, products: 1 << 16 };
 }
@@ -56,7 +111,7 @@ impl Default for Budget {
     }
 }
 
-/// What a [`Budget`] limits.
+/// A resource that a [`Budget`] limits. Its text is that of messages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Resource {
     /// [`Budget::states`]
@@ -67,7 +122,8 @@ pub enum Resource {
     Edges,
     /// [`Budget::products`]
     Products,
-    /// Operators of one formula, as many as a decision diagram has levels: no budget allows more.
+    /// Operators of one formula. A decision diagram has at most [`Diagram::MAX_LEVELS`] levels, so
+    /// no budget allows more.
     Operators,
 }
 
@@ -86,45 +142,51 @@ impl fmt::Display for Resource {
 /// A formula needs more than the [`Budget`] allows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Exceeded {
-    /// What ran out.
+    /// The resource that ran out.
     pub what: Resource,
-    /// How many were allowed.
+    /// The limit that was passed.
     pub limit: usize,
 }
 
-/// Translates a formula; the automaton is complete and reachable, but not yet minimal.
+/// Translates a formula. The automaton is complete and reachable, with at most one accepting state
+/// and at most one trap, but not yet minimal.
 ///
 /// # Errors
-/// If the budget does not suffice.
+/// If the budget does not suffice. The work done until then is bounded by the budget.
 pub fn translate(spec: &Spec, budget: Budget) -> Result<Dfa, Exceeded> {
     let mut translation = Translation::new(spec, budget)?;
     translation.expand_formulas()?;
     translation.explore()
 }
 
+/// The state of a translation. Two diagrams grow: `functions`, over propositions and obligations,
+/// and `transitions`, over propositions alone with states as leaves.
 struct Translation<'a> {
     spec: &'a Spec,
     budget: Budget,
-    /// Expansions, and functions of obligations alone.
+    /// Expansions, and functions of obligations alone. Its size is what the budget of nodes bounds.
     functions: Diagram,
     /// The number of propositions: lower levels are propositions, higher ones obligations.
     propositions: u32,
-    /// The level of the obligation that a formula is, if it can be one.
+    /// The level of each formula that can be an obligation; `u32::MAX` for others.
     level: Vec<u32>,
-    /// The formula of each obligation, by level above the propositions.
+    /// The formula of each obligation, by its level less the number of propositions.
     obligations: Vec<FormulaId>,
-    /// What each formula asks of this state and of the rest.
+    /// The expansion of each formula; [`Bdd::FALSE`] for those that are not [needed](Self::needed).
     expansion: Vec<Bdd>,
-    /// The expansion of each function of obligations met so far.
+    /// The expansion of each function of obligations met so far. Shared by all states: a chain of
+    /// goals expands each of its tails once.
     expanded: Memo<Bdd, Bdd>,
-    /// The state that an expansion is.
+    /// The number of each state, by its expansion rather than by its function of obligations: two
+    /// functions with one expansion are one state.
     states: Memo<Bdd, State>,
-    /// The expansion of each state, in order of discovery.
+    /// The expansion of each state, in order of discovery. States from `transitions.len()` on in
+    /// [`explore`](Self::explore) are not explored yet.
     roots: Vec<Bdd>,
     accepting: Option<State>,
     /// The transition function so far.
     transitions: Diagram,
-    /// Where each expansion, or part of one above the obligations, went in it.
+    /// The image in `transitions` of each expansion, and of each part of one above the obligations.
     targets: Memo<Bdd, Bdd>,
 }
 
@@ -149,8 +211,11 @@ impl<'a> Translation<'a> {
         Ok(translation)
     }
 
-    /// Gives a level to every subformula that may be asked of the next state, inner ones first:
-    /// a chain of goals then shares the diagrams of what it has already asked.
+    /// Gives a level to every subformula that can be an obligation, inner ones first: a chain of
+    /// goals then shares the diagrams of the obligations that it has already met.
+    ///
+    /// # Errors
+    /// If there are more levels than a diagram may have.
     fn number_obligations(&mut self) -> Result<(), Exceeded> {
         let reachable = self.spec.reachable();
         let mut asked = vec![false; reachable.len()];
@@ -173,6 +238,7 @@ impl<'a> Translation<'a> {
         self.check(Resource::Operators, levels, Diagram::MAX_LEVELS as usize)
     }
 
+    /// Computes the expansions of all needed formulas, operands first.
     fn expand_formulas(&mut self) -> Result<(), Exceeded> {
         let needed = self.needed();
         for (id, formula) in self.spec.formulas().filter(|(id, _)| needed[id.0 as usize]) {
@@ -182,7 +248,9 @@ impl<'a> Translation<'a> {
         Ok(())
     }
 
-    /// The formulas whose expansion is asked for by itself: not the inner `&&` of a chain of them.
+    /// The formulas whose expansion is used by itself. The inner `&&` of a chain of them is not: a
+    /// chain is conjoined from the right, and the expansions of its prefixes would be work for
+    /// nothing.
     fn needed(&self) -> Vec<bool> {
         let mut needed = vec![false; self.spec.formulas().len()];
         needed[self.spec.root().0 as usize] = true;
@@ -198,7 +266,8 @@ impl<'a> Translation<'a> {
         needed
     }
 
-    /// The operands of a chain of one and the same operator, left to right, each once.
+    /// The operands of a chain of one and the same operator, left to right, each once. Operators
+    /// are shared, so a chain can be a graph; visiting each once keeps the walk linear.
     fn chain(&self, root: FormulaId) -> Vec<FormulaId> {
         let conjunction = |id| matches!(self.spec.formula(id), Formula::And(..));
         let disjunction = |id| matches!(self.spec.formula(id), Formula::Or(..));
@@ -219,6 +288,8 @@ impl<'a> Translation<'a> {
         operands
     }
 
+    /// The expansion of one formula from those of its operands; the equations are those of the
+    /// module's docs.
     fn expansion_of(&mut self, id: FormulaId, formula: Formula) -> Bdd {
         let of = |this: &Self, a: FormulaId| this.expansion[a.0 as usize];
         match formula {
@@ -257,8 +328,11 @@ impl<'a> Translation<'a> {
         }
     }
 
-    /// Puts the expansion of every obligation of `f` in its place. Functions of obligations are
-    /// monotone, so a node is `low ∨ (obligation ∧ high)`.
+    /// Replaces every obligation in `f` by its expansion.
+    ///
+    /// Functions of obligations are monotone, so a node is `low ∨ (obligation ∧ high)`, and no
+    /// negation of an expansion is needed. Recurses once a level, of which there are at most
+    /// [`Diagram::MAX_LEVELS`].
     fn expand(&mut self, f: Bdd) -> Bdd {
         let Some(Node { level, low, high }) = self.functions.get(f) else { return f };
         if let Some(known) = self.expanded.get(f) {
@@ -273,6 +347,9 @@ impl<'a> Translation<'a> {
         expansion
     }
 
+    /// Explores the states breadth-first from the formula's own expansion.
+    ///
+    /// A formula whose expansion is ⊤ is satisfied by every trajectory: its initial state accepts.
     fn explore(mut self) -> Result<Dfa, Exceeded> {
         let root = self.expansion[self.spec.root().0 as usize];
         if root == Bdd::TRUE {
@@ -297,7 +374,8 @@ impl<'a> Translation<'a> {
         })
     }
 
-    /// The transitions of an expansion: its part above the obligations.
+    /// The transition function of an expansion: its part above the obligations, with states as
+    /// leaves.
     fn target(&mut self, f: Bdd) -> Bdd {
         if let Some(known) = self.targets.get(f) {
             return known;
@@ -317,6 +395,9 @@ impl<'a> Translation<'a> {
         target
     }
 
+    /// The accepting state, added if it is new. It is not the state of [`Bdd::TRUE`] in `states`: ⊤
+    /// as a function of obligations asks for nothing more, so it accepts already on the letter that
+    /// leads to it.
     fn accepting_state(&mut self) -> State {
         let fresh = self.roots.len() as State;
         let state = *self.accepting.get_or_insert(fresh);
@@ -326,6 +407,7 @@ impl<'a> Translation<'a> {
         state
     }
 
+    /// The number of the state with this expansion, added if it is new.
     fn state(&mut self, expansion: Bdd) -> State {
         let fresh = self.roots.len() as State;
         let state = self.states.get_or_insert(expansion, fresh);

@@ -1,29 +1,53 @@
-//! Physical units: what the numbers of a source are measured in.
+//! Physical units: a type system for the numbers of a source.
 //!
-//! The names in a unit are opaque, so `m` and `cm` are two units, and nothing is ever converted. A
-//! [`Unit`] is a product of powers of names in normal form: equal units are equal values, however
-//! they were written. Names are numbers here, in order of first appearance; [`Units`] has their
-//! texts. Both the powers and the count of names are bounded, so a unit is small and every
-//! operation on it takes constant time.
+//! The names in a unit are opaque: `m` and `cm` are two units, and nothing is ever converted. A
+//! conversion would change the numbers that an author wrote, and robustness values with them; a
+//! mistake in units is an error instead. This is the dimension system of Kennedy, "Dimension Types"
+//! (1994), with the author's names as the base and without inference: a number without a unit is
+//! plain.
+//!
+//! A [`Unit`] is a product of powers of names in normal form: equal units are equal values, however
+//! they were written (`N*m/s` and `m*N*s^-1`). Names are numbers here, in order of first
+//! appearance; [`Units`] has their texts. Powers and the count of names are bounded, so a unit is
+//! small and every operation takes constant time.
+//!
+//! ```
+//! use tltl_compiler::unit::{Unit, Units};
+//!
+//! let mut units = Units::default();
+//! let [m, s] = ["m", "s"].map(|name| units.name(name));
+//! let speed = Unit::product([(m, 1), (s, -1)]).unwrap();
+//! let time = Unit::product([(s, 1)]).unwrap();
+//! assert_eq!(units.text(&speed), "m/s");
+//! assert!(speed.times(&time).unwrap().is_name(m));
+//! assert_eq!(units.text(&speed.over(&time).unwrap()), "m/s^2");
+//! assert_eq!(speed.root(), None);
+//! ```
 
 use rustc_hash::FxHashMap;
 
 use crate::ast::quoted;
 
-/// The greatest power of a name, and the least with a minus.
+/// The greatest power of a name; its negative is the least. Physics needs about 4; the bound keeps
+/// a product of two powers far from overflow, and makes `pow(pow(x, 50), 50)` an error rather than
+/// a unit.
 pub const MOST_POWER: i32 = 99;
 
-/// The most names that a unit is made of.
+/// The most names that a unit is made of. The SI has seven base units; the bound makes every
+/// operation on units take constant time.
 pub const MOST_NAMES: usize = 16;
 
-/// A unit: powers of names, none of them zero, by name.
+/// A unit: powers of names.
 ///
-/// Without any it is that of a plain number.
+/// Invariant: sorted by name, no power is zero, each is within [`MOST_POWER`], and there are at
+/// most [`MOST_NAMES`]. So equal units are equal values, and the unit of a plain number is the
+/// empty one (the default).
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Unit(Vec<(u32, i32)>);
 
 impl Unit {
-    /// The product of some powers of names; `None` if that is beyond the bounds.
+    /// The product of some powers of names, a name being allowed several times; `None` if the
+    /// result is beyond the bounds.
     pub fn product(powers: impl IntoIterator<Item = (u32, i64)>) -> Option<Self> {
         let mut sum: Vec<(u32, i64)> = Vec::new();
         for (name, power) in powers {
@@ -43,13 +67,13 @@ impl Unit {
         powers.collect::<Option<_>>().map(Self)
     }
 
-    /// Whether it is that of a plain number.
+    /// Whether it is the unit of a plain number.
     #[must_use]
     pub fn is_plain(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// Whether it is one name, as it is.
+    /// Whether it is this one name to the power 1.
     #[must_use]
     pub fn is_name(&self, name: u32) -> bool {
         self.0 == [(name, 1)]
@@ -73,14 +97,15 @@ impl Unit {
         Self::product(self.powers(power.into()))
     }
 
-    /// The unit of the square root; `None` if it has none.
+    /// The unit of the square root; `None` if a power is odd.
     #[must_use]
     pub fn root(&self) -> Option<Self> {
         let half = |&(name, power): &(u32, i32)| (power % 2 == 0).then_some((name, power / 2));
         self.0.iter().map(half).collect::<Option<_>>().map(Self)
     }
 
-    /// The names `a` and `b` if it is `a/b`.
+    /// The names `a` and `b` if it is `a/b`: what a message offers where a factor from `b` to `a`
+    /// seems to be missing.
     #[must_use]
     pub fn ratio(&self) -> Option<(u32, u32)> {
         match self.0[..] {
@@ -89,12 +114,15 @@ impl Unit {
         }
     }
 
+    /// The powers of its names, each multiplied by `times`.
     fn powers(&self, times: i64) -> impl Iterator<Item = (u32, i64)> {
         self.0.iter().map(move |&(name, power)| (name, times * i64::from(power)))
     }
 }
 
-/// The names that the units of a source are made of.
+/// The names of the units of a source, numbered in order of first appearance.
+///
+/// Invariant: `known` holds the index of every name in `names`.
 #[derive(Clone, Debug, Default)]
 pub struct Units {
     names: Vec<String>,
@@ -102,7 +130,7 @@ pub struct Units {
 }
 
 impl Units {
-    /// The number of a name, which is known from now on.
+    /// The number of a name, which is added if it is new.
     pub fn name(&mut self, text: &str) -> u32 {
         if let Some(known) = self.known.get(text) {
             return *known;
@@ -113,19 +141,20 @@ impl Units {
         fresh
     }
 
-    /// The number of a name, if it is one.
+    /// The number of a name; `None` if no unit of the source mentions it.
     #[must_use]
     pub fn find(&self, text: &str) -> Option<u32> {
         self.known.get(text).copied()
     }
 
-    /// The text of a name, not too long.
+    /// The text of a name as messages quote it: not too long.
     #[must_use]
     pub fn text_of(&self, name: u32) -> String {
         quoted(&self.names[name as usize])
     }
 
-    /// A unit as a source has it: `N*m`, `kg*m/s^2`, `1/s`; `1` for that of a plain number.
+    /// A unit as a source writes it: `N*m`, `kg*m/s^2`, `1/s`; `1` for a plain number. Names stand
+    /// in alphabetical order, so the text does not depend on what was declared first.
     #[must_use]
     pub fn text(&self, unit: &Unit) -> String {
         let mut powers = unit.0.clone();

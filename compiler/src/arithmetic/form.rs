@@ -1,10 +1,18 @@
 //! Comparisons as cuts of linear forms, in exact rational arithmetic.
+//!
+//! A comparison `2*x + 1 < y` becomes a *form* (`2x - y`, coefficients without a common divisor,
+//! the first positive) and a *cut* of the number line at -1. Comparisons of multiples of one form
+//! are cuts of the same form, so `x < 1` and `3 > 3*x` are one.
+//!
+//! All numbers are fractions of `i128` with a power of two below: a double is such a fraction
+//! exactly. Whatever grows beyond 62 bits is given up (`None`), and the comparison counts as
+//! opaque.
 
 use crate::ast::{Arithmetic, Comparison};
 use crate::linear::{Form, Inequality, combined, divisor};
 use crate::predicate::{Module, ParameterType, Scalar, Term, TermId};
 
-/// A rational number; the denominator is positive.
+/// A rational number. The denominator is positive; the fraction need not be reduced.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rational {
     numerator: i128,
@@ -37,27 +45,29 @@ impl Ord for Rational {
     }
 }
 
-/// A cut of the number line: `(c, false)` is `form < c`, `(c, true)` is `form <= c`.
+/// A cut of the number line: `(c, false)` is `form < c`, `(c, true)` is `form <= c`. Cuts are
+/// ordered as they lie on the line.
 pub(super) type Cut = (Rational, bool);
 
 /// A comparison as a condition on cuts.
 #[derive(Clone, Debug)]
 pub(super) enum Atom {
-    /// Below the cut.
+    /// The form is below the cut.
     Below(Form, Cut),
-    /// Not below it.
+    /// The form is not below the cut.
     Above(Form, Cut),
-    /// Exactly there.
+    /// The form is equal to the number.
     At(Form, Rational),
-    /// Anywhere else.
+    /// The form is not equal to the number.
     Off(Form, Rational),
-    /// Always, or never.
+    /// It always holds, or never.
     Constant(bool),
-    /// Nothing is known but its name.
+    /// Nothing is known about it but its name.
     Opaque,
 }
 
-/// The values that a form can take.
+/// The values that a form can take: reals or integers, and their least and greatest if the form is
+/// one variable of a bounded type.
 pub(super) struct Range {
     integer: bool,
     least: Option<i128>,
@@ -65,6 +75,7 @@ pub(super) struct Range {
 }
 
 impl Range {
+    /// The range of a form. A sum of integers is an integer, but its bounds are left to [`bounds`].
     pub(super) fn of(module: &Module, form: &Form) -> Self {
         let scalar = |term: &TermId| integer_range(module, *term);
         let integer = form.iter().all(|(term, _)| scalar(term).is_some());
@@ -77,7 +88,8 @@ impl Range {
         }
     }
 
-    /// Whether there is a value not below `after` and below `until`.
+    /// Whether there is a value that is not below `after` and is below `until`. Between two cuts of
+    /// the reals there always is one: cuts are distinct.
     pub(super) fn is_inhabited(&self, after: Option<Cut>, until: Option<Cut>) -> bool {
         if !self.integer {
             return true;
@@ -94,7 +106,7 @@ impl Range {
     }
 }
 
-/// What a cell says of its form: not below `after`, and below `until`.
+/// The inequalities of a cell of a form: not below `after`, and below `until`.
 pub(super) fn inequalities(form: &Form, after: Option<Cut>, until: Option<Cut>) -> Vec<Inequality> {
     let row = |(at, inclusive): Cut, sign: i128| Inequality {
         form: form.iter().map(|&(term, c)| (term, sign * c * at.denominator)).collect(),
@@ -106,7 +118,7 @@ pub(super) fn inequalities(form: &Form, after: Option<Cut>, until: Option<Cut>) 
     above.into_iter().chain(until.map(|cut| row(cut, 1))).collect()
 }
 
-/// What the types of a form's variables say of them.
+/// The inequalities that the types of a form's variables give.
 pub(super) fn bounds(module: &Module, form: &Form) -> Vec<Inequality> {
     let bound = |&(term, _): &(TermId, i128)| {
         integer_range(module, term).map(|(least, greatest)| {
@@ -117,8 +129,8 @@ pub(super) fn bounds(module: &Module, form: &Form) -> Vec<Inequality> {
     form.iter().filter_map(bound).flatten().collect()
 }
 
-/// The least and the greatest value of a term of a type of integers. The values of an enumeration
-/// are numbered in order, and none of them is -1.
+/// The least and the greatest value of a term with an integer type; `None` for other terms. The
+/// values of an enumeration are numbered in order from 0, and `none` is -1.
 fn integer_range(module: &Module, term: TermId) -> Option<(i128, i128)> {
     let (Term::Place { scalar, .. } | Term::Parameter { ty: ParameterType::Scalar(scalar), .. }) =
         module.arena.term(term)
@@ -134,23 +146,26 @@ fn integer_range(module: &Module, term: TermId) -> Option<(i128, i128)> {
     }
 }
 
-/// A sum of variables, which are terms that are no sums of others, with coefficients, and a constant;
-/// all over one denominator.
+/// A sum of variables with coefficients, and a constant, all over one denominator. Variables are
+/// terms that are not sums themselves.
 #[derive(Clone, Debug)]
 pub(super) struct Linear {
     form: Form,
     constant: i128,
-    /// A power of two.
+    /// The common denominator, positive.
     denominator: i128,
 }
 
-/// A sum of more variables is a variable of its own, so that a long sum takes no quadratic time.
+/// A sum of more variables than this is a variable of its own: adding n terms one by one would take
+/// quadratic time.
 const MOST_VARIABLES: usize = 64;
 
-/// Coefficients stay below this, so that products of two fit.
+/// Numbers stay below this, so that a product of two of them fits into an `i128`.
 const SMALL: i128 = 1 << 62;
 
 impl Linear {
+    /// A double as an exact fraction; `None` if it is too large or too fine. Infinite and undefined
+    /// numbers are neither: the parser and constant folding leave none.
     fn number(value: f64) -> Option<Self> {
         let mut denominator = 1_i128;
         let mut scaled = value;
@@ -169,11 +184,12 @@ impl Linear {
         })
     }
 
+    /// A term as a variable of its own.
     fn variable(term: TermId) -> Self {
         Self { form: vec![(term, 1)], constant: 0, denominator: 1 }
     }
 
-    /// The sum `self + factor × other`.
+    /// The sum `self + factor × other`; `None` if it is too large or has too many variables.
     fn plus(&self, factor: i128, other: &Self) -> Option<Self> {
         let sum = |a: i128, b: i128| -> Option<i128> {
             let a = a.checked_mul(other.denominator)?;
@@ -187,7 +203,7 @@ impl Linear {
         })
     }
 
-    /// The product, if one of the two is a number.
+    /// The product; `None` unless one of the two is a number.
     fn times(&self, other: &Self) -> Option<Self> {
         let (linear, factor) = match (self.form.is_empty(), other.form.is_empty()) {
             (_, true) => (self, other),
@@ -202,7 +218,7 @@ impl Linear {
         })
     }
 
-    /// The quotient by a number.
+    /// The quotient by a number; `None` for other divisors and for zero.
     fn over(&self, other: &Self) -> Option<Self> {
         if !other.form.is_empty() || other.constant == 0 {
             return None;
@@ -217,11 +233,13 @@ impl Linear {
     }
 }
 
+/// The value, if it is small enough to go on with.
 fn small(value: i128) -> Option<i128> {
     (value.abs() < SMALL).then_some(value)
 }
 
-/// Every term as a linear combination of terms that are none.
+/// Every term of a module as a linear combination of terms that are not linear themselves. One pass
+/// over the arena, operands first.
 pub(super) fn linear_terms(module: &Module) -> Vec<Linear> {
     let mut linear: Vec<Linear> = Vec::with_capacity(module.arena.terms().len());
     for (index, term) in module.arena.terms().iter().enumerate() {
@@ -242,7 +260,8 @@ pub(super) fn linear_terms(module: &Module) -> Vec<Linear> {
     linear
 }
 
-/// A comparison of two linear terms; `None` if its numbers are too large for exact arithmetic.
+/// A comparison of two linear terms as an atom; `None` if its numbers are too large for exact
+/// arithmetic.
 pub(super) fn atom(
     module: &Module,
     comparison: Comparison,

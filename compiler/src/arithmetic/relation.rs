@@ -1,4 +1,13 @@
-//! How the propositions of a task are related by what they compare.
+//! How the propositions of a task are related by the cuts that they compare with.
+//!
+//! One decision diagram holds all: the propositions on top, then the cuts of each form from the
+//! lowest to the highest, then the opaque conditions. Its function is "this valuation of the
+//! propositions is the one that these cuts make, and these cuts are a cell that has a point".
+//! Existential quantification of everything below the propositions gives the possible letters;
+//! since propositions are on top, that is a walk that replaces each node below by ⊤.
+//!
+//! Propositions that share neither a variable nor an opaque condition are related apart, so the
+//! diagram stays small however many predicates a task has.
 
 use crate::arena::{self, Memo};
 use crate::bdd::{Bdd, Diagram, Node};
@@ -8,14 +17,16 @@ use crate::predicate::{Condition, ConditionId, Module};
 use super::form::{Atom, Cut, Range, Rational, atom, bounds, inequalities, linear_terms};
 use super::{CELL_LIMIT, NODE_LIMIT};
 
-/// The comparisons of a module, as cuts.
+/// The comparisons of a module as atoms, computed once.
 pub(super) struct Analysis<'a> {
     module: &'a Module,
-    /// What each condition compares, if it does.
+    /// The atom of each condition of the module; [`Atom::Opaque`] for those that are not
+    /// comparisons.
     atoms: Vec<Atom>,
 }
 
 impl<'a> Analysis<'a> {
+    /// The atoms of all conditions of a module.
     pub(super) fn new(module: &'a Module) -> Self {
         let linear = linear_terms(module);
         let atoms = module.arena.conditions().iter().map(|condition| match condition {
@@ -28,13 +39,14 @@ impl<'a> Analysis<'a> {
         Self { module, atoms: atoms.collect() }
     }
 
-    /// The propositions that share ties, as sets of places in `roots`.
+    /// The groups of propositions that share ties, as sets of places in `roots`.
     pub(super) fn components(&self, roots: &[ConditionId]) -> Vec<Vec<usize>> {
         let ties: Vec<_> = roots.iter().map(|&root| self.ties(root)).collect();
         arena::groups(&ties)
     }
 
-    /// What ties a predicate to others: variables, and conditions of unknown meaning.
+    /// The ties of a predicate to others: variables (even numbers), and opaque conditions (odd
+    /// numbers).
     fn ties(&self, root: ConditionId) -> Vec<u32> {
         let mut ties = Vec::new();
         for id in self.module.conditions_of(vec![root]) {
@@ -50,13 +62,15 @@ impl<'a> Analysis<'a> {
         ties
     }
 
+    /// Whether a condition is a leaf whose value arithmetic does not know: a Boolean place, a Rust
+    /// value, or a comparison beyond exact arithmetic.
     fn is_opaque(&self, id: ConditionId) -> bool {
         let condition = self.module.arena.condition(id);
         self.module.operands(condition).is_empty() && !matches!(condition, Condition::Truth(_))
     }
 
-    /// The valuations of the propositions at `places` that some state has, over the levels of
-    /// those propositions; `None` if that is too much work.
+    /// The valuations of the propositions at `places` that some state has, over the levels of those
+    /// propositions; `None` if that would exceed a limit.
     pub(super) fn relate(
         &self,
         roots: &[ConditionId],
@@ -81,19 +95,22 @@ impl<'a> Analysis<'a> {
     }
 }
 
-/// Propositions above, cuts and opaque conditions below.
+/// A relation under construction: propositions on the upper levels, cuts and opaque conditions
+/// below.
 struct Relation<'a> {
     analysis: &'a Analysis<'a>,
     diagram: Diagram,
     propositions: u32,
-    /// The forms that are compared, rising, and what they are compared with.
+    /// The forms that are compared, rising, with their cuts.
     chains: Vec<Chain>,
-    /// The conditions of unknown meaning, rising; their levels follow on those of the cuts.
+    /// The opaque conditions, rising; their levels follow on those of the cuts.
     opaque: Vec<ConditionId>,
     first_opaque: u32,
 }
 
 impl<'a> Relation<'a> {
+    /// Gives levels to the cuts and opaque conditions of some conditions; `None` if they are more
+    /// than a diagram may have.
     fn new(analysis: &'a Analysis<'a>, propositions: u32, needed: &[ConditionId]) -> Option<Self> {
         let mut chains: Vec<Chain> = Vec::new();
         let mut opaque = Vec::new();
@@ -124,7 +141,7 @@ impl<'a> Relation<'a> {
         })
     }
 
-    /// What each condition says of the cuts.
+    /// The meaning of each condition as a function of cuts and opaque conditions.
     fn meanings(&mut self, needed: &[ConditionId]) -> Memo<ConditionId, Bdd> {
         let mut meaning: Memo<ConditionId, Bdd> = Memo::default();
         let mut pending = needed.to_vec();
@@ -144,6 +161,7 @@ impl<'a> Relation<'a> {
         meaning
     }
 
+    /// The meaning of one condition from those of its operands.
     fn meaning(&mut self, id: ConditionId, condition: &Condition, operands: &[Bdd]) -> Bdd {
         match (condition, operands) {
             (Condition::Truth(true), _) => Bdd::TRUE,
@@ -156,6 +174,7 @@ impl<'a> Relation<'a> {
         }
     }
 
+    /// The meaning of a leaf.
     fn atom(&mut self, id: ConditionId) -> Bdd {
         let analysis = self.analysis;
         match &analysis.atoms[id.0 as usize] {
@@ -177,20 +196,23 @@ impl<'a> Relation<'a> {
         }
     }
 
+    /// The variable of a cut: true iff the form is below it.
     fn cut(&mut self, form: &Form, cut: Cut) -> Bdd {
         let chain = &self.chains[find(&self.chains, form).expect("a form that is compared")];
         let place = chain.cuts.binary_search(&cut).expect("a cut of the form");
         self.diagram.variable(chain.level + place as u32)
     }
 
+    /// The function that is true iff the form is equal to a number: below the cut after it, and not
+    /// below the cut before.
     fn at(&mut self, form: &Form, at: Rational) -> Bdd {
         let (before, through) = (self.cut(form, (at, false)), self.cut(form, (at, true)));
         self.diagram.minus(through, before)
     }
 
-    /// The combinations of cells that are not empty: below one cut is below all later ones, a form
-    /// of integers or of a bounded type has no value in some cells, and forms that share variables
-    /// exclude each other's.
+    /// The combinations of cells that have a point. Being below one cut implies being below all
+    /// later ones; a form of integers or of a bounded type has no value in some cells; and forms
+    /// that share variables exclude each other's cells.
     fn cells(&mut self) -> Bdd {
         let variables = |chain: &Chain| chain.form.iter().map(|(term, _)| term.0).collect();
         let ties: Vec<Vec<u32>> = self.chains.iter().map(variables).collect();
@@ -212,8 +234,10 @@ impl<'a> Relation<'a> {
         all
     }
 
-    /// The combinations of cells of a group that have a common point, given what `system` says
-    /// already; `None` if they are too many.
+    /// The combinations of cells of a group of forms that have a common point, given the
+    /// inequalities of `system`; `None` if they are too many (`left` counts down).
+    ///
+    /// Depth-first over the forms: an infeasible prefix of cells prunes all of its continuations.
     fn joint(
         &mut self,
         group: &[&Chain],
@@ -244,7 +268,7 @@ impl<'a> Relation<'a> {
         Some(cells)
     }
 
-    /// The cells of each form of a group, whatever the others are.
+    /// The cells of each form of a group by itself, as if the forms were independent.
     fn apart(&mut self, group: &[&Chain]) -> Bdd {
         let mut all = Bdd::TRUE;
         for chain in group {
@@ -262,6 +286,7 @@ impl<'a> Relation<'a> {
         all
     }
 
+    /// Cell `k` of a form: not below the first `k` cuts, below all others.
     fn cell(&mut self, chain: &Chain, k: usize) -> Bdd {
         let mut all = Bdd::TRUE;
         for i in (0..chain.cuts.len()).rev() {
@@ -271,8 +296,8 @@ impl<'a> Relation<'a> {
         all
     }
 
-    /// The propositional part: true where anything is left below. Levels become those of the
-    /// propositions at `places`.
+    /// Quantifies everything below the propositions away: ⊤ where anything is left. Levels become
+    /// those of the propositions at `places`.
     fn project(&self, f: Bdd, places: &[usize], result: &mut Diagram) -> Bdd {
         let order = self.diagram.postorder(&[f]);
         let mut node = |Node { level, low, high }| match level < self.propositions {
@@ -286,25 +311,26 @@ impl<'a> Relation<'a> {
 /// A form and its cuts.
 struct Chain {
     form: Form,
-    /// Rising.
+    /// The cuts, rising, each once.
     cuts: Vec<Cut>,
     /// The level of the first cut; those of the others follow.
     level: u32,
 }
 
 impl Chain {
-    /// Cell k lies between the cuts k-1 and k.
+    /// The ends of cell `k`, which lies between the cuts k-1 and k; `None` for an end that is
+    /// infinite.
     fn ends(&self, k: usize) -> (Option<Cut>, Option<Cut>) {
         (k.checked_sub(1).map(|k| self.cuts[k]), self.cuts.get(k).copied())
     }
 }
 
-/// The chain of a form, or where it would be.
+/// The place of the chain of a form, or the place at which to insert it.
 fn find(chains: &[Chain], form: &Form) -> Result<usize, usize> {
     chains.binary_search_by(|chain| chain.form.cmp(form))
 }
 
-/// Adds cuts of a form.
+/// Adds cuts to the chain of a form.
 fn add(chains: &mut Vec<Chain>, form: &Form, cuts: &[Cut]) {
     let place = find(chains, form).unwrap_or_else(|place| {
         chains.insert(place, Chain { form: form.clone(), cuts: Vec::new(), level: 0 });

@@ -1,8 +1,18 @@
-//! Irredundant sums of products of Boolean functions, after Minato and Morreale.
+//! Irredundant sums of products of Boolean functions.
 //!
-//! Cubes are built as sets that share their parts, so that their number is known before one of them
-//! is written out. The sets stay with the diagram: most guards of an automaton are made of the same
-//! few functions.
+//! Minato, "Fast Generation of Prime-Irredundant Covers from Binary Decision Diagrams" (1993),
+//! after Morreale, "Recursive Operators for Prime Implicant and Irredundant Normal Form
+//! Determination" (1970). Between two functions `lower` ⊆ `upper` it finds a sum in which no cube
+//! and no literal can be dropped. The gap between the two is what cannot occur: it shortens guards.
+//!
+//! Why irredundant and not minimum: a minimum sum is NP-hard, and the guards that authors see are
+//! small; irredundance already guarantees that every literal shown matters. The result depends only
+//! on the functions and the order of their levels, so guards are the same for every build.
+//!
+//! Cubes are built as sets that share their parts (as in Minato's zero-suppressed diagrams), so
+//! that their number is known before one of them is written out: a sum can have exponentially many.
+//! The sets stay with the diagram, because most guards of an automaton are made of the same few
+//! functions.
 
 use super::{Bdd, Diagram};
 use crate::arena::Memo;
@@ -13,33 +23,34 @@ pub type Literal = (u32, bool);
 /// A conjunction of literals, by rising level.
 pub type Cube = Vec<Literal>;
 
-/// Beyond this many remembered sets of cubes, which are 60 MB, they are forgotten.
+/// The remembered sets of cubes are forgotten beyond this many: they take 60 MB then.
 const MOST_COVERS: usize = 1 << 20;
 
-/// Sets of cubes, by their places.
+/// Sets of cubes, by their index in `sets`. The first two are fixed: no cube, and the empty cube.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Covers {
-    /// The set for each pair of bounds.
+    /// The set for each pair of bounds that was asked for.
     known: Memo<(Bdd, Bdd), u32>,
     sets: Vec<Cover>,
 }
 
-/// A set of cubes: those that ask `level` to be false, those that ask it to be true, those that do
-/// not ask it.
+/// A set of cubes, in three parts: those with the literal "`level` is false", those with "`level`
+/// is true", those without a literal of this level.
 #[derive(Clone, Copy, Debug)]
 struct Cover {
     level: u32,
+    /// The indices of the three parts, in this order.
     parts: [u32; 3],
-    /// The number of cubes, saturating.
+    /// The number of cubes, saturating: it can be exponential.
     count: usize,
     /// The disjunction of the cubes.
     function: Bdd,
 }
 
 impl Covers {
-    /// The place of the set without cubes.
+    /// The index of the set without cubes.
     const NONE: u32 = 0;
-    /// The place of the set of the cube without literals.
+    /// The index of the set whose only cube has no literals.
     const EMPTY_CUBE: u32 = 1;
 
     /// The two sets that all others are made of.
@@ -53,7 +64,7 @@ impl Covers {
         self.sets[set as usize]
     }
 
-    /// Adds a set, and returns its place.
+    /// Adds a set, and returns its index.
     fn add(&mut self, level: u32, parts: [u32; 3], function: Bdd) -> u32 {
         let [low, high, rest] = parts;
         let asking = self.get(low).count.saturating_add(self.get(high).count);
@@ -62,8 +73,8 @@ impl Covers {
         self.sets.len() as u32 - 1
     }
 
-    /// Writes out the cubes of a set in order: what asks the level comes first, for no cube of an
-    /// irredundant sum is the beginning of another.
+    /// Writes out the cubes of a set in lexicographic order. Cubes that have a literal of the level
+    /// come before those without: in an irredundant sum no cube is the beginning of another.
     fn write(&self, set: u32, prefix: &mut Cube, cubes: &mut Vec<Cube>) {
         match set {
             Self::NONE => {}
@@ -83,9 +94,23 @@ impl Covers {
 
 impl Diagram {
     /// An irredundant sum of products between `lower` and `upper`, of which the first implies the
-    /// second: every cube is needed, and no literal of it can be dropped. The cubes stand in the
-    /// lexicographic order of their literals, lower levels first, true before false. The sum is
+    /// second: every cube is needed, and no literal of a cube can be dropped. The cubes stand in
+    /// the lexicographic order of their literals, lower levels first, true before false. The sum is
     /// determined by the two functions and the order of the levels.
+    ///
+    /// ```
+    /// use tltl_compiler::bdd::{Bdd, Diagram};
+    ///
+    /// let mut diagram = Diagram::default();
+    /// let [a, b] = [0, 1].map(|level| diagram.variable(level));
+    /// let both = diagram.and(a, b);
+    /// // Where `a` without `b` cannot occur, `b` need not be asked.
+    /// let impossible = diagram.minus(a, b);
+    /// let upper = diagram.or(both, impossible);
+    /// assert_eq!(diagram.sum_of_products(both, both), [[(0, true), (1, true)]]);
+    /// assert_eq!(diagram.sum_of_products(both, upper), [[(0, true)]]);
+    /// assert_eq!(diagram.count_products(both, upper), 1);
+    /// ```
     pub fn sum_of_products(&mut self, lower: Bdd, upper: Bdd) -> Vec<Cube> {
         let set = self.sum(lower, upper);
         let mut cubes = Vec::new();
@@ -94,12 +119,14 @@ impl Diagram {
     }
 
     /// The number of cubes of [`sum_of_products`](Self::sum_of_products), none of which is written
-    /// out. Saturating.
+    /// out; saturating.
     pub fn count_products(&mut self, lower: Bdd, upper: Bdd) -> usize {
         let set = self.sum(lower, upper);
         self.covers.get(set).count
     }
 
+    /// The index of the set of cubes of a sum; forgets the known sets first if they are too many.
+    /// It never forgets within one sum, for its parts are indices into the sets.
     fn sum(&mut self, lower: Bdd, upper: Bdd) -> u32 {
         if self.covers.sets.is_empty() || self.covers.sets.len() > MOST_COVERS {
             self.covers = Covers::new();
@@ -107,7 +134,10 @@ impl Diagram {
         self.cover(lower, upper)
     }
 
-    /// The place of the set of cubes of a sum.
+    /// The index of the set of cubes of a sum: Minato's recursion, once a level.
+    ///
+    /// First the cubes that must have a literal of the level, then, for what these leave uncovered
+    /// on both sides, the cubes that do not.
     fn cover(&mut self, lower: Bdd, upper: Bdd) -> u32 {
         if lower == Bdd::FALSE {
             return Covers::NONE;

@@ -1,12 +1,20 @@
-//! Walks over diagrams: what a function leads to, and functions rewritten bottom-up.
+//! Walks over diagrams: the leaves of a function, and functions rewritten bottom-up.
+//!
+//! All walks use a stack of their own and visit each node once, so they are linear in the nodes and
+//! do not recurse. Their order is that of a depth-first walk, low before high: it depends on the
+//! functions alone, and with it everything that is numbered along the way.
 
 use rustc_hash::FxHashSet;
 
 use super::{Bdd, Diagram, Node};
 
-/// What a [fold](Diagram::fold) made of each function.
+/// The images of functions under a [fold](Diagram::fold).
+///
+/// The image of a leaf is computed when it is asked for: leaves are not stored in a diagram, so
+/// there is no array of them.
 pub struct Images<'a> {
     leaf: &'a dyn Fn(u32) -> Bdd,
+    /// The image of each node, by its index; `Bdd::FALSE` for nodes outside the folded order.
     nodes: Vec<Bdd>,
 }
 
@@ -50,8 +58,8 @@ impl Diagram {
         }
     }
 
-    /// The places of the nodes that `roots` need, in the order in which a depth-first walk from the
-    /// first root to the last, low before high, leaves them: children before parents.
+    /// The indices of the nodes that `roots` need, children before parents: the order in which a
+    /// depth-first walk from the first root to the last, low before high, leaves them.
     #[must_use]
     pub fn postorder(&self, roots: &[Bdd]) -> Vec<u32> {
         let mut seen = vec![false; self.nodes.len()];
@@ -72,8 +80,11 @@ impl Diagram {
     }
 
     /// Rewrites functions bottom-up: `leaf` makes the images of leaves, and `node` those of nodes,
-    /// whose children it gets as images. `order` holds the places of nodes after those of their
-    /// children, as [`postorder`](Self::postorder) has them; other nodes have no image.
+    /// whose children it gets as images.
+    ///
+    /// `order` holds indices of nodes after those of their children, as
+    /// [`postorder`](Self::postorder) gives them; other nodes have no image. The caller passes it,
+    /// because one order serves several folds (each round of a minimization is one).
     #[must_use]
     pub fn fold<'a>(
         &self,
@@ -90,8 +101,11 @@ impl Diagram {
         images
     }
 
-    /// The functions `roots` with other leaves, in a diagram of their own. Its nodes stand in the
-    /// order of [`postorder`](Self::postorder): equal functions give equal diagrams, byte for byte.
+    /// The functions `roots` with other leaves, in a diagram of their own.
+    ///
+    /// Its nodes stand in the order of [`postorder`](Self::postorder), and nodes that `roots` do
+    /// not need are gone: equal functions give equal diagrams, byte for byte. So this is also how a
+    /// diagram is cleaned up.
     #[must_use]
     pub fn map_leaves(&self, roots: &[Bdd], leaf: &dyn Fn(u32) -> Bdd) -> (Self, Vec<Bdd>) {
         let mut mapped = Self::default();
@@ -102,15 +116,19 @@ impl Diagram {
         (mapped, roots)
     }
 
-    /// The function `f` of another diagram, in this one.
+    /// The function `f` of another diagram, in this one. Levels and leaves keep their numbers.
     pub fn import(&mut self, from: &Self, f: Bdd) -> Bdd {
         let order = from.postorder(&[f]);
         let node = &mut |Node { level, low, high }| self.node(level, low, high);
         from.fold(&order, &Bdd::leaf, node).of(f)
     }
 
-    /// For each of `roots` its leaves, rising, each with the function in `into` that is true where
-    /// the root leads to it. Cost: the number of pairs of a node and a leaf that it leads to.
+    /// For each of `roots` its leaves, rising, each with its indicator: the Boolean function in
+    /// `into` that is true where the root leads to the leaf.
+    ///
+    /// All indicators are built in one pass from those of the children; asking for each leaf by
+    /// itself would walk the diagram once a leaf. Cost: the number of pairs of a node and a leaf
+    /// that it leads to.
     #[must_use]
     pub fn indicators(&self, roots: &[Bdd], into: &mut Self) -> Vec<Vec<(u32, Bdd)>> {
         let mut known: Vec<Vec<(u32, Bdd)>> = vec![Vec::new(); self.nodes.len()];
@@ -126,7 +144,7 @@ impl Diagram {
         roots.iter().map(|&root| of(root, &known)).collect()
     }
 
-    /// The indicators of a node from those of its children.
+    /// The indicators of a node from those of its children: a merge of two rising lists.
     fn join(
         &mut self,
         level: u32,
@@ -144,7 +162,8 @@ impl Diagram {
     }
 }
 
-/// Takes the indicator of `leaf` if it comes first; else the leaf is never met.
+/// Takes the indicator of `leaf` from the front of a list; false if the list does not have that
+/// leaf.
 fn take(side: &mut &[(u32, Bdd)], leaf: u32) -> Bdd {
     match **side {
         [(first, indicator), ref rest @ ..] if first == leaf => {

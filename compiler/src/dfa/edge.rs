@@ -1,16 +1,16 @@
-//! The edges of an automaton with their guards, as every drawing and table lists them.
+//! The edges of an automaton with their guards, as drawings and tables list them.
 
 use super::{Dfa, Guards, State};
 use crate::bdd::Cube;
 
-/// All transitions from one state to one state.
+/// All transitions from one state to one state, as one edge.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Edge {
-    /// From.
+    /// The state that it leaves.
     pub from: State,
-    /// To; the same for a self-loop.
+    /// The state that it enters; the same one for a self-loop.
     pub to: State,
-    /// When: an irredundant sum of products.
+    /// The letters under which it is taken: an irredundant sum of products, never empty.
     pub guard: Vec<Cube>,
 }
 
@@ -23,8 +23,8 @@ impl Edge {
 }
 
 impl Dfa {
-    /// All edges, self-loops included, by rising states. An edge that only letters take that cannot
-    /// occur is none.
+    /// All edges, self-loops included, by rising states. An edge that only impossible letters take
+    /// is left out.
     #[must_use]
     pub fn edges(&self) -> Vec<Edge> {
         let mut guards = Guards::new(self);

@@ -1,9 +1,9 @@
-//! The types that a source declares, as Rust: the state, structs, enumerations, and what predicates
-//! and tasks take.
+//! The types that a source declares, as Rust: the state, structs, enumerations, and the parameters
+//! of predicates and tasks.
 //!
-//! All of them are `Copy` and plain: public fields, no constructor, so that a program makes a state as
-//! it makes any struct of its own. Documentation is the author's, followed by what the source knows
-//! beyond the type (the unit of a field, the size of an automaton).
+//! All of them are `Copy` and plain: public fields, no constructor, so that a program makes a state
+//! as it makes any struct of its own. Documentation is the author's, followed by what the source
+//! knows beyond the type (the unit of a field, the size of an automaton).
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
@@ -15,7 +15,7 @@ use crate::predicate::{Enum, Parameter, ParameterType, Scalar, Struct, Type};
 use crate::unit::Unit;
 
 impl Emitter<'_> {
-    /// What something is measured in, as a sentence that starts with `subject`.
+    /// The sentence about a unit; it starts with `subject`.
     fn measured(&self, subject: &str, unit: &Unit) -> String {
         match unit.is_plain() {
             true => format!("{subject} a plain number."),
@@ -23,7 +23,7 @@ impl Emitter<'_> {
         }
     }
 
-    /// What the parameters are measured in, a paragraph each.
+    /// The units of the parameters, a paragraph each.
     pub(super) fn measures(&self, parameters: &[Parameter]) -> impl Iterator<Item = String> {
         let units = parameters.iter().filter_map(|known| Some((&known.name, known.unit.as_ref()?)));
         units.map(|(name, unit)| self.measured(&format!("`{name}` is"), unit))
@@ -48,8 +48,8 @@ impl Emitter<'_> {
         }
     }
 
-    /// An enumeration of the source, with what a world needs to number its states: all values, and the
-    /// number of each. These are `const`, so that arrays can be as long as an enumeration.
+    /// An enumeration of the source. A world needs to number its states, so it has all values and
+    /// the index of each. These are `const`, so that an array can be as long as an enumeration.
     pub(super) fn enumeration(&self, declared: &Enum) -> TokenStream {
         let (name, lints) = (ident(&declared.name), self.options.place.lints());
         let docs = self.described(&declared.docs, &declared.name, &[]);
@@ -77,7 +77,8 @@ impl Emitter<'_> {
         }
     }
 
-    /// How the values of an enumeration are numbered. One that is called `ALL` is that.
+    /// The constant and the methods that number the values of an enumeration. A value that is
+    /// called `ALL` takes the place of the constant.
     fn numbering(&self, declared: &Enum, variants: &[Ident]) -> TokenStream {
         let (count, index) =
             (Literal::usize_unsuffixed(variants.len()), self.scope.names.local("index"));
@@ -111,8 +112,8 @@ impl Emitter<'_> {
         }
     }
 
-    /// The documentation of what is called `name`. In a macro something is said of everything, for
-    /// a crate may forbid to say nothing.
+    /// The documentation of something called `name`. In a macro everything gets some, because the
+    /// author's crate may deny missing docs.
     fn described(&self, docs: &[String], name: &str, paragraphs: &[String]) -> TokenStream {
         let named = (docs.is_empty() && self.options.place != Place::File)
             .then(|| vec![format!("`{name}`")]);
@@ -136,7 +137,7 @@ impl Emitter<'_> {
         }
     }
 
-    /// What a predicate or a task takes, as names and types of Rust.
+    /// The parameters of a predicate or a task, as names and types of Rust.
     pub(super) fn parameters(&self, parameters: &[Parameter]) -> Parameters {
         let ty = |parameter: &Parameter| match parameter.ty {
             ParameterType::Scalar(scalar) => self.scalar(scalar),
@@ -154,8 +155,8 @@ impl Emitter<'_> {
         }
     }
 
-    /// The Rust type of a field. Arrays have the length that the source says: a state is `Copy` and lies
-    /// in one piece.
+    /// The Rust type of a field. Arrays have the length that the source gives: a state is `Copy`
+    /// and lies in one piece.
     fn ty(&self, ty: &Type) -> TokenStream {
         let module = &self.compiled.module;
         match ty {
@@ -177,21 +178,21 @@ impl Emitter<'_> {
     }
 }
 
-/// The parameters of a predicate or a task: of one, they are arguments of a function and fields of the
+/// The parameters of a predicate or a task. They are arguments of its function and fields of the
 /// struct of the same name.
 pub(super) struct Parameters {
     docs: Vec<TokenStream>,
-    /// What they are called where the source's names alone count.
+    /// The names of the fields: the source's own.
     pub(super) fields: Vec<Ident>,
-    /// What they are bound to.
+    /// The names of the arguments and of the locals to which the fields are bound.
     names: Vec<Ident>,
     types: Vec<TokenStream>,
-    /// Whether the types are known to implement `Debug`: a type of the host may not.
+    /// Whether all types are known to implement `Debug`: a type of the host may not.
     printable: bool,
 }
 
 impl Parameters {
-    /// `a: A, b: B`
+    /// The arguments of the function: `a: A, b: B`.
     pub(super) fn declared(&self) -> TokenStream {
         let Self { names, types, .. } = self;
         quote! { #(#names: #types),* }
@@ -211,7 +212,7 @@ impl Parameters {
         }
     }
 
-    /// `a, Ok: Ok_`, as in a struct or a pattern of it.
+    /// The fields of the struct with their values, in an expression or a pattern: `a, Ok: Ok_`.
     pub(super) fn bound(&self) -> TokenStream {
         let bound = self.fields.iter().zip(&self.names).map(|(field, name)| match field == name {
             true => quote! { #name },
@@ -220,14 +221,14 @@ impl Parameters {
         quote! { #(#bound),* }
     }
 
-    /// The statement that brings the fields into scope; none if there are none.
+    /// The statement that brings the fields into scope; `None` if there are none.
     pub(super) fn unpacked(&self) -> Option<TokenStream> {
         let bound = self.bound();
         (!self.names.is_empty()).then(|| quote! { let Self { #bound } = *self; })
     }
 }
 
-/// The attribute that implements these traits of `core`, wherever it stands.
+/// The `derive` attribute for these traits of `core`, by absolute paths.
 fn derive(traits: &[&str]) -> TokenStream {
     let paths = traits
         .iter()

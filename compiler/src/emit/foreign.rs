@@ -1,7 +1,8 @@
-//! An automaton that came without a formula as Rust: what `include_tltl!` makes of an HOA file.
+//! An automaton that came without a formula as Rust: what `include_tltl!` makes of a HOA file.
 //!
-//! Nothing is known of its propositions but their names, so the task takes a predicate for each: it is
-//! generic in them, as a bare formula is in the values that it names.
+//! Nothing is known about its propositions but their names, so the task takes a predicate for each:
+//! it is generic in them, as a bare formula is in the values that it names. Its formula is empty,
+//! so robustness is that of the best accepting run instead of the formula's.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
@@ -13,8 +14,8 @@ use crate::emit::names::{Names, Place, ident};
 use crate::emit::tables as emit;
 use crate::tables::tables;
 
-/// The automaton as items: a function `task` that takes a predicate for each proposition, in
-/// order, and returns the task. `runtime` is the path of the runtime crate.
+/// The automaton as items: a function `task` that takes a predicate for each proposition, in order,
+/// and returns the task. `runtime` is the path of the runtime crate.
 #[must_use]
 pub fn automaton(name: &str, dfa: &Dfa, runtime: &TokenStream, place: Place) -> TokenStream {
     let table = emit::automaton(&tables(dfa), runtime);

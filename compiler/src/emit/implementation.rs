@@ -1,22 +1,23 @@
 //! The implementation of the runtime's `Predicates` for the predicates of one task.
 //!
-//! One type answers for all predicates of a task, by number: a `match` with an arm for each, once for
-//! the robustness and once for the truth. After inlining this is the code that an author would write
-//! by hand for that task: no pointer to a function, no call that is not known when it is compiled.
+//! One type answers for all predicates of a task, by number: a `match` with an arm for each, once
+//! for the robustness and once for the truth. After inlining, this is the code that an author would
+//! write by hand for that task: no function pointer, no call whose target is unknown at compile
+//! time.
 
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 
 use crate::emit::names::{Names, Place};
 
-/// What an implementation is made of. For a file's task the state is one type, and the arms are the
-/// predicates' code; for a bare formula it is any type that all predicates read.
+/// The parts of an implementation. For a task of a file the state is one type, and the arms are the
+/// code of the predicates; for a bare formula it is any type that all predicates read.
 pub(super) struct Implementation<'a> {
     /// The path of the runtime crate.
     pub(super) runtime: &'a TokenStream,
-    /// What locals are called.
+    /// The names of locals.
     pub(super) names: &'a Names,
-    /// What stands before it.
+    /// The attributes in front of it.
     pub(super) lints: TokenStream,
     /// The generic parameters, in their brackets.
     pub(super) generics: TokenStream,
@@ -24,14 +25,14 @@ pub(super) struct Implementation<'a> {
     pub(super) state: TokenStream,
     /// The state as an argument, as the arms call it.
     pub(super) argument: TokenStream,
-    /// The type that implements.
+    /// The type that implements the trait.
     pub(super) name: TokenStream,
     /// The arms `number => robustness,`.
     pub(super) robustness: TokenStream,
     /// The arms `number => truth,`.
     pub(super) holds: TokenStream,
-    /// The cells of scratch space that a trajectory's robustness needs, one for each operator. The
-    /// number is known here, so the space is an array on the stack.
+    /// The cells of scratch space that the robustness of a trajectory needs, one for each operator.
+    /// The number is known here, so the space is an array on the stack.
     pub(super) scratch: usize,
 }
 
@@ -79,7 +80,7 @@ impl Implementation<'_> {
     }
 }
 
-/// The implementation for a tuple struct `name` of predicates, which are of the generic `types`, for
+/// The implementation for a tuple struct `name` of predicates, which have the generic `types`, for
 /// every state that all of them read.
 pub(super) fn positional(
     types: &[Ident],

@@ -10,8 +10,12 @@
 //! | `implementation` | the runtime's trait `Predicates` for the predicates of one task |
 //! | [`tables`] | automata and formulas as constants |
 //!
-//! Every function here is a function of its arguments alone: same automaton, same bytes. What is
-//! written has no `unsafe` and refers to nothing but `core`, the runtime and the author's own names.
+//! Every function here depends on its arguments alone: the same automaton gives the same bytes.
+//! Generated code has no `unsafe`, allocates nothing, and refers to nothing but `core`, the runtime
+//! and the author's own names.
+//!
+//! The compiler does not depend on the runtime: the names that appear in generated code are the
+//! contract between the two, and the tests that compile generated code guard it.
 
 mod declare;
 #[cfg(feature = "hoa")]

@@ -1,10 +1,10 @@
-//! Names in generated code: the source's, as Rust has them, and our own, which are none of its.
+//! Names in generated code: the source's, as Rust has them, and those of generated locals.
 //!
-//! A local of ours must never stand for a name that the author has written, nor the reverse, for
-//! then the code means something else and nobody is told. In a macro a local is hygienic
-//! (`Span::mixed_site`), but that is not enough: a pattern that is called like a constant in scope
-//! *is* that constant, hygienic or not, so beside code of the author's ours have a prefix. And text
-//! has no hygiene, so none of ours is called like a parameter or a predicate.
+//! A generated local must never capture a name that the author has written, nor the reverse: the
+//! code would silently mean something else. In a macro a local is hygienic (`Span::mixed_site`),
+//! but that is not enough. A pattern with the name of a constant in scope *is* that constant,
+//! hygienic or not, so locals beside the author's code have a prefix. And text has no hygiene at
+//! all, so no local has the name of a parameter or a predicate.
 
 use pest::unicode::{XID_CONTINUE, XID_START};
 use proc_macro2::{Ident, Span, TokenStream};
@@ -14,7 +14,8 @@ use rustc_hash::FxHashSet;
 use crate::compile::Compiled;
 use crate::reserved::{is_keyword, rust_name};
 
-/// Where generated code stands.
+/// The place in which generated code stands. It decides how locals are named and which lints are
+/// allowed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
     /// Among items or expressions of the author's, in a macro.
@@ -26,8 +27,9 @@ pub enum Place {
 }
 
 impl Place {
-    /// What the generated items need in front. Of style and of what is not used rustc says nothing
-    /// within a macro of another crate, and must not be told so there: a crate may forbid that.
+    /// The attribute in front of generated items. rustc reports lints of style and of unused items
+    /// in a file, and not within the macro of another crate; there, an `allow` of them would itself
+    /// be an error in a crate that forbids it.
     pub(super) fn lints(self) -> TokenStream {
         match self {
             Self::Scope | Self::Module => quote! { #[allow(clippy::all, clippy::pedantic)] },
@@ -38,13 +40,22 @@ impl Place {
     }
 }
 
-/// A name of the source as a Rust identifier, raw if Rust has taken the word.
+/// A name of the source as a Rust identifier, raw if it is a keyword.
 pub(super) fn ident(name: &str) -> Ident {
     let (name, span) = (rust_name(name), Span::call_site());
     if is_keyword(&name) { Ident::new_raw(&name, span) } else { Ident::new(&name, span) }
 }
 
-/// What the name of a file is as that of a module: what no name may have in it is `_`.
+/// The name of a file as the name of a module: characters that an identifier cannot have become
+/// `_`.
+///
+/// ```
+/// use tltl_compiler::emit::rust::module_name;
+///
+/// assert_eq!(module_name("pick-and-place").to_string(), "pick_and_place");
+/// assert_eq!(module_name("7steps").to_string(), "_7steps");
+/// assert_eq!(module_name("match").to_string(), "r#match");
+/// ```
 #[must_use]
 pub fn module(stem: &str) -> Ident {
     let mut name = stem.replace(|c| !XID_CONTINUE(c), "_");
@@ -54,18 +65,21 @@ pub fn module(stem: &str) -> Ident {
     ident(&name)
 }
 
-/// What Rust has in every scope that no pattern can be called: it would be a pattern of that.
+/// Names that every scope of Rust has and that a pattern must therefore not bind: it would match
+/// the constructor instead.
 pub(crate) const CONSTRUCTORS: [&str; 4] = ["Some", "None", "Ok", "Err"];
 
-/// The names of the parameters and locals in generated code.
+/// The names of parameters and locals in generated code.
 pub(super) struct Names {
-    /// What ours begin with; nothing of the source that stands beside them does.
+    /// The prefix of locals, which no name of the source beside them has; empty where no code of
+    /// the author's stands beside them.
     prefix: String,
-    /// The parameters and the predicates of the source.
+    /// The names of the source's parameters and predicates.
     taken: FxHashSet<String>,
 }
 
 impl Names {
+    /// The names for code of a compiled source.
     pub(super) fn new(compiled: &Compiled, place: Place) -> Self {
         let module = &compiled.module;
         let factored = compiled.factored.iter().map(|factored| &factored.task);
@@ -78,12 +92,14 @@ impl Names {
         Self::beside(taken, place)
     }
 
-    /// The names in code that has none of a source.
+    /// The names in code without a source.
     #[cfg(feature = "hoa")]
     pub(super) fn of_ours(place: Place) -> Self {
         Self::beside(FxHashSet::default(), place)
     }
 
+    /// The names beside `taken`. The prefix is made longer until no name of the source begins with
+    /// it.
     fn beside(taken: FxHashSet<String>, place: Place) -> Self {
         let mut prefix = String::new();
         if place == Place::Scope {
@@ -95,13 +111,13 @@ impl Names {
         Self { prefix, taken }
     }
 
-    /// A local of ours.
+    /// A generated local.
     pub(super) fn local(&self, name: &str) -> Ident {
         let name = self.free(name.to_owned());
         format_ident!("{}{}", self.prefix, name, span = Span::mixed_site())
     }
 
-    /// What a parameter of the source is bound to.
+    /// The local to which a parameter of the source is bound.
     pub(super) fn parameter(&self, name: &str) -> Ident {
         let known = rust_name(name);
         if !self.prefix.is_empty() {
@@ -113,7 +129,7 @@ impl Names {
         ident(name)
     }
 
-    /// The name, with as many `_` after it as it takes to be none of the source's.
+    /// The name, with as many `_` after it as make it different from all names of the source.
     fn free(&self, mut name: String) -> String {
         while self.taken.contains(&name) {
             name.push('_');

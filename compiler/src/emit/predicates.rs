@@ -1,12 +1,13 @@
 //! Conditions and terms as Rust expressions: the typed robustness function of each predicate, and
 //! its truth.
 //!
-//! Both readings are written from the same terms, with the same operations in the same order, so they
-//! round alike and cannot disagree: `a < b` has robustness `b - a` and holds if that is positive.
-//! The tool reads recorded states by the same rules, and a test compares the two bit by bit.
+//! Both readings are written from the same terms, with the same operations in the same order, so
+//! they round alike and cannot disagree: `a < b` has robustness `b - a` and holds if that is
+//! positive. The evaluator of the tools reads recorded states by the same rules, and a test
+//! compares the two bit by bit.
 //!
-//! A condition that is used once becomes part of the expression around it; one that is used more
-//! often, or lies deep, gets a `let` of its own. So the code is as long as the arena, however often
+//! A condition that is used once becomes part of the expression around it. One that is used several
+//! times, or lies deep, gets a `let` of its own. So the code is as long as the arena, however often
 //! something is used, and never nested beyond a fixed depth, however deep the author nests.
 
 use proc_macro2::{Delimiter, Group, Ident, Literal, Span as TokenSpan, TokenStream, TokenTree};
@@ -23,20 +24,20 @@ use crate::predicate::{
 use crate::reserved::rust_name;
 use crate::source::Span;
 
-/// Expressions deeper than this are cut by a `let`. rustc reads nested expressions by recursion; what
-/// an author writes on one line is rarely as deep, so most code stays one expression.
+/// Expressions deeper than this are cut by a `let`: rustc reads nested expressions by recursion.
+/// Few expressions that fit on a line are deeper, so most code stays one expression.
 const DEPTH: u32 = 12;
 
-/// Which of the two readings of a condition is written.
+/// The two readings of a condition.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Reading {
-    /// `f64`: the robustness.
+    /// The robustness, an `f64`.
     Robustness,
-    /// `bool`, in a function that returns a `Result`: whether it holds.
+    /// The truth, a `bool`, in a function that returns a `Result`.
     Truth,
 }
 
-/// What the written code refers to outside itself.
+/// The surroundings of the written code.
 pub(super) struct Scope<'a> {
     /// The module that declares the predicates.
     pub(super) module: &'a Module,
@@ -44,13 +45,15 @@ pub(super) struct Scope<'a> {
     pub(super) runtime: TokenStream,
     /// The Rust tokens at a place of the source.
     host: &'a dyn Fn(Span) -> TokenStream,
-    /// What locals and parameters are called.
+    /// The names of locals and parameters.
     pub(super) names: Names,
-    /// The name of the state: the author's own word, as Rust of the author's has it, or a local.
+    /// The name of the state: the author's own word, exactly as the author's code has it, or a
+    /// local.
     pub(super) state: Ident,
 }
 
 impl<'a> Scope<'a> {
+    /// The surroundings of the code of a module.
     pub(super) fn new(
         module: &'a Module,
         runtime: TokenStream,
@@ -64,8 +67,8 @@ impl<'a> Scope<'a> {
         Self { module, runtime, host, names, state }
     }
 
-    /// The state as an argument. The author's own word is code of the author's to rustc, which
-    /// would say of it that it is not used.
+    /// The state as an argument. To rustc, the author's own word is the author's code, so an unused
+    /// one would be reported; the attribute prevents that.
     pub(super) fn argument(&self) -> TokenStream {
         let name = &self.state;
         match &self.module.state {
@@ -74,8 +77,8 @@ impl<'a> Scope<'a> {
         }
     }
 
-    /// The Rust of the author's at a place of the source. Braces around it all are ours, for rustc
-    /// says that they are not needed.
+    /// The author's Rust at a place of the source. Braces around all of it get a generated span,
+    /// because rustc would report the author's as unnecessary.
     pub(super) fn rust(&self, span: Span) -> TokenStream {
         let tokens = (self.host)(span);
         let mut trees = tokens.clone().into_iter();
@@ -89,8 +92,9 @@ impl<'a> Scope<'a> {
         }
     }
 
-    /// A condition as statements and an expression: the body of a function that has the state, and for
-    /// the truth one that returns a `Result`, because a comparison with NaN is an error (`?`).
+    /// A condition as statements and an expression: the body of a function that has the state in
+    /// scope. For the truth, that function returns a `Result`, because a comparison with NaN is an
+    /// error (`?`).
     pub(super) fn condition(&self, id: ConditionId, reading: Reading) -> TokenStream {
         let needed = arena::needed(vec![id.0], &mut |id, open| {
             let condition = self.module.arena.condition(ConditionId(id));
@@ -110,7 +114,7 @@ impl<'a> Scope<'a> {
     }
 }
 
-/// The conditions that a condition is made of.
+/// The conditions that a condition is made of, other predicates left out.
 fn operands(condition: &Condition) -> impl Iterator<Item = ConditionId> {
     let pair = match *condition {
         Condition::Not(a) => [Some(a), None],
@@ -120,23 +124,25 @@ fn operands(condition: &Condition) -> impl Iterator<Item = ConditionId> {
     pair.into_iter().flatten()
 }
 
-/// An expression, and how deep it is nested.
+/// An expression and its depth.
 type Written = (TokenStream, u32);
 
-/// Writes one condition: what it needs first, in order, without recursion.
+/// Writes one condition: operands first, in order, without recursion.
 struct Writer<'a> {
     scope: &'a Scope<'a>,
     reading: Reading,
     /// The conditions to be written, operands first.
     needed: Vec<u32>,
-    /// What has been written of them, by place in `needed`.
+    /// The code of the conditions so far, by place in `needed`.
     conditions: Vec<Written>,
+    /// The code of the terms so far.
     terms: FxHashMap<TermId, Written>,
+    /// The statements before the expression.
     lets: TokenStream,
 }
 
 impl Writer<'_> {
-    /// Writes everything that is needed, operands first; the last is the whole.
+    /// Writes all needed conditions, operands first; the last is the whole.
     fn written(&mut self) -> TokenStream {
         let mut uses = vec![0_u32; self.needed.len()];
         for &id in &self.needed {
@@ -159,7 +165,7 @@ impl Writer<'_> {
         self.conditions.pop().map(|(code, _)| code).unwrap_or_default()
     }
 
-    /// Where a condition stands among those that are needed; they ascend.
+    /// The place of a condition among the needed ones, which rise.
     fn place(&self, id: ConditionId) -> usize {
         self.needed.binary_search(&id.0).expect("operands are needed")
     }
@@ -225,9 +231,11 @@ impl Writer<'_> {
         (ident(&predicate.name), given)
     }
 
-    /// A Rust expression with what the names of parameters in it stand for: the author's own words
-    /// are bound, so that they mean this wherever a macro may have got them from. Each value is
-    /// read before any is bound, for one may be called like what another stands for.
+    /// A Rust expression with its parameters bound.
+    ///
+    /// The words that are bound are the author's own tokens, so they are in scope for the
+    /// expression whatever macro it came from. All values are read before any is bound, because one
+    /// may have the name of another's value.
     fn bound(&mut self, bindings: &[Binding], code: TokenStream) -> TokenStream {
         if bindings.is_empty() {
             return code;
@@ -280,8 +288,8 @@ impl Writer<'_> {
         (code, depth + 1)
     }
 
-    /// A conjunction or a disjunction. Its truth reads both sides: a NaN on the right must not depend on
-    /// what stands on the left.
+    /// A conjunction or a disjunction. Its truth evaluates both sides (`&`, not `&&`): whether a
+    /// NaN on the right is an error must not depend on the left.
     fn binary(
         &mut self,
         a: ConditionId,
@@ -299,7 +307,8 @@ impl Writer<'_> {
         (code, deep_a.max(deep_b) + 1)
     }
 
-    /// A comparison of numbers; see [`Reading`].
+    /// A comparison of numbers. Robustness is the signed distance to the threshold, for `==` the
+    /// negative distance.
     fn comparison(&mut self, comparison: Comparison, a: TermId, b: TermId) -> Written {
         let arena = &self.scope.module.arena;
         if arena.is_value(a) || arena.is_value(b) {
@@ -334,8 +343,8 @@ impl Writer<'_> {
         (code, depth)
     }
 
-    /// Whether two values of an enumeration or two truth values are equal, with robustness ±1. If one
-    /// side may be absent, both are compared as options.
+    /// Whether two values of an enumeration or two truth values are equal, with robustness ±1. If
+    /// one side may be absent, both are compared as options.
     fn value_comparison(&mut self, comparison: Comparison, a: TermId, b: TermId) -> Written {
         let optional = [a, b].map(|side| self.is_optional(side));
         let [a, b] = [(a, optional[1]), (b, optional[0])].map(|(side, other)| {
@@ -368,7 +377,8 @@ impl Writer<'_> {
         }
     }
 
-    /// A term, after everything that it needs. Terms are shared by the conditions of one expression.
+    /// A term, after everything that it needs. Terms are shared by the conditions of one
+    /// expression.
     fn term(&mut self, root: TermId) -> Written {
         let needed = arena::needed(vec![root.0], &mut |id, open| {
             let term = self.scope.module.arena.term(TermId(id));
@@ -443,7 +453,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Where the author's tokens begin that a term is.
+    /// The span at which the author's tokens of a term begin, for rustc's own messages.
     fn span(&self, id: TermId) -> TokenSpan {
         match self.scope.module.arena.term(id) {
             Term::Host { span, .. } => first_span(&(self.scope.host)(*span)),
@@ -498,7 +508,7 @@ impl Writer<'_> {
     }
 }
 
-/// Where tokens begin, within the brackets around them.
+/// The span at which tokens begin, within the brackets around them.
 fn first_span(tokens: &TokenStream) -> TokenSpan {
     match tokens.clone().into_iter().next() {
         Some(TokenTree::Group(group)) => first_span(&group.stream()),
@@ -507,7 +517,7 @@ fn first_span(tokens: &TokenStream) -> TokenSpan {
     }
 }
 
-/// A constant condition: ±∞, so that it never decides a minimum or a maximum against another.
+/// A constant condition: ±∞, the neutral and absorbing elements of minimum and maximum.
 fn truth(value: bool, robust: bool) -> TokenStream {
     match (robust, value) {
         (false, value) => quote! { #value },
@@ -529,8 +539,7 @@ fn number(value: f64) -> TokenStream {
     }
 }
 
-/// A whole number as Rust writes it, of the type `name`; of whatever type is needed if that is
-/// empty.
+/// An integer as Rust writes it, with the type `name`; of whatever type is needed if that is empty.
 fn whole(value: f64, name: &str) -> TokenStream {
     let literal = format!("{}{name}", value.abs());
     let literal: Literal = literal.parse().unwrap_or_else(|_| Literal::f64_suffixed(value.abs()));
@@ -541,12 +550,13 @@ fn whole(value: f64, name: &str) -> TokenStream {
     }
 }
 
-/// The word `name` as it stands in Rust of the author's; in a macro of the author's two words of the
-/// same letters may be different names.
+/// The word `name` as it stands in the author's Rust: two words of the same letters may be
+/// different names if a macro made them.
 fn word(code: &TokenStream, name: &str) -> Ident {
     find(code, &rust_name(name)).unwrap_or_else(|| ident(name))
 }
 
+/// The first identifier of this name in some tokens.
 fn find(code: &TokenStream, name: &str) -> Option<Ident> {
     code.clone().into_iter().find_map(|tree| match tree {
         TokenTree::Group(group) => find(&group.stream(), name),

@@ -2,14 +2,30 @@
 //!
 //! A file becomes items: for every type of the source a Rust type, for every predicate a robustness
 //! function and a type that implements `Predicate`, for every task a `const fn` that returns the
-//! runtime's `Task`. A bare formula becomes one expression, which declares what it needs: its
+//! runtime's `Task`. A bare formula becomes one expression that declares what it needs. Its
 //! predicates are whatever values are in scope, so their types are inferred, as generic parameters.
 //!
-//! The code names the runtime and `core` by absolute paths, so that no name of the author's can take
-//! their place; it allocates nothing and parses nothing. The same source gives the same tokens.
+//! The code names the runtime and `core` by absolute paths, so that no name of the author's can
+//! take their place; it allocates nothing and parses nothing. The same source gives the same
+//! tokens.
 //!
-//! An item has no hygiene: within its block it hides what the author means. So each of ours that the
-//! source does not declare stands in a block where no code and no name of the author's does.
+//! An item has no hygiene: within its block it hides the author's names. So each generated item
+//! that the source does not declare stands in a block without code or names of the author's.
+//!
+//! ```
+//! use quote::quote;
+//! use tltl_compiler::emit::rust::{Options, Place, code};
+//! use tltl_compiler::{compile, source::Source, translate::Budget};
+//!
+//! let text = "state Cell { x: i32 }\npredicate home = x == 0\ntask back = F home\n";
+//! let compiled = compile::file(&Source::new("cell.tltl", text), Budget::EMITTED)?;
+//! let options =
+//!     Options { runtime: quote! { ::tltl }, state: None, host: &|_| quote! {}, place: Place::File };
+//! let rust = code(&compiled, &options).to_string();
+//! assert!(rust.contains("pub struct Cell"));
+//! assert!(rust.contains("pub const fn back () -> :: tltl :: Task < back >"));
+//! # Ok::<(), tltl_compiler::error::Errors>(())
+//! ```
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -27,15 +43,16 @@ use crate::predicate::{Condition, Predicate, PredicateId, State, Task};
 use crate::source::Span;
 use crate::tables::{operators, tables};
 
-/// How the code fits the place where it stands.
+/// Settings that fit the code to its surroundings.
 pub struct Options<'a> {
     /// The path of the runtime crate, absolute: `::tltl`, unless a crate re-exports it.
     pub runtime: TokenStream,
-    /// A type of the user's that has the fields of the declared state, which is then not emitted.
+    /// A type of the user's with the fields of the declared state, which is then not emitted.
     pub state: Option<TokenStream>,
-    /// The Rust tokens at a place of the source, for what the source takes from Rust as it is.
+    /// The Rust tokens at a place of the source, for the parts that the source takes from Rust
+    /// verbatim.
     pub host: &'a dyn Fn(Span) -> TokenStream,
-    /// Where it stands.
+    /// The place in which the code stands.
     pub place: Place,
 }
 
@@ -45,7 +62,7 @@ pub fn code(compiled: &Compiled, options: &Options<'_>) -> TokenStream {
     if is_bare(compiled) { expression(compiled, options) } else { items(compiled, options) }
 }
 
-/// Whether a source is a bare formula.
+/// Whether a source is a bare formula: its task has no name.
 #[must_use]
 pub fn is_bare(compiled: &Compiled) -> bool {
     let factored = compiled.factored.iter().map(|factored| &factored.task);
@@ -55,9 +72,10 @@ pub fn is_bare(compiled: &Compiled) -> bool {
 
 /// A bare formula as an expression: a `Task` over the predicates that are in scope.
 ///
-/// The task's function is a method of its predicates because only so can its result be named: the
-/// types of the predicates may be closures, which have no name. Its tables are statics all the same.
-/// The predicates are arguments of the block that declares all this, for in it they would be hidden.
+/// The function that makes the task is a method of its predicates, because only there can its
+/// result be named: the predicates may be closures, whose types have no name. Its tables are
+/// statics all the same. The predicates are arguments of the block that declares all this, because
+/// inside it they could be hidden.
 fn expression(compiled: &Compiled, options: &Options<'_>) -> TokenStream {
     let emitter = Emitter::new(compiled, options);
     let runtime = &options.runtime;
@@ -108,15 +126,15 @@ fn items(compiled: &Compiled, options: &Options<'_>) -> TokenStream {
     quote! { #(#enums)* #(#structs)* #state #(#predicates)* #(#tasks)* #(#factored)* }
 }
 
-/// A task in the making: its type, and the expression that is it.
+/// A task as code.
 struct Made {
     /// Its type without the predicates: `Task` or `Factored`.
     kind: TokenStream,
-    /// The expression that is the task.
+    /// The expression that makes it.
     result: TokenStream,
 }
 
-/// What all code of one source is written from.
+/// The inputs of all code of one source.
 pub(super) struct Emitter<'a> {
     pub(super) compiled: &'a Compiled,
     pub(super) options: &'a Options<'a>,
@@ -125,6 +143,7 @@ pub(super) struct Emitter<'a> {
 }
 
 impl<'a> Emitter<'a> {
+    /// The emitter of a compiled source.
     fn new(compiled: &'a Compiled, options: &'a Options<'a>) -> Self {
         let names = Names::new(compiled, options.place);
         let scope = Scope::new(&compiled.module, options.runtime.clone(), options.host, names);
@@ -148,8 +167,8 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// A predicate of a bare formula as a value: the user's own, or two closures. Of the second, all
-    /// types are written out, so that a task whose states are never read is typed as well.
+    /// A predicate of a bare formula as a value: the user's own, or two closures. The closures have
+    /// all types written out, so that a task whose states are never read is typed as well.
     fn value(&self, id: PredicateId) -> TokenStream {
         let module = &self.compiled.module;
         let condition = module.predicates[id.0 as usize].condition;
@@ -170,8 +189,8 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// A declared predicate: a function that gives its robustness, which authors call, and a type of
-    /// the same name that implements `Predicate`, which formulas in Rust refer to.
+    /// A declared predicate: a function that gives its robustness, which authors call, and a type
+    /// of the same name that implements `Predicate`, which formulas in Rust refer to.
     fn predicate(&self, id: PredicateId) -> TokenStream {
         let predicate = &self.compiled.module.predicates[id.0 as usize];
         let (name, lints) = (ident(&predicate.name), self.options.place.lints());
@@ -313,7 +332,7 @@ impl<'a> Emitter<'a> {
         }
     }
 
-    /// The function that returns a task, and the type that is its predicates.
+    /// The function that returns a task, and the struct of its predicates, which has the same name.
     fn declaration(&self, task: &Task, about_it: &[String], made: Made) -> TokenStream {
         let Made { kind, result } = made;
         let (function, lints) = (function(task), self.options.place.lints());
@@ -372,7 +391,7 @@ impl<'a> Emitter<'a> {
     }
 
     /// The assertions that the parameters of a task are within the arrays that they index, and the
-    /// attribute by which a failure is reported where the task is made. After them no step of the
+    /// attribute by which a failure is reported where the task is made. After them, no step of the
     /// task can panic.
     fn indices(&self, task: &Task) -> (TokenStream, TokenStream) {
         let module = &self.compiled.module;
@@ -418,12 +437,12 @@ impl<'a> Emitter<'a> {
     }
 }
 
-/// What a task is called in Rust; one without a name stands alone in its file.
+/// The name of a task in Rust; a task without one stands alone in its file.
 fn named(task: &Task) -> &str {
     task.name.as_deref().unwrap_or("task")
 }
 
-/// The name of the function that returns a task, and of the type that is its predicates.
+/// The name of the function that returns a task and of the struct of its predicates.
 fn function(task: &Task) -> Ident {
     ident(named(task))
 }

@@ -1,14 +1,25 @@
 //! The tables of an automaton and of its formula as Rust: data, not code.
 //!
-//! A table becomes a constant of the runtime's types over `'static` slices, so the program holds it
-//! in its read-only data and does nothing to have it. The runtime trusts what it gets here; tables
-//! from anywhere else it checks.
+//! A table becomes a constant of the runtime's types over `'static` slices, so a program holds it
+//! in its read-only data and does nothing to build it. The runtime trusts tables from here; it
+//! checks tables from anywhere else.
 //!
-//! Tables are written as text and read back by the tokenizer, which in a procedural macro is rustc's
-//! own: one token of a table costs nanoseconds then; built tree by tree in an unoptimised macro it
-//! costs microseconds. Few names and flat arrays matter for the same reason: the code of a sequence of
-//! 40 steps is 16 KB and 5,600 tokens. With an edge and a guard as a struct each it was 24 KB and 8,300
-//! tokens, and its expansion took half as long again.
+//! Tables are written as text and read back by the tokenizer, which in a procedural macro is
+//! rustc's own: a token of a table then costs nanoseconds. Built tree by tree in an unoptimized
+//! macro it costs microseconds. Few names and flat arrays matter for the same reason: the code of a
+//! sequence of 40 steps is 16 KB and 5,600 tokens. With an edge and a guard as a struct each it was
+//! 24 KB and 8,300 tokens, and its expansion took half as long again.
+//!
+//! ```
+//! use quote::quote;
+//! use tltl_compiler::{compile, emit, source::Source, tables::tables, translate::Budget};
+//!
+//! let source = Source::new("formula", "F a");
+//! let compiled = compile::formula(&source, Budget::EMITTED)?;
+//! let code = emit::tables::automaton(&tables(&compiled.automata[0].dfa), &quote! { ::tltl });
+//! assert!(code.to_string().contains("states : 2"));
+//! # Ok::<(), tltl_compiler::error::Errors>(())
+//! ```
 
 use std::fmt::{Debug, Write as _};
 
@@ -18,7 +29,7 @@ use quote::quote;
 use crate::spec::Spec;
 use crate::tables::{Tables, Transitions, operators};
 
-/// The expression that is the runtime's `Automaton`; `runtime` is the path of that crate. It is a
+/// The runtime's `Automaton` as an expression; `runtime` is the path of that crate. It is a
 /// constant expression: it may stand in a `static`, a `const`, or an array of either.
 #[must_use]
 pub fn automaton(tables: &Tables, runtime: &TokenStream) -> TokenStream {
@@ -42,8 +53,8 @@ pub fn automaton(tables: &Tables, runtime: &TokenStream) -> TokenStream {
     }}
 }
 
-/// The expression that is the runtime's `Formula`, with `written` as its text. The operators are those
-/// of `spec`, in negation normal form; an [`Operator`](crate::tables::Operator) prints as the
+/// The runtime's `Formula` as an expression, with `written` as its text. The operators are those of
+/// `spec`, in negation normal form; an [`Operator`](crate::tables::Operator) prints as the
 /// runtime's `Op` of the same name.
 #[must_use]
 pub fn formula(spec: &Spec, written: &str, runtime: &TokenStream) -> TokenStream {
@@ -58,8 +69,10 @@ pub fn formula(spec: &Spec, written: &str, runtime: &TokenStream) -> TokenStream
     }}
 }
 
-/// The names of the propositions. A name is a value with a destructor (it could be owned), and a
-/// reference to such a value lives as long as the program only in a constant of its own.
+/// The names of the propositions.
+///
+/// A name is a value with a destructor (it could be owned), so a reference to an array of names is
+/// promoted to `'static` only inside a constant of its own.
 fn names(text: &mut String, names: &[String]) {
     text.push_str("propositions: Shared::from_static(const { &[");
     for name in names {
@@ -91,6 +104,7 @@ fn table(text: &mut String, field: &str, entries: &[impl Debug]) {
     let _ = write!(text, "{field}: Shared::from_static(&{entries:?}), ");
 }
 
+/// The tokens of a text that this module wrote.
 fn tokens(text: &str) -> TokenStream {
     text.parse().expect("generated tables are Rust")
 }

@@ -1,14 +1,18 @@
 //! An error as text: the sentence, the lines of the source with carets under them, the help.
 //!
-//! The layout is rustc's, one caret line a label. A long line is cut to a window around the place,
-//! and what a terminal would not show in one column is measured or replaced.
+//! The layout is that of rustc, with one line of carets for each label. A long line is cut to a
+//! window around the place, tabs become four blanks, and control characters are replaced, so that
+//! carets stand where the terminal shows the text.
+//!
+//! Written by hand although crates exist for it (annotate-snippets, ariadne): every user of the
+//! macros would build them, and this is a page of code whose bytes the tests fix.
 
 use std::fmt::Write;
 
 use super::{Error, Severity};
 use crate::source::{Source, Span};
 
-/// How a report looks.
+/// The look of a report.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Style {
     /// For files, pipes and compilers.
@@ -23,10 +27,11 @@ const RED: &str = "\x1b[1;31m";
 const YELLOW: &str = "\x1b[1;33m";
 const BLUE: &str = "\x1b[1;34m";
 
-/// The most columns of a source line that are shown.
+/// The most columns of a source line that are shown: about the width of a terminal.
 const WINDOW: usize = 100;
 
 impl Style {
+    /// The text in a colour, where the style has colours.
     fn paint(self, colour: &str, text: &str) -> String {
         match self {
             Self::Plain => text.to_owned(),
@@ -36,13 +41,14 @@ impl Style {
     }
 }
 
-/// One place to underline.
+/// A place to underline.
 struct Label<'a> {
     span: Span,
     text: &'a str,
     primary: bool,
 }
 
+/// The report of one error.
 pub(super) fn report(error: &Error, source: &Source, style: Style) -> String {
     let (word, colour) = match error.severity {
         Severity::Error => ("error", RED),
@@ -65,13 +71,15 @@ pub(super) fn report(error: &Error, source: &Source, style: Style) -> String {
     out.lines().map(|line| line.trim_end().to_owned() + "\n").collect()
 }
 
+/// The width of the largest line number.
 fn gutter_width(error: &Error, source: &Source) -> usize {
     let spans = error.related.iter().map(|(span, _)| *span).chain([error.span]);
     let last = spans.map(|span| source.place(span.start).line).max().unwrap_or(1);
     last.to_string().len()
 }
 
-/// The lines that the labels stand in, in source order, each followed by its carets.
+/// The lines of the labels in source order, each followed by its carets. `...` stands for lines
+/// that are left out.
 fn snippets(out: &mut String, error: &Error, source: &Source, style: Style, colour: &str) {
     let gutter = gutter_width(error, source);
     let mut labels = vec![Label { span: error.span, text: &error.label, primary: true }];
@@ -99,7 +107,8 @@ fn snippets(out: &mut String, error: &Error, source: &Source, style: Style, colo
     }
 }
 
-/// The part of `line` that is shown, made printable, and the byte at which it starts.
+/// The part of `line` that is shown, made printable, and the byte at which it starts. A line that
+/// is too long is cut so that `focus` is in the middle.
 fn window(source: &Source, line: Span, focus: Span) -> (String, usize) {
     let text = source.slice(line);
     if text.chars().count() <= WINDOW {
@@ -117,6 +126,7 @@ fn window(source: &Source, line: Span, focus: Span) -> (String, usize) {
     (printable(&shown) + more, start)
 }
 
+/// The carets of a label, with its text. A span that goes beyond its line is cut to the line.
 fn underline(source: &Source, line: Span, start: usize, label: &Label<'_>) -> String {
     let (from, to) = (label.span.start.max(start), label.span.end.min(line.end));
     let indent = width(source.slice(Span::new(start, from.min(line.end))))
@@ -127,6 +137,7 @@ fn underline(source: &Source, line: Span, start: usize, label: &Label<'_>) -> St
     format!("{}{}{text}", " ".repeat(indent.min(2 * WINDOW)), mark.repeat(length))
 }
 
+/// The text with a fixed width for each character.
 fn printable(text: &str) -> String {
     text.replace('\t', "    ").replace(|c: char| c.is_control(), "\u{fffd}")
 }
@@ -136,6 +147,9 @@ fn width(text: &str) -> usize {
     text.chars().map(columns).sum()
 }
 
+/// The number of terminal columns of a character: 0 for combining marks and joiners, 2 for wide
+/// scripts and emoji. The ranges are those of Unicode's East Asian Width that occur in practice; a
+/// table of all would be larger than this module.
 fn columns(c: char) -> usize {
     match c {
         '\t' => 4,

@@ -1,4 +1,8 @@
-//! Which states accept, and that they go on accepting.
+//! Which states accept, and that they accept for good.
+//!
+//! A formula of the language is co-safe, so its automaton has absorbing acceptance. An automaton
+//! from elsewhere need not have it: this module finds the accepting states under each acceptance
+//! condition, refuses those that can be left, and then merges them into one.
 
 use super::body::{Body, Described};
 use super::header::{Acceptance, Header};
@@ -27,6 +31,11 @@ pub(super) fn finish(header: &mut Header, body: Body) -> Result<Dfa, Error> {
 }
 
 /// For each state whether a trace that ends in it is accepted.
+///
+/// With marks on edges, acceptance on infinite words alone would not say when a finite trace is
+/// accepted. The accepting states are then the largest set that only good edges leave and that is
+/// closed; an edge from outside must be good iff it enters the set, or the automaton is refused as
+/// ambiguous.
 fn accepting(acceptance: Acceptance, dfa: &Dfa, states: &[Described]) -> Result<Vec<bool>, Error> {
     let (set, inside) = match acceptance {
         Acceptance::All => return Ok(vec![true; states.len()]),
@@ -52,7 +61,8 @@ fn accepting(acceptance: Acceptance, dfa: &Dfa, states: &[Described]) -> Result<
     Ok(accepting)
 }
 
-/// The largest set of states that satisfy `good` and only lead to each other.
+/// The largest set of states that satisfy `good` and lead only to each other: a greatest fixed
+/// point, computed backwards from the states that fall out of it.
 fn closed(dfa: &Dfa, states: &[Described], good: &dyn Fn(&Described) -> bool) -> Vec<bool> {
     let mut kept: Vec<bool> = states.iter().map(good).collect();
     let mut before = vec![Vec::new(); states.len()];
@@ -76,6 +86,7 @@ fn closed(dfa: &Dfa, states: &[Described], good: &dyn Fn(&Described) -> bool) ->
     kept
 }
 
+/// The error for edge marks that do not determine acceptance of finite traces.
 fn ambiguous(span: crate::source::Span) -> Error {
     refused(
         "the acceptance marks on edges do not tell when a finite trace is accepted for good",
@@ -110,8 +121,8 @@ fn check(dfa: &Dfa, states: &[Described], accepting: &[bool]) -> Result<(), Erro
     Ok(())
 }
 
-/// Lets all accepting states be one and missing transitions lead to the trap. The initial state
-/// accepts too if every first letter is accepted.
+/// Merges all accepting states into one and lets missing transitions lead to the trap. The initial
+/// state accepts too if every first letter is accepted.
 fn merge(mut dfa: Dfa, accepting: &[bool]) -> Dfa {
     let trap = accepting.len() as State;
     let first = accepting.iter().position(|&accepts| accepts).map(|q| q as State);

@@ -1,4 +1,8 @@
-//! The body: states and their transitions, laid over each other as decision diagrams.
+//! The body of a HOA file: states and their transitions.
+//!
+//! The transitions of a state start as "everything leads nowhere", and each edge is laid over them
+//! where its label holds. An edge that meets another one is what makes an automaton
+//! nondeterministic, and it is found in that very step.
 
 use super::header::Header;
 use super::token::{Token, Tokens};
@@ -9,41 +13,50 @@ use crate::dfa::State;
 use crate::error::Error;
 use crate::source::Span;
 
-/// An edge's destination and marks.
+/// The destination of an edge, with its marks.
 #[derive(Clone, Debug)]
 pub(super) struct Edge {
     pub(super) to: State,
     /// The acceptance sets on the edge itself.
     pub(super) marks: Vec<u32>,
+    /// The place of the edge in the text.
     pub(super) span: Span,
 }
 
-/// A state as described.
+/// A state as the text describes it.
 #[derive(Clone, Debug)]
 pub(super) struct Described {
-    /// Its number in the text.
+    /// Its number in the text, for messages.
     pub(super) number: u32,
+    /// The acceptance sets of the state.
     pub(super) marks: Vec<u32>,
+    /// Its edges, in the order of the text.
     pub(super) edges: Vec<Edge>,
+    /// Its transition function; letters without a transition lead to [`Body::NOWHERE`].
     pub(super) transitions: Bdd,
+    /// The place of its number in the text.
     pub(super) span: Span,
 }
 
-/// The states in the order in which the text names them, so that nothing is as large as a number
-/// in the text; missing transitions lead to [`Body::NOWHERE`].
+/// The states, in the order in which the text names them.
+///
+/// States are renumbered so, because a number in the text may be anything: nothing here is as large
+/// as one of them.
 #[derive(Default)]
 pub(super) struct Body {
+    /// The states; `None` for one that is named but not described yet.
     pub(super) states: Vec<Option<Described>>,
+    /// The state of each number in the text.
     numbers: Memo<u32, State>,
-    /// For each state its number in the text and where it is named first.
+    /// For each state its number in the text and the place where it is named first.
     named: Vec<(u32, Span)>,
 }
 
 impl Body {
-    /// Where missing transitions lead.
+    /// The destination of missing transitions: a number that no state has.
     pub(super) const NOWHERE: State = (1 << 31) - 1;
 
-    /// The state that the text numbers so.
+    /// The state with this number in the text, added if it is new.
     fn state(&mut self, number: u32, span: Span) -> State {
         let fresh = self.named.len() as State;
         let state = self.numbers.get_or_insert(number, fresh);
@@ -55,6 +68,7 @@ impl Body {
     }
 }
 
+/// Reads the body, up to `--END--`. Every state that is named must be described.
 pub(super) fn read(tokens: &mut Tokens, header: &mut Header) -> Result<Body, Error> {
     let mut body = Body::default();
     body.state(header.start.0, header.start.1);
@@ -72,6 +86,7 @@ pub(super) fn read(tokens: &mut Tokens, header: &mut Header) -> Result<Body, Err
     }
 }
 
+/// Reads one state with its edges.
 fn state(tokens: &mut Tokens, header: &mut Header, body: &mut Body) -> Result<(), Error> {
     tokens.next()?;
     let count = header.propositions.len();
@@ -96,6 +111,7 @@ fn state(tokens: &mut Tokens, header: &mut Header, body: &mut Body) -> Result<()
     Ok(())
 }
 
+/// Reads the edges of a state. A label stands on the state, or on every edge, or on none of them.
 fn edges(
     tokens: &mut Tokens,
     header: &mut Header,
@@ -133,6 +149,7 @@ fn edges(
     Ok(state)
 }
 
+/// Reads the destination and the marks of an edge.
 fn edge(tokens: &mut Tokens, body: &mut Body, start: Span) -> Result<Edge, Error> {
     let at = tokens.span();
     let number = tokens.number("the state to go to")?;
@@ -157,6 +174,7 @@ fn marks(tokens: &mut Tokens) -> Result<Vec<u32>, Error> {
     Ok(marks)
 }
 
+/// The error for an edge that meets another one.
 fn nondeterministic(state: &Described, span: Span) -> Error {
     let message = format!(
         "the automaton is not deterministic: state {} has another edge for some of these letters",
@@ -165,7 +183,7 @@ fn nondeterministic(state: &Described, span: Span) -> Error {
     refused(message, span).related(state.span, "this state").help("make it deterministic first")
 }
 
-/// Transitions of edges without labels: one for each letter, proposition 0 changing fastest.
+/// The transitions of edges without labels: one for each letter, proposition 0 changing fastest.
 fn table(
     diagram: &mut Diagram,
     state: &Described,
@@ -195,8 +213,8 @@ fn table(
     Ok(row[0])
 }
 
-/// Transitions with an edge to `to` laid over them where `guard` holds; none if another edge is in
-/// its way.
+/// The transitions with an edge to `to` laid over them where `guard` holds; `None` if another edge
+/// is already there.
 fn lay(diagram: &mut Diagram, below: Bdd, guard: Bdd, to: State) -> Option<Bdd> {
     let edge = Bdd::leaf(to);
     let mut is_free = true;

@@ -1,4 +1,8 @@
-//! The header: what matters of it.
+//! The header of a HOA file: name, initial state, propositions, acceptance, aliases.
+//!
+//! By the format, a header that begins with a lower-case letter may be ignored, and one that begins
+//! with a capital may change the meaning: unknown ones of the second kind are refused. `States:` is
+//! read and not used, because the body says which states there are.
 
 use super::label::{Labels, no_proposition};
 use super::token::{Token, Tokens};
@@ -6,30 +10,32 @@ use super::{MOST_PROPOSITIONS, refused, syntax};
 use crate::error::Error;
 use crate::source::Span;
 
-/// Which runs accept.
+/// The acceptance condition, as a condition on the marks of a state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Acceptance {
-    /// Every state does: `t`.
+    /// Every state accepts: `t`.
     All,
-    /// No state does: `f`.
+    /// No state accepts: `f`.
     None,
-    /// The states in the set.
+    /// The states in the set accept: `Inf(0)`.
     In(u32),
-    /// The states outside the set.
+    /// The states outside the set accept: `Fin(0)`.
     Outside(u32),
 }
 
-/// What the header says.
+/// The parts of the header that matter.
 pub(super) struct Header {
     pub(super) name: Option<String>,
-    /// The initial state and where it is named.
+    /// The initial state, by its number in the text, and the place where it is named.
     pub(super) start: (u32, Span),
+    /// The names of the propositions, in the order of `AP:`.
     pub(super) propositions: Vec<String>,
     pub(super) acceptance: Acceptance,
     pub(super) labels: Labels,
 }
 
-/// The header so far; some parts must come once, and aliases may come before `AP:`.
+/// A header under construction. Some parts must come exactly once, and aliases may come before
+/// `AP:`.
 #[derive(Default)]
 struct Draft {
     name: Option<String>,
@@ -39,6 +45,7 @@ struct Draft {
     labels: Labels,
 }
 
+/// Reads the header, up to `--BODY--`.
 pub(super) fn read(tokens: &mut Tokens) -> Result<Header, Error> {
     version(tokens)?;
     let mut draft = Draft::default();
@@ -57,6 +64,7 @@ pub(super) fn read(tokens: &mut Tokens) -> Result<Header, Error> {
     draft.finish(body)
 }
 
+/// Reads `HOA: v1`.
 fn version(tokens: &mut Tokens) -> Result<(), Error> {
     if *tokens.peek() != Token::Header("HOA") {
         return Err(tokens.unexpected("`HOA: v1`"));
@@ -69,6 +77,7 @@ fn version(tokens: &mut Tokens) -> Result<(), Error> {
 }
 
 impl Draft {
+    /// Reads the rest of one header line.
     fn item<'a>(
         &mut self,
         tokens: &mut Tokens<'a>,
@@ -108,6 +117,8 @@ impl Draft {
         }
     }
 
+    /// Reads `@name label`. Before `AP:` the number of propositions is not known, so a label may
+    /// then name any; [`finish`](Self::finish) checks it.
     fn alias(&mut self, tokens: &mut Tokens, span: Span) -> Result<(), Error> {
         let Token::Alias(name) = *tokens.peek() else {
             return Err(tokens.unexpected("a name that begins with `@`"));
@@ -121,6 +132,7 @@ impl Draft {
         }
     }
 
+    /// The header, once everything needed is there.
     fn finish(self, body: Span) -> Result<Header, Error> {
         let missing = |name: &str| syntax(format!("the header has no `{name}:`"), body);
         let propositions = self.propositions.unwrap_or_default();
@@ -140,6 +152,7 @@ impl Draft {
     }
 }
 
+/// Sets a part of the header that must not come twice.
 fn once<T>(place: &mut Option<T>, value: T, name: &str, span: Span) -> Result<(), Error> {
     match place.replace(value) {
         Some(_) => Err(syntax(format!("the header `{name}:` comes twice"), span)),
@@ -147,7 +160,7 @@ fn once<T>(place: &mut Option<T>, value: T, name: &str, span: Span) -> Result<()
     }
 }
 
-/// Skips what belongs to a header that does not matter.
+/// Skips the rest of a header line that does not matter.
 fn skip(tokens: &mut Tokens) -> Result<(), Error> {
     while !matches!(tokens.peek(), Token::Header(_) | Token::Body | Token::End | Token::Nothing) {
         tokens.next()?;
@@ -155,6 +168,7 @@ fn skip(tokens: &mut Tokens) -> Result<(), Error> {
     Ok(())
 }
 
+/// Reads the initial state. A conjunction of several makes the automaton alternating.
 fn start(tokens: &mut Tokens) -> Result<(u32, Span), Error> {
     let span = tokens.span();
     let state = tokens.number("the initial state")?;
@@ -165,6 +179,7 @@ fn start(tokens: &mut Tokens) -> Result<(u32, Span), Error> {
     Ok((state, span))
 }
 
+/// Reads the count and the names of the propositions.
 fn propositions(tokens: &mut Tokens) -> Result<Vec<String>, Error> {
     let span = tokens.span();
     let count = tokens.number("the number of propositions")? as usize;
@@ -186,6 +201,7 @@ fn propositions(tokens: &mut Tokens) -> Result<Vec<String>, Error> {
     Err(syntax(format!("{count} propositions are announced, and {} follow", names.len()), span))
 }
 
+/// Reads the number of acceptance sets and the condition.
 fn acceptance(tokens: &mut Tokens) -> Result<Acceptance, Error> {
     let mut span = tokens.span();
     tokens.number("the number of acceptance sets")?;
@@ -203,7 +219,7 @@ fn acceptance(tokens: &mut Tokens) -> Result<Acceptance, Error> {
     }
 }
 
-/// One of the conditions that are read, if it is one.
+/// Reads an acceptance condition; `None` if it is not one that is understood.
 fn condition(tokens: &mut Tokens) -> Result<Option<Acceptance>, Error> {
     let inside = match tokens.peek() {
         Token::Word("t") => return tokens.next().map(|_| Some(Acceptance::All)),

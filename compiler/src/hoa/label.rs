@@ -1,4 +1,5 @@
-//! Labels: Boolean expressions over propositions by number, and aliases.
+//! Labels: Boolean expressions over propositions by number, and aliases. They become decision
+//! diagrams while they are read.
 
 use rustc_hash::FxHashMap;
 
@@ -8,26 +9,30 @@ use crate::bdd::{Bdd, Diagram};
 use crate::error::Error;
 use crate::source::Span;
 
-/// The functions that labels are, and the aliases.
+/// The diagram of all labels, and the aliases.
 #[derive(Default)]
 pub(super) struct Labels {
+    /// The diagram, which becomes that of the automaton.
     pub(super) diagram: Diagram,
     aliases: FxHashMap<String, Bdd>,
-    /// The highest proposition that a label names, and where.
+    /// The highest proposition that a label names, and its place.
     pub(super) highest: Option<(u32, Span)>,
 }
 
-/// What waits for an operand.
+/// An operator or a bracket that waits for its operand.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Pending {
+    /// A bracket, by its place.
     Open(Span),
+    /// A disjunction, by its left operand.
     Or(Bdd),
+    /// A conjunction, by its left operand.
     And(Bdd),
     Not,
 }
 
 impl Labels {
-    /// Gives a function a name; whether it is new.
+    /// Gives a function a name. Returns whether the name is new.
     pub(super) fn name(&mut self, name: &str, guard: Bdd) -> bool {
         self.aliases.insert(name.to_owned(), guard).is_none()
     }
@@ -40,7 +45,8 @@ impl Labels {
         Ok(guard)
     }
 
-    /// Reads an expression over `count` propositions: `!`, `&`, `|`, brackets, with a stack of its own.
+    /// Reads an expression over `count` propositions: `!`, `&`, `|`, brackets. Operator precedence
+    /// with a stack of its own, so brackets may nest to any depth.
     pub(super) fn expression(&mut self, tokens: &mut Tokens, count: usize) -> Result<Bdd, Error> {
         let mut pending = Vec::new();
         loop {
@@ -77,7 +83,7 @@ impl Labels {
         }
     }
 
-    /// Applies the operators that bind tighter than what follows.
+    /// Applies the waiting operators that bind tighter than the next token.
     fn reduce(
         &mut self,
         pending: &mut Vec<Pending>,
@@ -100,6 +106,7 @@ impl Labels {
         Ok(value)
     }
 
+    /// Reads a proposition, a constant or an alias.
     fn operand(&mut self, tokens: &mut Tokens, count: usize) -> Result<Bdd, Error> {
         let span = tokens.span();
         let guard = match tokens.peek() {
@@ -123,7 +130,7 @@ impl Labels {
     }
 }
 
-/// The error that a label names a proposition that there is not.
+/// The error for a label that names a proposition outside `AP:`.
 pub(super) fn no_proposition(number: u32, count: usize, span: Span) -> Error {
     syntax(format!("there is no proposition {number}: `AP:` has {count}"), span)
 }

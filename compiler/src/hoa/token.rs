@@ -1,4 +1,7 @@
-//! Text to tokens.
+//! The tokens of a HOA file.
+//!
+//! Written by hand: HOA has nine kinds of tokens and no recursion among them, except for comments,
+//! which nest and are counted.
 
 use super::syntax;
 use crate::error::Error;
@@ -7,12 +10,12 @@ use crate::source::Span;
 /// A token of HOA.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Token<'a> {
-    /// `name:`, without the colon
+    /// `name:`, without the colon.
     Header(&'a str),
     Word(&'a str),
     Text(String),
     Number(u32),
-    /// `@name`, without the `@`
+    /// `@name`, without the `@`.
     Alias(&'a str),
     Symbol(char),
     Body,
@@ -22,7 +25,7 @@ pub(super) enum Token<'a> {
 }
 
 impl Token<'_> {
-    /// As messages name it.
+    /// The token as messages name it.
     pub(super) fn describe(&self) -> String {
         match self {
             Self::Header(name) => format!("`{name}:`"),
@@ -38,15 +41,18 @@ impl Token<'_> {
     }
 }
 
-/// The tokens of a text, one looked at in advance.
+/// The tokens of a text, with one token of lookahead.
 pub(super) struct Tokens<'a> {
     text: &'a str,
     at: usize,
+    /// The next token.
     token: Token<'a>,
+    /// The place of the next token.
     span: Span,
 }
 
 impl<'a> Tokens<'a> {
+    /// The tokens of `text`; a byte order mark is skipped.
     pub(super) fn new(text: &'a str) -> Result<Self, Error> {
         let start = if text.starts_with('\u{feff}') { 3 } else { 0 };
         let mut tokens = Self { text, at: start, token: Token::Nothing, span: Span::default() };
@@ -54,17 +60,17 @@ impl<'a> Tokens<'a> {
         Ok(tokens)
     }
 
-    /// The token to be read next.
+    /// The next token.
     pub(super) fn peek(&self) -> &Token<'a> {
         &self.token
     }
 
-    /// Where it stands.
+    /// The place of the next token.
     pub(super) fn span(&self) -> Span {
         self.span
     }
 
-    /// Reads a token.
+    /// Reads and returns the next token.
     pub(super) fn next(&mut self) -> Result<Token<'a>, Error> {
         self.skip()?;
         let start = self.at;
@@ -73,7 +79,7 @@ impl<'a> Tokens<'a> {
         Ok(std::mem::replace(&mut self.token, token))
     }
 
-    /// Reads `symbol` if it comes next.
+    /// Reads `symbol` if it comes next, and returns whether it did.
     pub(super) fn eat(&mut self, symbol: char) -> Result<bool, Error> {
         let found = self.token == Token::Symbol(symbol);
         if found {
@@ -87,7 +93,7 @@ impl<'a> Tokens<'a> {
         if self.eat(symbol)? { Ok(()) } else { Err(self.unexpected(&format!("`{symbol}`"))) }
     }
 
-    /// Reads a number, which must come next; `what` names it.
+    /// Reads a number, which must come next; `what` names it in messages.
     pub(super) fn number(&mut self, what: &str) -> Result<u32, Error> {
         match self.token {
             Token::Number(number) => self.next().map(|_| number),
@@ -95,12 +101,12 @@ impl<'a> Tokens<'a> {
         }
     }
 
-    /// The error that something else was expected.
+    /// The error that the next token is not what was expected.
     pub(super) fn unexpected(&self, expected: &str) -> Error {
         syntax(format!("expected {expected}, found {}", self.token.describe()), self.span)
     }
 
-    /// Nothing may follow.
+    /// Checks that the text ends here. A file may hold several automata; only one is read.
     pub(super) fn finish(&self) -> Result<(), Error> {
         match self.token {
             Token::Nothing => Ok(()),
@@ -111,11 +117,12 @@ impl<'a> Tokens<'a> {
         }
     }
 
+    /// The text that is still to be read.
     fn rest(&self) -> &'a str {
         &self.text[self.at..]
     }
 
-    /// Skips space and comments, which nest.
+    /// Skips blanks and comments.
     fn skip(&mut self) -> Result<(), Error> {
         loop {
             let rest = self.rest();
@@ -127,6 +134,7 @@ impl<'a> Tokens<'a> {
         }
     }
 
+    /// Skips a comment. Comments nest, and are counted rather than entered.
     fn comment(&mut self) -> Result<(), Error> {
         let (start, mut depth) = (self.at, 0_usize);
         loop {
@@ -148,6 +156,7 @@ impl<'a> Tokens<'a> {
         }
     }
 
+    /// Scans one token.
     fn scan(&mut self) -> Result<Token<'a>, Error> {
         let rest = self.rest();
         let Some(first) = rest.chars().next() else { return Ok(Token::Nothing) };
@@ -179,6 +188,7 @@ impl<'a> Tokens<'a> {
         }
     }
 
+    /// Scans `--BODY--` or `--END--`.
     fn section(&mut self) -> Result<Token<'a>, Error> {
         let rest = self.rest();
         let known = [("--BODY--", Token::Body), ("--END--", Token::End)];
@@ -193,6 +203,7 @@ impl<'a> Tokens<'a> {
         Err(syntax("expected `--BODY--` or `--END--`", span))
     }
 
+    /// Scans a word; it may have hyphens in it, as in `acc-name`.
     fn word(&mut self) -> &'a str {
         let rest = self.rest();
         let other = |c: char| !(c.is_ascii_alphanumeric() || c == '_' || c == '-');
@@ -201,6 +212,7 @@ impl<'a> Tokens<'a> {
         word
     }
 
+    /// Scans a number.
     fn digits(&mut self) -> Result<Token<'a>, Error> {
         let (start, rest) = (self.at, self.rest());
         let other = |c: char| !c.is_ascii_digit();
@@ -210,6 +222,7 @@ impl<'a> Tokens<'a> {
         digits.parse().map(Token::Number).map_err(large)
     }
 
+    /// Scans a string with its escapes.
     fn string(&mut self) -> Result<Token<'a>, Error> {
         let start = self.at;
         let mut text = String::new();

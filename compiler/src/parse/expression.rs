@@ -1,8 +1,9 @@
-//! Operator precedence: the flat sequence of operands and operators that the grammar gives, as a
-//! tree in the arena.
+//! Operator precedence: from the flat sequence of operands and operators that the grammar gives to
+//! a tree in the arena.
 //!
-//! Dijkstra's shunting yard with two stacks, so that depth costs heap, never stack. Brackets,
-//! calls and indices are entries of the operator stack.
+//! Dijkstra's shunting yard (1961) with two stacks, so that depth costs heap and never stack.
+//! Brackets, calls and indices are entries of the operator stack. Time is linear in the number of
+//! tokens. Operands are pushed before their operators, which is the order that the arena requires.
 
 use super::item::place;
 use super::{Pair, message};
@@ -11,8 +12,9 @@ use crate::error::{Error, Kind};
 use crate::grammar::Rule;
 use crate::source::Span;
 
-/// Builds the expression of `pair`, whose text starts at byte `at`, and returns its root; nothing
-/// if it has no shape. A number that is none is a mistake, and something else in its place.
+/// Builds the expression of `pair`, whose text starts at byte `at`, and returns its root; `None` if
+/// it has no shape. A number that cannot be represented is a mistake, and counts as 1 so that
+/// checking can go on.
 pub(super) fn build(
     ast: &mut Ast,
     pair: Pair<'_>,
@@ -47,6 +49,7 @@ enum Pending {
     Index(Span),
 }
 
+/// The two stacks.
 struct Yard<'a> {
     ast: &'a mut Ast,
     at: usize,
@@ -56,6 +59,7 @@ struct Yard<'a> {
 }
 
 impl Yard<'_> {
+    /// Reads all tokens: an operand and an operator in turn.
     fn expression(&mut self, pair: Pair<'_>) -> Result<NodeId, Error> {
         let mut operand_next = true;
         for token in pair.into_inner() {
@@ -64,6 +68,7 @@ impl Yard<'_> {
         self.finish()
     }
 
+    /// A number, or its mistake.
     fn number(&mut self, text: &str, span: Span) -> Node {
         Node::Number(number(text, span).unwrap_or_else(|error| {
             self.mistakes.push(error);
@@ -71,7 +76,7 @@ impl Yard<'_> {
         }))
     }
 
-    /// Reads a token where an operand may start; answers whether one is still due.
+    /// Reads a token where an operand may start. Returns whether an operand is still due.
     fn prefix(&mut self, token: Pair<'_>) -> Result<bool, Error> {
         let span = place(&token, self.at);
         let operator = match token.as_rule() {
@@ -91,6 +96,7 @@ impl Yard<'_> {
         Ok(true)
     }
 
+    /// Reads `for all name in set:`.
     fn quantifier(&mut self, token: Pair<'_>) -> Pending {
         let span = place(&token, self.at);
         let (mut all, mut name, mut set) = (false, span, span);
@@ -128,6 +134,7 @@ impl Yard<'_> {
         self.ast.push(node, span, span)
     }
 
+    /// The node of a token that is an operand by itself.
     fn primary(&mut self, token: &Pair<'_>, span: Span) -> Node {
         match token.as_rule() {
             Rule::truth => Node::Truth(true),
@@ -139,7 +146,7 @@ impl Yard<'_> {
         }
     }
 
-    /// Reads a token after an operand; answers whether another operand is due.
+    /// Reads a token after an operand. Returns whether another operand is due.
     fn infix(&mut self, token: Pair<'_>) -> Result<bool, Error> {
         let span = place(&token, self.at);
         match token.as_rule() {
@@ -172,6 +179,7 @@ impl Yard<'_> {
         Ok(false)
     }
 
+    /// Reads `.field` after its base.
     fn field(&mut self, token: Pair<'_>, span: Span) {
         let base = self.pop();
         let field = token.into_inner().next().map_or(span, |name| place(&name, self.at));
@@ -179,6 +187,7 @@ impl Yard<'_> {
         self.push(Node::Field { base, field }, whole, field);
     }
 
+    /// Ends an argument of a call.
     fn comma(&mut self, span: Span) -> Result<(), Error> {
         self.reduce_all();
         match self.pending.last() {
@@ -221,12 +230,15 @@ impl Yard<'_> {
         Ok(())
     }
 
+    /// Notes brackets around the last operand: messages and the printer need them, the tree does
+    /// not.
     fn bracketed(&mut self, brackets: Span) {
         if let Some(&operand) = self.operands.last() {
             self.ast.bracket(operand, brackets);
         }
     }
 
+    /// Ends a call.
     fn call(&mut self, first: usize, start: Span, end: Span) -> Result<(), Error> {
         let arguments = self.operands.split_off(first);
         let callee = self.pop();
@@ -248,6 +260,7 @@ impl Yard<'_> {
         Ok(())
     }
 
+    /// Ends the expression: no bracket may be open.
     fn finish(&mut self) -> Result<NodeId, Error> {
         self.reduce_all();
         match self.pending.pop() {
@@ -288,6 +301,7 @@ impl Yard<'_> {
         }
     }
 
+    /// Applies the innermost waiting operator to its operands.
     fn reduce(&mut self) {
         match self.pending.pop() {
             Some(Pending::Prefix(op, span)) => {
@@ -316,21 +330,23 @@ impl Yard<'_> {
         self.ast.entry(operand).outer
     }
 
+    /// Adds a node and makes it an operand.
     fn push(&mut self, node: Node, span: Span, operator: Span) {
         let id = self.ast.push(node, span, operator);
         self.operands.push(id);
     }
 
-    /// The last operand; the grammar sees to it that there is one.
+    /// The last operand. The grammar ensures that there is one.
     fn pop(&mut self) -> NodeId {
         self.operands.pop().expect("an operand before every operator that needs one")
     }
 }
 
-/// How tightly the prefix operators bind; see [`level`]. A minus binds more tightly than all.
+/// The binding strength of the prefix operators; see [`level`]. A minus binds tighter than all.
 const PREFIX: u8 = 5;
 
-/// How tightly an operator binds, comparisons and arithmetic the most.
+/// The binding strength of an operator: implication binds loosest, arithmetic tightest. These are
+/// the levels of LTL tools (Spot) with Rust's for numbers.
 fn level(operator: Infix) -> u8 {
     match operator {
         Infix::Implies => 1,
@@ -343,10 +359,12 @@ fn level(operator: Infix) -> u8 {
     }
 }
 
+/// Whether an operator groups to the right, as all operators of temporal logic do.
 fn groups_right(operator: Infix) -> bool {
     matches!(operator, Infix::Implies | Infix::Until | Infix::Then)
 }
 
+/// The operator of a rule of the grammar.
 fn infix_of(rule: Rule) -> Infix {
     match rule {
         Rule::implies => Infix::Implies,
@@ -379,15 +397,17 @@ fn bracket(open: Pending) -> (Span, char, char) {
     }
 }
 
-/// A part of a set, and the ends of a range.
+/// A part of a set, followed by its ends if it is a range.
 fn with_ends(part: Pair<'_>) -> Vec<Pair<'_>> {
     let ends = if part.as_rule() == Rule::range { Some(part.clone().into_inner()) } else { None };
     std::iter::once(part).chain(ends.into_iter().flatten()).collect()
 }
 
-/// The largest whole number up to which a double counts exactly.
+/// The largest integer up to which a double represents every integer.
 const EXACT: u64 = 1 << 53;
 
+/// The value of a literal number. An integer that a double would round is refused: the author would
+/// compare with another number than the one written.
 fn number(text: &str, span: Span) -> Result<f64, Error> {
     let digits = text.replace('_', "");
     let suffix = digits.find(['f', 'i', 'u']).unwrap_or(digits.len());
@@ -406,6 +426,7 @@ fn number(text: &str, span: Span) -> Result<f64, Error> {
     Ok(value)
 }
 
+/// A literal, cut to what a message can show.
 fn short(text: &str) -> String {
     if text.len() <= 40 { text.to_owned() } else { format!("{}…", &text[..40]) }
 }

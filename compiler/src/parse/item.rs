@@ -1,4 +1,8 @@
-//! Items: what stands around expressions.
+//! Items: declarations around expressions, from the pairs of the grammar.
+//!
+//! Everything keeps its span, and nothing is looked up: a type is the span of its name. An item
+//! that the grammar accepts in part becomes [`ItemKind::Broken`], so that uses of its name are not
+//! reported.
 
 use pest::Parser;
 
@@ -56,8 +60,8 @@ pub(super) fn attribute(pair: Pair<'_>, at: usize) -> Attribute {
     Attribute { name, settings }
 }
 
-/// Adds an item of which no more than the name can be read, so that its uses are no mistakes, and
-/// perhaps what it takes.
+/// Adds an item that can only be read in part: its name, so that its uses are not reported as
+/// unknown, and its parameters if they can be read.
 pub(super) fn broken(ast: &mut Ast, span: Span, mistakes: &mut Vec<Error>) {
     let Some(name) = token::item_name(ast.source().text(), span) else { return };
     let source = ast.source().clone();
@@ -68,18 +72,19 @@ pub(super) fn broken(ast: &mut Ast, span: Span, mistakes: &mut Vec<Error>) {
     ast.push_item(Item { attributes: Vec::new(), docs: Vec::new(), name, kind, span });
 }
 
-/// The text of a doc comment: no slashes, no blank in front.
+/// The text of a doc comment: without slashes and without the blank after them.
 pub(super) fn doc_text(comment: &str) -> String {
     let text = comment.get(3..).unwrap_or_default();
     text.strip_prefix(' ').unwrap_or(text).trim_end().to_owned()
 }
 
-/// Where `pair` stands if its text starts at byte `at`.
+/// The span of `pair`, whose text starts at byte `at` of the source.
 pub(super) fn place(pair: &Pair<'_>, at: usize) -> Span {
     let span = pair.as_span();
     Span::new(span.start(), span.end()).shifted(at)
 }
 
+/// The name of an item and its kind.
 fn declaration(
     ast: &mut Ast,
     pair: Pair<'_>,
@@ -117,6 +122,7 @@ fn declaration(
     (name, kind)
 }
 
+/// The fields of a struct, or the parameters of a predicate or task.
 fn declarations(
     ast: &Ast,
     pair: Pair<'_>,
@@ -149,6 +155,7 @@ fn declarations(
     fields
 }
 
+/// A type with its array lengths.
 fn field_type(pair: Pair<'_>, at: usize) -> FieldType {
     let span = place(&pair, at);
     let mut name = Span::default();
@@ -165,6 +172,7 @@ fn field_type(pair: Pair<'_>, at: usize) -> FieldType {
     FieldType { name, optional, lengths, span }
 }
 
+/// A unit as written.
 fn unit(pair: Pair<'_>, at: usize) -> WrittenUnit {
     let span = place(&pair, at);
     let mut factors = Vec::new();
@@ -180,6 +188,7 @@ fn unit(pair: Pair<'_>, at: usize) -> WrittenUnit {
     WrittenUnit { factors, span }
 }
 
+/// A name in a unit, with its power.
 fn unit_factor(pair: Pair<'_>, at: usize, divides: bool) -> UnitFactor {
     let span = place(&pair, at);
     let (mut name, mut minus, mut power) = (span, false, None);
@@ -194,7 +203,7 @@ fn unit_factor(pair: Pair<'_>, at: usize, divides: bool) -> UnitFactor {
     UnitFactor { name, divides, power, span }
 }
 
-/// Refuses an operator's word as a declared name.
+/// Refuses the word of an operator as a declared name.
 fn check_word(ast: &Ast, name: Span, mistakes: &mut Vec<Error>) {
     let word = ast.source().slice(name);
     let Some(meaning) = token::keyword(word) else { return };
@@ -204,6 +213,7 @@ fn check_word(ast: &Ast, name: Span, mistakes: &mut Vec<Error>) {
     );
 }
 
+/// A span without the blanks at its ends.
 fn trimmed(ast: &Ast, span: Span) -> Span {
     let text = ast.source().slice(span);
     let start = span.start + text.len() - text.trim_start().len();

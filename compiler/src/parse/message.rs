@@ -1,20 +1,28 @@
-//! Syntax mistakes as sentences: what is missing or too much, in the author's own words.
+//! Syntax mistakes as sentences: what is missing or superfluous, in the author's own words.
+//!
+//! pest reports a byte and a list of rules that could have come next. Neither means anything to an
+//! author, so this module looks at the words around the place instead: the word before, the word at
+//! the place, the word after. Common mistakes (an operator of another logic, `=` for `==`, `^` for
+//! `pow`) have a sentence each; the rest is "expected …, found …".
 
 use crate::error::{Error, Kind};
 use crate::grammar::Rule;
 use crate::source::{Source, Span};
 use crate::token::{self, Tokens};
 
-/// What stands around the place where parsing stopped.
+/// The words around the place at which parsing stopped.
 struct Found<'a> {
+    /// The whole source.
     text: &'a str,
     before: Option<Span>,
     here: Option<Span>,
     after: Option<Span>,
+    /// The end of the word before.
     end: usize,
 }
 
 impl<'a> Found<'a> {
+    /// The words around byte `at`, in the text from byte `from` on.
     fn new(text: &'a str, from: usize, at: usize) -> Self {
         let mut tokens = Tokens::new(text, from);
         let mut before = None;
@@ -30,20 +38,22 @@ impl<'a> Found<'a> {
         Self { text, before, here, after: tokens.next(), end }
     }
 
+    /// The text of a token; empty if there is none.
     fn word(&self, token: Option<Span>) -> &'a str {
         token.map_or("", |token| &self.text[token.start..token.end])
     }
 
-    /// Where the missing thing should stand: the next token, or the end of the last one.
+    /// The place at which something is missing: after the word before.
     fn gap(&self) -> Span {
         self.before.or(self.here).unwrap_or(Span::new(self.end, self.end))
     }
 
+    /// The word at the place, or the end of the text.
     fn here_or_end(&self) -> Span {
         self.here.unwrap_or(Span::new(self.end, self.end))
     }
 
-    /// Whether the parsed item ends here.
+    /// Whether the parsed item ends at the place.
     fn at_end(&self) -> bool {
         matches!(self.word(self.here), "" | ";" | "///" | "//!")
             || token::starts_with_item(&self.text[self.here_or_end().start..])
@@ -92,6 +102,7 @@ fn unsupported_here(found: &Found<'_>) -> Option<Error> {
         .flatten()
 }
 
+/// The error where an operand should start.
 fn operand_missing(found: &Found<'_>) -> Error {
     let (before, here) = (found.word(found.before), found.word(found.here));
     let syntax = |message: String, span| Error::new(Kind::Syntax, message, span);
@@ -159,6 +170,7 @@ fn word_as_name(error: Error, word: &str) -> Error {
     }
 }
 
+/// The error where an operator should stand.
 fn operator_missing(found: &Found<'_>) -> Error {
     let (before, here) = (found.word(found.before), found.word(found.here));
     let syntax = |message: String| Error::new(Kind::Syntax, message, found.here_or_end());
@@ -180,6 +192,7 @@ fn operator_missing(found: &Found<'_>) -> Error {
     }
 }
 
+/// The error for two operands with no operator between them.
 fn between(found: &Found<'_>) -> Error {
     let (before, here) = (found.word(found.before), found.word(found.here));
     let message = format!("an operator is missing between `{before}` and `{here}`");
@@ -188,6 +201,7 @@ fn between(found: &Found<'_>) -> Error {
         .help("such as `&&`, `||`, `=>`, `U` (until) or `T` (then)")
 }
 
+/// The error for `=` in an expression.
 fn equals(found: &Found<'_>) -> Error {
     Error::new(
         Kind::Syntax,
@@ -196,6 +210,7 @@ fn equals(found: &Found<'_>) -> Error {
     )
 }
 
+/// The error anywhere else: an item that is not well-formed.
 fn other(found: &Found<'_>, expected: &[Rule]) -> Error {
     let here = found.word(found.here);
     if here == ":" && expected.contains(&Rule::fields) {
@@ -223,7 +238,7 @@ fn other(found: &Found<'_>, expected: &[Rule]) -> Error {
     Error::new(Kind::Syntax, message, found.here_or_end())
 }
 
-/// The error for a unit without its `in`, or with a power that is none.
+/// The error for a unit without its `in`, or with a power that is not an integer.
 fn broken_unit(found: &Found<'_>, expected: &[Rule]) -> Option<Error> {
     let here = found.word(found.here);
     let error = |message: String| Error::new(Kind::Syntax, message, found.here_or_end());
@@ -238,6 +253,7 @@ fn broken_unit(found: &Found<'_>, expected: &[Rule]) -> Option<Error> {
         .then(|| error("the power of a unit is a whole number".to_owned()))
 }
 
+/// What an author calls a rule of the grammar; `None` for rules that messages do not list.
 fn rule_name(rule: Rule) -> Option<&'static str> {
     Some(match rule {
         Rule::word_state => "`state`",
@@ -263,10 +279,12 @@ fn rule_name(rule: Rule) -> Option<&'static str> {
     })
 }
 
+/// Whether `word` is an operator that stands before its operand.
 fn is_prefix(word: &str) -> bool {
     matches!(word, "!" | "F" | "X" | "not" | "¬" | "◇" | "○" | "<>")
 }
 
+/// Whether `word` is an operator that stands between two operands.
 fn is_infix(word: &str) -> bool {
     const WORDS: [&str; 31] = [
         "=>", "->", "⇒", "||", "|", "∨", "or", "&&", "&", "∧", "and", "U", "T", "==", "!=", "≠",
@@ -275,6 +293,7 @@ fn is_infix(word: &str) -> bool {
     WORDS.contains(&word)
 }
 
+/// Those operators of other logics that stand between two operands.
 const BINARY: [&str; 6] = ["R", "V", "W", "M", "S", "<=>"];
 
 /// Whether `word` is an operator of another temporal logic.
@@ -282,7 +301,7 @@ pub(super) fn is_unsupported(word: &str) -> bool {
     unsupported_reason(word).is_some()
 }
 
-/// What the operator means elsewhere, why it is not here, and what to write instead.
+/// The meaning of the operator elsewhere, the reason why it is not here, and what to write instead.
 fn unsupported_reason(word: &str) -> Option<(&'static str, &'static str, &'static str)> {
     const NEVER: &str =
         "no finite trajectory can ever establish it, for the next state may break it";

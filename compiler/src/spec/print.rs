@@ -1,5 +1,9 @@
 //! Formulas as text, with the brackets that a reader wants: `U` and `T` are never mixed without
-//! them, and a comparison stands in them wherever an operator binds it.
+//! them, and a comparison is bracketed wherever an operator binds it.
+//!
+//! The text parses to a formula with the same meaning. It is written with a stack of pieces rather
+//! than by recursion, so any depth prints. Shared operators are written out wherever they are used,
+//! which can be exponentially long: [`Spec::text`] bounds it.
 
 use std::fmt;
 
@@ -11,13 +15,13 @@ pub struct Printed<'a> {
     root: FormulaId,
 }
 
-/// What is still to be printed.
+/// A piece of the text that is still to be printed.
 enum Piece {
     Formula(FormulaId),
     Text(&'static str),
 }
 
-/// How tightly an operator binds.
+/// How tightly an operator binds, loosest first.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Level {
     Or,
@@ -30,14 +34,13 @@ enum Level {
 }
 
 impl Spec {
-    /// The formula `root` as text; reading it gives a formula that means the same.
+    /// The formula `root` as text. Parsing the text gives a formula with the same meaning.
     #[must_use]
     pub fn display(&self, root: FormulaId) -> Printed<'_> {
         Printed { spec: self, root }
     }
 
-    /// The formula `root` as text of about so many bytes at most, then `…`: what stands in several
-    /// places is written out in each, which can be long beyond measure.
+    /// The formula `root` as text of about `most` bytes at most, then `…`.
     #[must_use]
     pub fn text(&self, root: FormulaId, most: usize) -> String {
         let mut short = Short { text: String::new(), most };
@@ -47,6 +50,7 @@ impl Spec {
         short.text
     }
 
+    /// How tightly a formula binds.
     fn level(&self, id: FormulaId) -> Level {
         match self.formula(id) {
             Formula::True | Formula::False => Level::Name,
@@ -69,7 +73,7 @@ impl Spec {
         ["<", ">", "==", "!="].iter().any(|symbol| name.contains(symbol))
     }
 
-    /// ψ of a ◇ψ.
+    /// ψ of a formula ◇ψ, which `T` implies; other formulas as they are.
     fn goal(&self, id: FormulaId) -> FormulaId {
         match self.formula(id) {
             Formula::Eventually(a) => a,
@@ -78,7 +82,7 @@ impl Spec {
     }
 }
 
-/// A text that takes no more once it is long enough.
+/// A text that refuses more once it is long enough.
 struct Short {
     text: String,
     most: usize,
@@ -121,6 +125,7 @@ impl fmt::Display for Printed<'_> {
 }
 
 impl Printed<'_> {
+    /// Writes a proposition or its negation.
     fn literal(&self, proposition: u32, negated: bool, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let name = &self.spec.propositions()[proposition as usize];
         match (negated, self.spec.is_compound(proposition)) {
@@ -145,7 +150,8 @@ impl Printed<'_> {
         }
     }
 
-    /// `a && b` or `a || b`: other operators between two operands stand in brackets.
+    /// `a && b` or `a || b`: operands with another operator between two operands of their own stand
+    /// in brackets.
     fn between(&self, a: FormulaId, symbol: &'static str, b: FormulaId, own: Level) -> Vec<Piece> {
         let brackets = |id| {
             let level = self.spec.level(id);
@@ -157,7 +163,8 @@ impl Printed<'_> {
         pieces
     }
 
-    /// `a U b` or `a T b`: a chain of one of the two needs no brackets on the right.
+    /// `a U b` or `a T b`. Both group to the right, so a chain of one of the two needs no brackets
+    /// on the right.
     fn ordered(&self, a: FormulaId, symbol: &'static str, b: FormulaId, own: Level) -> Vec<Piece> {
         let loose = |level: Level| level < Level::Prefix || level == Level::Comparison;
         let mut pieces = self.operand(a, loose(self.spec.level(a)));
@@ -167,6 +174,7 @@ impl Printed<'_> {
         pieces
     }
 
+    /// `F a` or `X a`.
     fn after(&self, symbol: &'static str, a: FormulaId) -> Vec<Piece> {
         let level = self.spec.level(a);
         let mut pieces = vec![Piece::Text(symbol)];
@@ -174,6 +182,7 @@ impl Printed<'_> {
         pieces
     }
 
+    /// An operand, in brackets or not.
     fn operand(&self, id: FormulaId, brackets: bool) -> Vec<Piece> {
         match brackets {
             true => vec![Piece::Text("("), Piece::Formula(id), Piece::Text(")")],
