@@ -2,10 +2,13 @@
 
 use std::fmt::Write as _;
 
-use tltl_compiler::dfa::Dfa;
+use tltl::Mismatch;
+use tltl::prelude::*;
+use tltl::solve::Optimum;
+use tltl_compiler::dfa::{Dfa, State};
 use tltlc::emit::svg::{Drawing, Options, drawing};
 
-use crate::grid::Grid;
+use crate::grid::{Cell, Grid};
 use crate::svg::{Anchor, Font, INK, PALE, document, rect, text};
 
 const LINE: &str = "#d5dae1";
@@ -14,34 +17,106 @@ const LOSSES: [(f64, &str, &str); 3] =
     [(0.001, "#fbe4df", "up to 0.1 %"), (0.05, "#f3b3a6", "up to 5 %"), (1.0, "#df7361", "more")];
 const REGIONS: [&str; 6] = ["#f2b134", "#57a773", "#4c9be8", "#b07cc6", "#e07a5f", "#8d99ae"];
 
+/// A predicate of the task file's module.
+pub type Robustness = fn(&Cell) -> f64;
+
 /// A region of the grid: its name and its cells.
-#[derive(Clone, Debug)]
-pub struct Region {
-    /// The letter that stands in it.
-    pub name: String,
-    /// The numbers of its cells.
-    pub cells: Vec<usize>,
+struct Region {
+    name: String,
+    cells: Vec<usize>,
 }
 
 /// A policy at one automaton state.
-#[derive(Clone, Debug)]
-pub struct Panel {
+struct Panel {
     /// What stands above it.
-    pub title: String,
+    title: String,
     /// The action in each cell.
-    pub actions: Vec<u32>,
+    actions: Vec<usize>,
     /// What it gives away in each cell: the share of the largest expected return from there.
-    pub losses: Vec<f64>,
+    losses: Vec<f64>,
 }
 
 /// One row of the figure: an automaton and the policy at each of its live states.
-pub struct Row<'a> {
-    /// What stands above it.
-    pub title: String,
-    /// The automaton.
-    pub dfa: &'a Dfa,
-    /// The policies, one a live state.
-    pub panels: Vec<Panel>,
+struct Row {
+    title: String,
+    automaton: Drawing,
+    panels: Vec<Panel>,
+}
+
+/// Automata, and policies at each of their states.
+pub struct Figure {
+    grid: Grid,
+    regions: Vec<Region>,
+    rows: Vec<Row>,
+}
+
+impl Figure {
+    /// An empty figure of policies on `grid`.
+    #[must_use]
+    pub const fn of(grid: Grid) -> Self {
+        Self { grid, regions: Vec::new(), rows: Vec::new() }
+    }
+
+    /// Colours the cells in which predicates hold, and writes their names there.
+    pub fn regions(&mut self, predicates: &[(&str, Robustness)]) {
+        for &(name, robustness) in predicates {
+            let holds = |&s: &usize| robustness(&self.grid.state(s)) > 0.0;
+            let cells = (0..self.grid.states()).filter(holds).collect();
+            self.regions.push(Region { name: name.to_owned(), cells });
+        }
+    }
+
+    /// Adds a row: the automaton `dfa`, and `policy` at each of its live states, marked where it
+    /// departs from `optimum`. The policy may be for a larger automaton of the same task; `minimal`
+    /// is the task of `dfa` on the grid.
+    ///
+    /// # Errors
+    /// If the policy is not for the task of `optimum`.
+    pub fn row(
+        &mut self,
+        title: &str,
+        dfa: &Dfa,
+        minimal: &Labelled,
+        optimum: &Optimum,
+        policy: &Policy,
+    ) -> Result<(), Mismatch> {
+        let numbers = numbers(policy.task(), minimal);
+        let mistakes = optimum.mistakes(policy)?;
+        let mut states: Vec<u32> = policy.task().live().collect();
+        states.sort_by_key(|&q| numbers[q as usize]);
+        let panel = |&q: &u32| {
+            let mut losses = vec![0.0; policy.task().states()];
+            for mistake in mistakes.iter().filter(|mistake| mistake.q == q) {
+                losses[mistake.state] = mistake.loss / optimum.q().max(q, mistake.state);
+            }
+            let title = format!("q = {}", numbers[q as usize]);
+            Panel { title, actions: policy.sub_policy(q).collect(), losses }
+        };
+        let panels = states.iter().map(panel).collect();
+        let automaton = drawing(dfa, &Options::default());
+        self.rows.push(Row { title: title.to_owned(), automaton, panels });
+        Ok(())
+    }
+
+    /// The figure as an SVG document.
+    #[must_use]
+    pub fn svg(&self) -> String {
+        figure(&self.grid, &self.regions, &self.rows)
+    }
+}
+
+/// The minimal automaton's number for each state of a larger one: what the same cells lead to in
+/// both.
+fn numbers(raw: &Labelled, minimal: &Labelled) -> Vec<State> {
+    let mut numbers = vec![None; raw.automaton_states() as usize];
+    let mut found = vec![(0, 0)];
+    while let Some((q, number)) = found.pop() {
+        if numbers[q as usize].replace(number).is_none() {
+            let cells = 0..raw.states();
+            found.extend(cells.map(|s| (raw.next(q, s), minimal.next(number, s))));
+        }
+    }
+    numbers.into_iter().map(Option::unwrap_or_default).collect()
 }
 
 /// The side of a cell, in pixels.
@@ -52,18 +127,15 @@ const PER_LINE: usize = 4;
 /// What stands above the cells of a panel.
 const HEAD: f64 = 31.0;
 
-/// The whole figure as an SVG document.
-#[must_use]
-pub fn figure(grid: &Grid, regions: &[Region], rows: &[Row<'_>]) -> String {
-    let automata: Vec<Drawing> =
-        rows.iter().map(|row| drawing(row.dfa, &Options::default())).collect();
-    let left = automata.iter().map(|drawing| drawing.width).fold(0.0, f64::max);
+fn figure(grid: &Grid, regions: &[Region], rows: &[Row]) -> String {
+    let left = rows.iter().map(|row| row.automaton.width).fold(0.0, f64::max);
     let (panel_width, panel_height) = (panel_width(grid), panel_height(grid));
     let columns = rows.iter().map(|row| row.panels.len().min(PER_LINE)).max().unwrap_or(1);
     let width = 2.0 * MARGIN + left + GAP + columns as f64 * (panel_width + GAP);
     let mut body = String::new();
     let mut y = MARGIN;
-    for (row, automaton) in rows.iter().zip(&automata) {
+    for row in rows {
+        let automaton = &row.automaton;
         let lines = row.panels.len().div_ceil(PER_LINE);
         let height = (lines as f64 * panel_height).max(automaton.height);
         text(&mut body, (MARGIN, y + 12.0), Font::new(15.0).bold(), Anchor::Start, &row.title);
@@ -113,7 +185,7 @@ fn draw(body: &mut String, grid: &Grid, regions: &[Region], panel: &Panel) {
             let frame = (x + 2.0, y + 2.0, CELL - 4.0, CELL - 4.0);
             rect(body, frame, "none", loss, "stroke-width=\"3\"");
         }
-        let (_, dx, dy) = Grid::ACTIONS[action as usize];
+        let (_, dx, dy) = Grid::ACTIONS[action];
         arrow(body, (x + CELL / 2.0, y + CELL / 2.0), (f64::from(dx), -f64::from(dy)));
     }
     for region in regions {

@@ -4,6 +4,7 @@ pub mod chart;
 pub mod figure;
 pub mod grid;
 mod plot;
+pub mod show;
 pub mod spread;
 pub mod study;
 pub mod svg;

@@ -10,12 +10,11 @@ use indicatif::{ProgressBar, ProgressStyle};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
-use tltl::augmented::End;
 use tltl::checkpoint;
 use tltl::learn::seeds;
+use tltl::prelude::*;
 use tltl::rand::{Rng, SeedableRng, rngs::Xoshiro256PlusPlus};
-use tltl::solve::Problem;
-use tltl::{Monitor, tltl};
+use tltl::reward::End;
 
 use crate::grid::{Cell, Grid};
 
@@ -93,8 +92,8 @@ pub const FAMILIES: [Family; 5] = [
 /// Expected steps of a policy where episodes are cut at `horizon`, over the starts, `s_0` read: the
 /// one number that a policy has that never succeeds.
 #[must_use]
-pub fn capped_steps(problem: &Problem<'_>, policy: &[u32], horizon: u32) -> f64 {
-    let (dynamics, task) = (problem.dynamics(), problem.labelled());
+pub fn capped_steps(problem: &Problem, policy: &Policy, horizon: u64) -> f64 {
+    let (dynamics, task) = (problem.dynamics(), problem.task());
     let mut now = vec![0.0; task.pairs()];
     for (s, p) in dynamics.starts().iter().enumerate() {
         now[task.pair(task.start(s), s)] += p;
@@ -111,11 +110,7 @@ pub fn capped_steps(problem: &Problem<'_>, policy: &[u32], horizon: u32) -> f64 
                 let p = now[task.pair(q, s)];
                 if p > 0.0 {
                     steps += p;
-                    let successors = dynamics.successors(s);
-                    let row = policy[task.pair(q, s)] as usize * successors.len();
-                    let row = &dynamics.matrix(s)[row..row + successors.len()];
-                    for (&to, chance) in successors.iter().zip(row) {
-                        let to = to as usize;
+                    for (to, chance) in dynamics.outcomes(s, policy.act(q, s)) {
                         then[task.pair(task.next(q, to), to)] += p * chance;
                     }
                 }

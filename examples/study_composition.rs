@@ -7,14 +7,7 @@ use std::fmt::Write as _;
 
 use serde::{Deserialize, Serialize};
 use serde_json::json;
-use tltl::augmented::{Labelled, Rewards};
-use tltl::compose::{Combine, Composition, Skill};
-use tltl::env::ModelEnv;
-use tltl::learn::{Learner, Settings};
-use tltl::model::Dynamics;
-use tltl::product::Product;
-use tltl::q::QTable;
-use tltl::solve::Problem;
+use tltl::prelude::*;
 use tltl_examples::chart::{self, Axis, Chart, Curve, Point, Row};
 use tltl_examples::grid::Cell;
 use tltl_examples::study::{FAMILIES, Family, GRID, PAPER, Study, layout, mean, quantile};
@@ -49,28 +42,28 @@ struct Worth {
 fn compare(family: &Family, cells: [Cell; 3], seed: u64) -> [Worth; 6] {
     let [one, two] = (family.skills)(cells);
     let whole = Product::conjunction(&[&*one, &*two]);
-    let label = |task: &dyn tltl::Monitor<Cell>| Labelled::of_model(&GRID, task).expect("numbers");
-    let (first, second, task) = (label(&*one), label(&*two), label(&whole));
-    let dynamics = Dynamics::new(&GRID).expect("a model");
-    let rewards = Rewards::default();
-    let solved = |task| Problem::new(&dynamics, task).optimal_q(&rewards, GAMMA);
-    let (q1, q2, exact) = (solved(&first), solved(&second), solved(&task));
-    let skills = [Skill { q: &q1, task: &first }, Skill { q: &q2, task: &second }];
-    let composition = Composition::new(&whole, &task, &skills);
-    let compensated = composition.compensated(&dynamics, &rewards, GAMMA);
+    let (dynamics, rewards) = (Dynamics::new(&GRID).expect("a model"), Rewards::default());
+    let problem = |task: &dyn Monitor<Cell>| {
+        let task = Labelled::of_model(&GRID, task).expect("numbers");
+        Problem::new(&dynamics, &task).expect("the same grid")
+    };
+    let [q1, q2] = [&*one, &*two].map(|task| problem(task).optimal_q(&rewards));
+    let optimum = problem(&whole).optimum(&rewards);
+    let task = optimum.problem().task();
+    let composition = Composition::new(&whole, task, &[&q1, &q2], rewards).expect("its own skills");
+    let compensated = composition.compensated(&dynamics).expect("the same grid");
     let tables = [
         composition.initial(Combine::Sum),
         composition.initial(Combine::NormalisedSum),
         composition.initial(Combine::Max),
         compensated.clone(),
-        composition.refined(&dynamics, &rewards, GAMMA, &compensated),
-        scratch(&task, seed),
+        composition.refined(&dynamics, &compensated).expect("the same grid"),
+        scratch(task, seed),
     ];
-    let problem = Problem::new(&dynamics, &task);
-    let best = problem.best();
     tables.map(|table| {
-        let own = problem.certify_against(&table.policy(), &exact, &best);
-        let differences = table.values().iter().zip(exact.values()).map(|(a, b)| (a - b).abs());
+        let own = optimum.certify(&table.policy()).expect("the same task");
+        let exact = optimum.q().values();
+        let differences = table.values().iter().zip(exact).map(|(a, b)| (a - b).abs());
         Worth {
             satisfied: own.satisfied,
             largest: own.optimal_satisfied,
@@ -89,8 +82,8 @@ impl Worth {
 
 fn scratch(task: &Labelled, seed: u64) -> QTable {
     let mut env = ModelEnv::new(GRID).expect("a model");
-    let mut learner = Learner::new(task, 5, Settings::default(), seed);
-    learner.train(&mut env, task, SCRATCH);
+    let mut learner = Learner::new(task, Settings::default(), seed);
+    learner.train(&mut env, SCRATCH).expect("the same grid");
     learner.q().clone()
 }
 

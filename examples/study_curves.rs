@@ -6,18 +6,14 @@
 use std::fmt::Write as _;
 
 use serde_json::json;
-use tltl::augmented::Labelled;
-use tltl::env::ModelEnv;
 use tltl::estimate::Interval;
-use tltl::learn::{Learner, Settings, Terminal, WholeLearner};
-use tltl::model::Dynamics;
-use tltl::solve::Problem;
-use tltl::tltl;
+use tltl::learn::{Observation, TerminalReward, TrajectoryLearner};
+use tltl::prelude::*;
 use tltl_examples::chart::{self, Axis, Chart, Curve, Point, Row};
 use tltl_examples::study::{GRID, PAPER, Study, at, capped_steps};
 
 const SEEDS: u64 = 20;
-const HORIZON: u32 = 200;
+const HORIZON: u64 = 200;
 const STEPS: [u64; 11] =
     [1_000, 2_000, 5_000, 10_000, 20_000, 50_000, 100_000, 200_000, 340_000, 700_000, 1_000_000];
 const METHODS: [&str; 5] = [
@@ -37,24 +33,28 @@ fn curve(method: usize, seed: u64) -> Vec<f64> {
     let (a, b) = (at(PAPER[0]), at(PAPER[1]));
     let formula = tltl! { F a && F b };
     let task = Labelled::of_model(&GRID, &formula).expect("numbers");
-    let dynamics = Dynamics::new(&GRID).expect("a model");
-    let problem = Problem::new(&dynamics, &task);
     let mut env = ModelEnv::new(GRID).expect("a model");
-    let judge = |policy: &[u32]| capped_steps(&problem, policy, HORIZON);
+    let problem = Problem::new(env.dynamics(), &task).expect("the same grid");
+    let judge = |policy: &Policy| capped_steps(&problem, policy, HORIZON);
     let settings = if method == 1 { Settings::default() } else { Settings::paper() };
     if method < 2 {
-        let mut learner = Learner::new(&task, 5, settings, seed);
+        let mut learner = Learner::new(&task, settings, seed);
         let after = |steps: &u64| {
-            learner.train(&mut env, &task, *steps);
-            judge(&learner.q().policy())
+            learner.train(&mut env, *steps).expect("the same grid");
+            judge(&learner.policy())
         };
         return STEPS.iter().map(after).collect();
     }
-    let paid =
-        if method == 4 { Terminal::Satisfaction } else { Terminal::Robustness { bound: 10.0 } };
-    let mut learner = WholeLearner::new(&task, 5, settings, paid, method == 2, seed);
+    let (paid, sees) = match method {
+        2 => (TerminalReward::Robustness, Observation::WorldAndAutomaton),
+        3 => (TerminalReward::Robustness, Observation::World),
+        _ => (TerminalReward::Satisfaction, Observation::World),
+    };
+    let rewards = Rewards::default().with_bound(10.0).expect("a bound");
+    let mut learner =
+        TrajectoryLearner::new(&task, settings.with_rewards(rewards), paid, sees, seed);
     let after = |steps: &u64| {
-        learner.train(&mut env, &formula, &task, *steps).expect("numbers");
+        learner.train(&mut env, &formula, *steps).expect("numbers");
         judge(&learner.policy())
     };
     STEPS.iter().map(after).collect()

@@ -8,13 +8,8 @@ use std::fmt::Write as _;
 
 use serde::{Deserialize, Serialize};
 use serde_json::json;
-use tltl::augmented::{End, Labelled, Rewards};
-use tltl::compose::{Combine, Composition, Skill};
-use tltl::model::{Dynamics, FiniteModel};
-use tltl::product::Product;
-use tltl::q::QTable;
-use tltl::solve::Problem;
-use tltl::{Monitor, tltl};
+use tltl::prelude::*;
+use tltl::reward::End;
 use tltl_examples::figure::arrow;
 use tltl_examples::study::Study;
 use tltl_examples::svg::{self, Anchor, Font, INK, rect, text};
@@ -57,13 +52,13 @@ impl FiniteModel for Line {
 }
 
 /// A row of cells with the policy in them; what an action loses stands below it.
-fn row(svg: &mut String, y: f64, title: &str, policy: &Policy) {
+fn row(svg: &mut String, y: f64, title: &str, policy: &SubPolicy) {
     text(svg, (16.0, y + 25.0), Font::new(13.0), Anchor::Start, title);
     for (s, (&action, &loss)) in policy.actions.iter().zip(&policy.losses).enumerate() {
         let x = LEFT + CELL * s as f64;
         let goal = GOALS.iter().find(|(at, ..)| *at == s as i32 - 5);
         rect(svg, (x, y, CELL, CELL), goal.map_or("#ffffff", |goal| goal.2), INK, "");
-        arrow(svg, (x + CELL / 2.0, y + CELL / 2.0), (f64::from(action) - 1.0, 0.0));
+        arrow(svg, (x + CELL / 2.0, y + CELL / 2.0), (action as f64 - 1.0, 0.0));
         if loss > LOSS {
             let loss = format!("−{loss:.3}");
             text(svg, (x + CELL / 2.0, y + 36.0), Font::new(9.0), Anchor::Middle, &loss);
@@ -101,14 +96,14 @@ struct Composed {
     satisfied: f64,
     steps: Option<f64>,
     fraction_optimal: f64,
-    before_a: Policy,
-    after_a: Policy,
+    before_a: SubPolicy,
+    after_a: SubPolicy,
 }
 
 /// The actions at an automaton state, cell by cell, and the expected return that each gives away.
 #[derive(Serialize, Deserialize)]
-struct Policy {
-    actions: Vec<u32>,
+struct SubPolicy {
+    actions: Vec<usize>,
     losses: Vec<f64>,
 }
 
@@ -126,30 +121,31 @@ fn compose() -> Report {
     let (a, b) = (|s: &i32| f64::from(1 - (s + 2).abs()), |s: &i32| f64::from(1 - (s - 3).abs()));
     let (visit, order) = (tltl! { F a && F b }, tltl! { !b U a });
     let whole = Product::conjunction(&[&visit, &order]);
-    let label = |task: &dyn Monitor<i32>| Labelled::of_model(&Line, task).expect("numbers");
-    let (first, second, task) = (label(&visit), label(&order), label(&whole));
     let dynamics = Dynamics::new(&Line).expect("a model");
-    let rewards = Rewards { trap_penalty: 1.0, ..Rewards::default() };
-    let solved = |task| Problem::new(&dynamics, task).optimal_q(&rewards, GAMMA);
-    let (q1, q2) = (solved(&first), solved(&second));
-    let skills = [Skill { q: &q1, task: &first }, Skill { q: &q2, task: &second }];
-    let composition = Composition::new(&whole, &task, &skills);
-    let start = composition.compensated(&dynamics, &rewards, GAMMA);
+    let rewards = Rewards::default().with_trap_penalty(1.0).expect("a penalty");
+    let problem = |task: &dyn Monitor<i32>| {
+        let task = Labelled::of_model(&Line, task).expect("numbers");
+        Problem::new(&dynamics, &task).expect("the same line")
+    };
+    let (q1, q2) = (problem(&visit).optimal_q(&rewards), problem(&order).optimal_q(&rewards));
+    let optimum = problem(&whole).optimum(&rewards);
+    let task = optimum.problem().task();
+    let composition = Composition::new(&whole, task, &[&q1, &q2], rewards).expect("its own skills");
+    let start = composition.compensated(&dynamics).expect("the same line");
     let methods = [
         ("sum", composition.initial(Combine::Sum)),
         ("compensated", start.clone()),
-        ("refined", composition.refined(&dynamics, &rewards, GAMMA, &start)),
+        ("refined", composition.refined(&dynamics, &start).expect("the same line")),
     ];
-    let problem = Problem::new(&dynamics, &task);
-    let (exact, best) = (solved(&task), problem.best());
-    let met = met(&task);
+    let met = met(task);
     let row = |(name, table): (&str, QTable)| {
-        let own = problem.certify_against(&table.policy(), &exact, &best);
+        let own = optimum.certify(&table.policy()).expect("the same task");
         let policy = |before| {
             let q = met.iter().copied().find(|&q| (q == task.start(4)) == before).unwrap_or(0);
-            let actions: Vec<u32> = (0..10).map(|s| table.greedy(q, s)).collect();
-            let loss = |s| exact.max(q, s) - exact.row(q, s)[actions[s] as usize];
-            Policy { losses: (0..10).map(loss).collect(), actions }
+            let actions: Vec<usize> = (0..10).map(|s| table.greedy(q, s)).collect();
+            let exact = optimum.q();
+            let loss = |s| exact.max(q, s) - exact.row(q, s)[actions[s]];
+            SubPolicy { losses: (0..10).map(loss).collect(), actions }
         };
         Composed {
             composition: name.to_owned(),
@@ -161,7 +157,8 @@ fn compose() -> Report {
         }
     };
     let rows = methods.map(row).into();
-    let (satisfied, steps) = problem.mean(&best);
+    let best = optimum.best();
+    let (satisfied, steps) = (best.mean_satisfied(), best.mean_steps().expect("it can succeed"));
     let lost_at_b = task.end(task.start(8)) == Some(End::Lost);
     Report { rows, satisfied, steps, lost_at_b }
 }

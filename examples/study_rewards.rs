@@ -7,19 +7,12 @@ use std::fmt::Write as _;
 
 use serde::{Deserialize, Serialize};
 use serde_json::json;
-use tltl::augmented::{End, Labelled, Reward, Rewards};
-use tltl::env::ModelEnv;
-use tltl::learn::{Learner, Settings};
-use tltl::model::{Dynamics, FiniteModel};
-use tltl::product::Product;
-use tltl::q::QTable;
-use tltl::solve::Problem;
-use tltl::{Monitor, tltl};
+use tltl::prelude::*;
+use tltl::reward::{End, Mode};
 use tltl_examples::grid::Cell;
 use tltl_examples::spread::{Panel, Spread};
 use tltl_examples::study::{FAMILIES, GRID, PAPER, Study, at, layout, mean, quantile};
 
-const GAMMA: f64 = 0.95;
 const LAYOUTS: u64 = 100;
 /// Steps that are learned from, and from how many where the certificate then says that more than 0.1 %
 /// of P(satisfied) is given away.
@@ -27,19 +20,20 @@ const LEARNED: [u64; 2] = [6_000_000, 100_000_000];
 const TOLERATED: f64 = 1e-3;
 
 /// The settings that are compared.
-fn modes() -> [(&'static str, Rewards, f64); 9] {
-    let progress = Rewards::of(Reward::Progress);
-    let safe = Settings::safe();
+fn modes() -> [(&'static str, Rewards); 9] {
+    let progress = Rewards::progress();
+    let trap = |penalty| progress.with_trap_penalty(penalty).expect("a penalty");
+    let slow = progress.with_step_penalty(0.05).expect("a penalty");
     [
-        ("Progress", progress, GAMMA),
-        ("Progress, trap penalty 1", Rewards { trap_penalty: 1.0, ..progress }, GAMMA),
-        ("Progress, trap penalty 10", Rewards { trap_penalty: 10.0, ..progress }, GAMMA),
-        ("Progress, step penalty 0.05", Rewards { step_penalty: 0.05, ..progress }, GAMMA),
-        ("Literal", Rewards::of(Reward::Literal), GAMMA),
-        ("Acceptance", Rewards::of(Reward::Acceptance), GAMMA),
-        ("Robustness, bound 1", Rewards::of(Reward::ROBUSTNESS), GAMMA),
-        ("Shaped", Rewards::of(Reward::Shaped), GAMMA),
-        ("Settings::safe", safe.rewards, safe.gamma),
+        ("Progress", progress),
+        ("Progress, trap penalty 1", trap(1.0)),
+        ("Progress, trap penalty 10", trap(10.0)),
+        ("Progress, step penalty 0.05", slow),
+        ("Literal", Rewards::of(Mode::Literal)),
+        ("Acceptance", Rewards::acceptance()),
+        ("Robustness, bound 1", Rewards::of(Mode::Robustness)),
+        ("Shaped", Rewards::of(Mode::Shaped)),
+        ("Settings::safe", Settings::safe().rewards()),
     ]
 }
 
@@ -62,15 +56,15 @@ fn judge(task: &dyn Monitor<Cell>) -> Case {
     let labelled = Labelled::of_model(&GRID, task).expect("numbers");
     let labelled = labelled.with_robustness(states(), task).expect("numbers");
     let dynamics = Dynamics::new(&GRID).expect("a model");
-    let problem = Problem::new(&dynamics, &labelled);
-    let best = problem.best();
-    let regret = |q: &QTable| {
-        let own = problem.certify_against(&q.policy(), q, &best);
+    let problem = Problem::new(&dynamics, &labelled).expect("the same grid");
+    let optimum = problem.optimum(&Settings::safe().rewards());
+    let regret = |policy: &Policy| {
+        let own = optimum.certify(policy).expect("the same task");
         (own.regret_satisfied, own.regret_steps)
     };
     let mut regrets = [(0.0, None); 10];
-    for (own, (_, rewards, gamma)) in regrets.iter_mut().zip(modes()) {
-        *own = regret(&problem.optimal_q(&rewards, gamma));
+    for (own, (_, rewards)) in regrets.iter_mut().zip(modes()) {
+        *own = regret(&problem.optimal_q(&rewards).policy());
     }
     regrets[9] = regret(&learned(&labelled, LEARNED[0]));
     let longer = regrets[9].0 > TOLERATED;
@@ -82,17 +76,17 @@ fn judge(task: &dyn Monitor<Cell>) -> Case {
 }
 
 /// What `Settings::safe` learns from experience, replayed.
-fn learned(task: &Labelled, steps: u64) -> QTable {
+fn learned(task: &Labelled, steps: u64) -> Policy {
     let mut env = ModelEnv::new(GRID).expect("a model");
-    let mut learner = Learner::new(task, 5, Settings::safe(), 100);
-    learner.train(&mut env, task, steps);
-    learner.replay(task).expect("experience");
-    learner.q().clone()
+    let mut learner = Learner::new(task, Settings::safe(), 100);
+    learner.train(&mut env, steps).expect("the same grid");
+    learner.replay().expect("experience");
+    learner.policy()
 }
 
 /// The names of the settings, the learned one last.
 fn names() -> Vec<&'static str> {
-    modes().iter().map(|&(name, ..)| name).chain(["Settings::safe, learned"]).collect()
+    modes().iter().map(|&(name, _)| name).chain(["Settings::safe, learned"]).collect()
 }
 
 /// The number of tasks: two counterexamples, and the compositions.
@@ -185,13 +179,13 @@ fn figure(cases: &[Case]) -> Spread {
 }
 
 fn head() -> String {
-    let gamma = Settings::safe().gamma;
+    let (gamma, safe) = (Rewards::default().gamma(), Settings::safe().rewards().gamma());
     format!(
         "# Rewards\n\n![Regret by setting](rewards.svg)\n\nThe tables show what the optimal \
          policy of each reward is worth for the task itself, computed exactly on the paper's grid: \
          its regret in P(satisfied) against the largest possible, and its E[steps given success] \
-         over the fewest possible (negative where a policy gives up safety). γ is {GAMMA}, and \
-         {gamma} for `Settings::safe`, which pays for acceptance alone; use this setting if a task \
+         over the fewest possible (negative where a policy gives up safety). γ is {gamma}, and \
+         {safe} for `Settings::safe`, which pays for acceptance alone; use this setting if a task \
          has a trap. The last row is the policy that `Settings::safe` learns from {} million \
          replayed steps of experience, or from {} million if the certificate after the first shows \
          a regret of more than 0.1 %. The figure shows the percentages of all tasks and layouts; \

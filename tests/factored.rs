@@ -1,14 +1,10 @@
 //! Factored tasks: the parts side by side say what the whole says.
 
-use tltl::augmented::{JointError, Labelled, Rewards};
-use tltl::env::ModelEnv;
+use tltl::augmented::LabelError;
 use tltl::factored::{Factored, JointDeadEnds, Part};
-use tltl::learn::{Learner, Settings};
-use tltl::model::FiniteModel;
-use tltl::product::{Operand, Product};
+use tltl::prelude::*;
+use tltl::product::Operand;
 use tltl::robustness::{NotANumber, Predicates};
-use tltl::solve::Problem;
-use tltl::{Acceptor, Monitor, tltl};
 
 /// Which of 40 propositions hold.
 #[derive(Clone, Copy, Debug)]
@@ -215,29 +211,28 @@ fn factored_tasks_are_learned_directly() {
         F a0 && F a1 && F a2 && F a3 && F a4 && F a5 && (!h U g)
     };
     let states: Vec<Letter> = (0..12).map(|s| Ring.state(s)).collect();
-    let task = Labelled::of_factored(states.clone(), &tour, 1_000).unwrap();
+    let actions = ["right", "left"];
+    let task = Labelled::of_factored(states.clone(), actions, &tour, 1_000).unwrap();
     assert_eq!(task.automaton_states(), 129, "2^7 and the trap");
-    let small = Labelled::of_factored(states.clone(), &tour, 100).unwrap_err();
-    assert_eq!(small, JointError::TooLarge { parts: tour.len(), budget: 100 });
+    let small = Labelled::of_factored(states.clone(), actions, &tour, 100).unwrap_err();
+    assert_eq!(small, LabelError::TooLarge { parts: tour.len(), budget: 100 });
     assert!(small.to_string().contains("reach more than 100 states"), "{small}");
 
     let parts: Vec<_> = (0..tour.len()).map(|i| tour.part(i)).collect();
     let operands: Vec<Operand<'_, Letter>> = parts.iter().map(|part| part as _).collect();
-    let product = Labelled::new(states, &Product::conjunction(&operands)).unwrap();
+    let product = Labelled::new(states, actions, &Product::conjunction(&operands)).unwrap();
     assert_eq!(product.automaton_states(), task.automaton_states());
     let mut env = ModelEnv::new(Ring).unwrap();
-    let problem = Problem::new(env.dynamics(), &task);
-    let (own, whole) = (problem.best(), Problem::new(env.dynamics(), &product).best());
-    let (p, steps) = problem.mean(&own);
-    let (p_whole, steps_whole) = Problem::new(env.dynamics(), &product).mean(&whole);
+    let problem = Problem::new(env.dynamics(), &task).unwrap();
+    let (own, whole) = (problem.best(), Problem::new(env.dynamics(), &product).unwrap().best());
+    let (p, p_whole) = (own.mean_satisfied(), whole.mean_satisfied());
+    let (steps, steps_whole) = (own.mean_steps().unwrap(), whole.mean_steps().unwrap());
     assert!((p - p_whole).abs() < 1e-9 && (steps - steps_whole).abs() < 1e-6, "{p}, {steps}");
 
-    let mut learner = Learner::new(&task, 2, Settings::default(), 1);
-    let dynamics = env.dynamics().clone();
-    learner.train(&mut env, &task, 200_000);
-    let problem = Problem::new(&dynamics, &task);
-    let exact = problem.optimal_q(&Rewards::default(), 0.95);
-    let certificate = problem.certify(&learner.q().policy(), &exact);
-    let best = problem.certify(&exact.policy(), &exact);
+    let mut learner = Learner::new(&task, Settings::default(), 1);
+    learner.train(&mut env, 200_000).unwrap();
+    let optimum = problem.optimum(&learner.rewards());
+    let certificate = optimum.certify(&learner.policy()).unwrap();
+    let best = optimum.certify(&optimum.q().policy()).unwrap();
     assert!(certificate.satisfied > best.satisfied - 0.01, "{certificate:?}, {best:?}");
 }

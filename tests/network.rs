@@ -9,11 +9,11 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use serde_json::Value;
-use tltl::augmented::End;
 use tltl::estimate::{Estimate, Interval};
-use tltl::network::policy::{NetworkPolicy, Training};
+use tltl::network::policy::{NetworkPolicy, NetworkTraining};
 use tltl::network::{Dense, Network, Shape};
 use tltl::policy::States;
+use tltl::reward::End;
 use tltlc::emit;
 
 use super::random::{Choices, Seeded};
@@ -58,7 +58,7 @@ fn example() -> NetworkPolicy {
     NetworkPolicy::new("fetch", "(!c U a) && F b", automaton, names("action number", 5), network)
         .and_then(|policy| policy.described(names("input", 2), names("channel", 3)))
         .unwrap()
-        .trained(Training {
+        .trained(NetworkTraining {
             task: "fetch".to_owned(),
             steps: 200_000,
             episodes: 3100,

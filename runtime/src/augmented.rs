@@ -1,43 +1,69 @@
 //! The FSA-augmented MDP (paper, Definition 3): states (s, q) of a world and an automaton.
 //!
 //! [`Augmented`] runs any environment beside any [`Monitor`]. [`Labelled`] is the same for finite
-//! worlds as tables: states that no automaton state tells apart share a class, so that learners
-//! and solvers evaluate no predicate in their loops.
+//! worlds as tables: world states that no automaton state tells apart share a class, so that
+//! learners and solvers evaluate no predicate in their loops.
 //!
 //! The automaton reads *every* state, `s_0` included: `q_0' = δ(q_0, s_0)` on reset, which pays
 //! nothing and may already be accepted or lost, then `q_{t+1} = δ(q_t, s_{t+1})`. (The paper's
 //! Eq. 3A2 moves on `s` and its Eq. 3A3 pays on `s'`; read literally a goal is paid twice.)
-//! Reaching the accepting state or the trap terminates, a horizon truncates.
-//!
-//! What is optimal for a reward need not be what the task wants: `Progress` is paid per edge, and
-//! so may prefer longer ways, or a risk. On `!c U a` of the paper's grid the largest possible
-//! P(satisfied) is 98.49 %; the `Progress`-optimal policy has 98.13 %, the `Literal` one 50.0 %.
-//! Judge policies by [`Problem::certify`](crate::solve::Problem::certify), and where a task has a trap
-//! take [`Settings::safe`](crate::learn::Settings::safe): its optimum gives away at most 0.011 % of
-//! P(satisfied) on these two tasks and on five more, each on 101 layouts (`docs/studies/rewards.md`).
+//! Reaching the accepting state or the trap terminates, and so does the environment's own end; a
+//! horizon truncates. What a step pays is in [`reward`](crate::reward).
 
 mod joint;
-mod reward;
-
-use alloc::vec::Vec;
+mod label;
+mod moves;
 
 use rand::Rng;
 
-pub use joint::JointError;
-use reward::Ends;
-pub(crate) use reward::Moves;
-pub use reward::{End, Reward, Rewards};
+pub use label::{LabelError, Labelled};
+pub(crate) use label::{Payment, Tables};
+pub(crate) use moves::Moves;
 
-use crate::env::{Env, FiniteEnv, Step};
-use crate::interner::Interner;
-use crate::learn::episode::{Move, World};
-use crate::model::FiniteModel;
+use crate::env::{Env, Step};
+use crate::learn::episode::{Monitored, Move};
 use crate::monitor::Monitor;
+use crate::reward::{End, Rewards};
 use crate::task::Error;
 
 /// Any environment beside any task: an environment over (s, q).
 ///
-/// A NaN in a state is an error, so its methods are those of [`Env`] with a `Result`.
+/// A predicate that is not a number at a state is an error, so its methods are those of [`Env`] with
+/// a `Result`.
+///
+#[cfg_attr(feature = "macros", doc = "```")]
+#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// use tltl::augmented::Augmented;
+/// use tltl::prelude::*;
+/// use tltl::rand::{Rng, SeedableRng, rngs::Xoshiro256PlusPlus};
+///
+/// /// A counter that every action raises by one.
+/// struct Counter(u32);
+///
+/// impl Env for Counter {
+///     type State = u32;
+///     fn actions(&self) -> usize {
+///         1
+///     }
+///     fn reset<R: Rng + ?Sized>(&mut self, _: &mut R) -> u32 {
+///         self.0 = 0;
+///         0
+///     }
+///     fn step<R: Rng + ?Sized>(&mut self, _: usize, _: &mut R) -> Step<u32> {
+///         self.0 += 1;
+///         Step::to(self.0)
+///     }
+/// }
+///
+/// let three = tltl! { |s: &u32| F ({ *s } == 3) };
+/// let mut world = Augmented::new(Counter(0), three, Rewards::acceptance());
+/// let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
+/// world.reset(&mut rng)?;
+/// let rewards = [1, 2, 3].map(|_| world.step(0, &mut rng).map(|step| step.reward));
+/// assert_eq!(rewards, [Ok(0.0), Ok(0.0), Ok(1.0)]);
+/// assert!(world.end().is_some());
+/// # Ok::<(), tltl::task::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Augmented<E, M> {
     env: E,
@@ -47,10 +73,9 @@ pub struct Augmented<E, M> {
 }
 
 impl<E: Env, M: Monitor<E::State>> Augmented<E, M> {
-    /// `env` under the task `monitor`; `gamma` is the learner's discount factor, which only
-    /// [`Reward::Shaped`] reads.
-    pub fn new(env: E, monitor: M, rewards: Rewards, gamma: f64) -> Self {
-        let moves = Moves::new(&monitor, rewards, gamma);
+    /// `env` under the task `monitor`.
+    pub fn new(env: E, monitor: M, rewards: Rewards) -> Self {
+        let moves = Moves::new(&monitor, rewards);
         Self { env, monitor, moves, q: 0 }
     }
 
@@ -65,7 +90,8 @@ impl<E: Env, M: Monitor<E::State>> Augmented<E, M> {
         Ok((state, self.q))
     }
 
-    /// Takes an action; `terminated` where the task ended or the environment did.
+    /// Takes an action. The reward is that of the augmented MDP, the environment's own part
+    /// included; the step is terminated where the task or the environment ended.
     ///
     /// # Errors
     /// If a predicate is not a number at s'.
@@ -75,27 +101,14 @@ impl<E: Env, M: Monitor<E::State>> Augmented<E, M> {
         rng: &mut R,
     ) -> Result<Step<(E::State, u32)>, Error> {
         let step = self.env.step(action, rng);
-        let Move { to, paid, over } = self.read(self.q, &step.state)?;
+        let Move { to, reward, over } = self.moves.read(&self.monitor, self.q, &step)?;
         self.q = to;
-        Ok(Step {
-            state: (step.state, to),
-            reward: paid + self.moves.rewards.environment * step.reward,
-            terminated: step.terminated || over,
-            truncated: step.truncated,
-        })
-    }
-
-    /// What reading `s` does at any automaton state `q`, not only the current one.
-    ///
-    /// # Errors
-    /// If a predicate is not a number at `s`.
-    pub fn read(&self, q: u32, s: &E::State) -> Result<Move, Error> {
-        self.moves.read(&self.monitor, q, s)
+        Ok(Step { state: (step.state, to), reward, terminated: over, truncated: step.truncated })
     }
 
     /// How the task has ended, if it has.
     pub fn end(&self) -> Option<End> {
-        self.moves.end(self.q)
+        self.moves.ends().end(self.q)
     }
 
     /// The automaton state.
@@ -115,7 +128,7 @@ impl<E: Env, M: Monitor<E::State>> Augmented<E, M> {
 }
 
 /// Its states as they are. The loop of episodes holds q itself: reset before stepping by hand again.
-impl<E: Env, M: Monitor<E::State>> World for Augmented<E, M> {
+impl<E: Env, M: Monitor<E::State>> Monitored for Augmented<E, M> {
     type State = E::State;
     type Error = Error;
 
@@ -128,238 +141,10 @@ impl<E: Env, M: Monitor<E::State>> World for Augmented<E, M> {
         action: usize,
         rng: &mut R,
     ) -> Result<Step<E::State>, Error> {
-        let step = self.env.step(action, rng);
-        Ok(Step { reward: self.moves.rewards.environment * step.reward, ..step })
+        Ok(self.env.step(action, rng))
     }
 
-    fn read(&self, q: u32, s: &E::State) -> Result<Move, Error> {
-        Self::read(self, q, s)
-    }
-}
-
-/// A task over a finite world, as tables: which class each state is in, and where each automaton
-/// state goes on each class.
-///
-/// Classes are numbered in the order of the states that show them first.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Labelled {
-    class: Vec<u32>,
-    classes: usize,
-    next: Vec<u32>,
-    ends: Ends,
-    robustness: Vec<f64>,
-}
-
-impl Labelled {
-    /// The table of `monitor` over a world's states, in the order of their numbers.
-    ///
-    /// # Errors
-    /// If a predicate is not a number at one of them; `instant` is then the state's number.
-    pub fn new<S>(
-        states: impl IntoIterator<Item = S>,
-        monitor: &(impl Monitor<S> + ?Sized),
-    ) -> Result<Self, Error> {
-        let mut columns = Columns { class: Vec::new(), seen: Interner::new() };
-        let mut column = alloc::vec![0; monitor.states() as usize];
-        for (i, s) in states.into_iter().enumerate() {
-            for (q, to) in column.iter_mut().enumerate() {
-                *to = monitor.next(q as u32, &s).map_err(|e| Error { instant: Some(i), ..e })?;
-            }
-            columns.push(&column);
-        }
-        Ok(columns.into_labelled(Ends::new(monitor)))
-    }
-
-    /// The table of `monitor` over the states of `model`.
-    ///
-    /// # Errors
-    /// As [`Self::new`].
-    pub fn of_model<M: FiniteModel>(
-        model: &M,
-        monitor: &(impl Monitor<M::State> + ?Sized),
-    ) -> Result<Self, Error> {
-        Self::new((0..model.states()).map(|s| model.state(s)), monitor)
-    }
-
-    /// The table of `monitor` over the states of `env`.
-    ///
-    /// # Errors
-    /// As [`Self::new`].
-    pub fn of_env<E: FiniteEnv>(
-        env: &E,
-        monitor: &(impl Monitor<E::State> + ?Sized),
-    ) -> Result<Self, Error> {
-        Self::new((0..env.states()).map(|s| env.state(s)), monitor)
-    }
-
-    /// The same table with ρ(s, D_φ^q) for all q and s, which [`Reward::Robustness`] needs: 8
-    /// bytes for each pair.
-    ///
-    /// # Errors
-    /// As [`Self::new`].
-    pub fn with_robustness<S>(
-        mut self,
-        states: impl IntoIterator<Item = S>,
-        monitor: &(impl Monitor<S> + ?Sized),
-    ) -> Result<Self, Error> {
-        let mut robustness = alloc::vec![0.0; self.pairs()];
-        for (i, s) in states.into_iter().enumerate() {
-            for q in self.live() {
-                let rho = monitor.progress_robustness(q, &s);
-                robustness[self.pair(q, i)] = rho.map_err(|e| Error { instant: Some(i), ..e })?;
-            }
-        }
-        self.robustness = robustness;
-        Ok(self)
-    }
-
-    /// The number of states of the world.
-    #[inline]
-    #[must_use]
-    pub fn states(&self) -> usize {
-        self.class.len()
-    }
-
-    /// The number of states of the automaton, the trap included.
-    #[must_use]
-    pub fn automaton_states(&self) -> u32 {
-        self.ends.of.len() as u32
-    }
-
-    /// The number of classes.
-    #[inline]
-    #[must_use]
-    pub fn classes(&self) -> usize {
-        self.classes
-    }
-
-    /// The class of each state of the world.
-    #[inline]
-    #[must_use]
-    pub fn class(&self) -> &[u32] {
-        &self.class
-    }
-
-    /// The next automaton state, indexed `q * classes + class`.
-    #[inline]
-    #[must_use]
-    pub fn table(&self) -> &[u32] {
-        &self.next
-    }
-
-    /// δ(q, s): the automaton state after `q` has read `s`.
-    #[inline]
-    #[must_use]
-    pub fn next(&self, q: u32, s: usize) -> u32 {
-        self.next[q as usize * self.classes + self.class[s] as usize]
-    }
-
-    /// The automaton state in which an episode starts that starts in `s`.
-    #[inline]
-    #[must_use]
-    pub fn start(&self, s: usize) -> u32 {
-        self.next(0, s)
-    }
-
-    /// How the task has ended at `q`, if it has.
-    #[inline]
-    #[must_use]
-    pub fn end(&self, q: u32) -> Option<End> {
-        self.ends.of(q)
-    }
-
-    /// The automaton states in which the task goes on.
-    pub fn live(&self) -> impl Iterator<Item = u32> + use<> {
-        let ends = self.ends.of.clone();
-        (0..ends.len() as u32).filter(move |&q| ends[q as usize].is_none())
-    }
-
-    /// The number of pairs (q, s).
-    #[inline]
-    #[must_use]
-    pub fn pairs(&self) -> usize {
-        self.ends.of.len() * self.class.len()
-    }
-
-    /// The number of the pair (q, s): `q * states + s`.
-    #[inline]
-    #[must_use]
-    pub fn pair(&self, q: u32, s: usize) -> usize {
-        q as usize * self.class.len() + s
-    }
-
-    /// What each move pays under `rewards`.
-    ///
-    /// # Panics
-    /// If the mode is [`Reward::Robustness`] and the table was made without
-    /// [robustness](Self::with_robustness).
-    #[must_use]
-    pub fn payment(&self, rewards: &Rewards, gamma: f64) -> Payment {
-        let pays = |q, to, rho| rewards.pays(&self.ends, q, to, gamma, rho);
-        if !rewards.needs_robustness() {
-            return self.payment_by(&|q, to| pays(q, to, 0.0));
-        }
-        assert!(!self.robustness.is_empty(), "this reward needs a table `with_robustness`");
-        self.payment_by_state(&|q, s| pays(q, self.next(q, s), self.robustness[self.pair(q, s)]))
-    }
-
-    /// A payment for each move, as `pays(q, q')` says.
-    pub(crate) fn payment_by(&self, pays: &dyn Fn(u32, u32) -> f64) -> Payment {
-        let mut table = Vec::with_capacity(self.next.len());
-        for (i, &to) in self.next.iter().enumerate() {
-            table.push(pays((i / self.classes) as u32, to));
-        }
-        Payment { table, width: self.classes, by_state: false }
-    }
-
-    /// A payment for each automaton state and state, as `pays(q, s')` says.
-    pub(crate) fn payment_by_state(&self, pays: &dyn Fn(u32, usize) -> f64) -> Payment {
-        let mut table = Vec::with_capacity(self.pairs());
-        for q in 0..self.automaton_states() {
-            for s in 0..self.states() {
-                table.push(pays(q, s));
-            }
-        }
-        Payment { table, width: self.states(), by_state: true }
-    }
-}
-
-/// What every move of a [`Labelled`] task pays.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Payment {
-    table: Vec<f64>,
-    width: usize,
-    by_state: bool,
-}
-
-impl Payment {
-    /// What reading `s` in `q` pays; `class` is the class of `s`.
-    #[inline]
-    #[must_use]
-    pub fn get(&self, q: u32, s: usize, class: u32) -> f64 {
-        self.table[q as usize * self.width + if self.by_state { s } else { class as usize }]
-    }
-}
-
-/// Columns of the transition table, hash-consed.
-struct Columns {
-    class: Vec<u32>,
-    seen: Interner<u32>,
-}
-
-impl Columns {
-    fn push(&mut self, column: &[u32]) {
-        self.class.push(self.seen.number(column));
-    }
-
-    fn into_labelled(self, ends: Ends) -> Labelled {
-        let classes = self.seen.items().len();
-        let mut next = alloc::vec![0; ends.of.len() * classes];
-        for (class, column) in self.seen.items().iter().enumerate() {
-            for (q, &to) in column.iter().enumerate() {
-                next[q * classes + class] = to;
-            }
-        }
-        Labelled { class: self.class, classes, next, ends, robustness: Vec::new() }
+    fn read(&self, q: u32, step: &Step<E::State>) -> Result<Move, Error> {
+        self.moves.read(&self.monitor, q, step)
     }
 }

@@ -15,6 +15,8 @@ use std::path::{Path, PathBuf};
 use std::string::{String, ToString};
 use std::vec::Vec;
 
+use crate::checksum::fnv;
+
 const MAGIC: &str = "tltl-checkpoint";
 const VERSION: &str = "1";
 
@@ -76,12 +78,6 @@ impl fmt::Display for Error {
 
 impl std::error::Error for Error {}
 
-/// 64-bit FNV-1a.
-fn checksum(bytes: &[u8]) -> u64 {
-    let step = |hash: u64, &byte: &u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, step)
-}
-
 /// Writes `content` to `path` so that the file is whole whenever it is there; `kind`, one word,
 /// says what it is.
 ///
@@ -92,8 +88,11 @@ fn checksum(bytes: &[u8]) -> u64 {
 /// If `kind` is empty or has white space in it.
 pub fn write(path: &Path, kind: &str, content: &[u8]) -> Result<(), Error> {
     assert!(!kind.is_empty() && !kind.contains(char::is_whitespace), "a kind is one word");
-    let header =
-        std::format!("{MAGIC} {VERSION} {kind} {} {:016x}\n", content.len(), checksum(content));
+    let header = std::format!(
+        "{MAGIC} {VERSION} {kind} {} {:016x}\n",
+        content.len(),
+        fnv(content.iter().copied())
+    );
     let put = || {
         let beside = beside(path);
         let mut file = File::create(&beside)?;
@@ -150,6 +149,6 @@ fn check<'a>(path: &Path, kind: &str, bytes: &'a [u8]) -> Result<&'a [u8], Error
     if content.len() != expected {
         return Err(Error::Length { path: path.to_path_buf(), found: content.len(), expected });
     }
-    let whole = u64::from_str_radix(sum, 16) == Ok(checksum(content));
+    let whole = u64::from_str_radix(sum, 16) == Ok(fnv(content.iter().copied()));
     if whole { Ok(content) } else { Err(Error::Corrupt(path.to_path_buf())) }
 }

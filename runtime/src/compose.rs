@@ -22,20 +22,14 @@
 use alloc::vec::Vec;
 use core::convert::Infallible;
 
-use crate::augmented::{Labelled, Payment, Rewards};
+use crate::augmented::{Labelled, Payment};
+use crate::mismatch::Mismatch;
 use crate::model::Dynamics;
+use crate::monitor::Acceptor as _;
 use crate::product::{Operator, Product};
 use crate::q::{QTable, largest};
+use crate::reward::Rewards;
 use crate::solve::Problem;
-
-/// A skill: flat action values, and the task that they are for.
-#[derive(Clone, Copy, Debug)]
-pub struct Skill<'a> {
-    /// The values.
-    pub q: &'a QTable,
-    /// The task on the world.
-    pub task: &'a Labelled,
-}
 
 /// How the skills' values are combined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,9 +76,7 @@ pub trait Compose {
 #[derive(Clone, Debug)]
 pub struct Stepwise<'a> {
     composition: Composition<'a>,
-    dynamics: &'a Dynamics,
-    rewards: Rewards,
-    gamma: f64,
+    problem: Problem,
     combine: Combine,
     q: QTable,
 }
@@ -101,32 +93,64 @@ impl Compose for Stepwise<'_> {
     type State = usize;
     type Error = Infallible;
 
+    #[track_caller]
     fn compensate(&mut self, updates: u64) -> Result<(), Infallible> {
         assert_eq!(self.combine, Combine::Sum, "compensation is of the plain sum");
         if updates > 0 {
-            self.q = self.composition.compensated(self.dynamics, &self.rewards, self.gamma);
+            self.q = self.composition.compensated_on(&self.problem);
         }
         Ok(())
     }
 
     fn refine(&mut self, updates: u64) -> Result<(), Infallible> {
         if updates > 0 {
-            let Self { composition, dynamics, rewards, gamma, q, .. } = self;
-            *q = composition.refined(dynamics, rewards, *gamma, q);
+            self.q = self.composition.refined_on(&self.problem, &self.q);
         }
         Ok(())
     }
 
     fn act(&self, q: u32, &s: &usize) -> Result<usize, Infallible> {
-        Ok(self.q.greedy(q, s) as usize)
+        Ok(self.q.greedy(q, s))
     }
 }
 
-/// Skills that are to be composed.
+/// Skills that are to be composed: action values, each for its own task on the same world.
+///
+#[cfg_attr(feature = "macros", doc = "```")]
+#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// use tltl::prelude::*;
+/// # struct Row;
+/// # impl FiniteModel for Row {
+/// #     type State = i32;
+/// #     fn states(&self) -> usize { 5 }
+/// #     fn actions(&self) -> usize { 2 }
+/// #     fn state(&self, s: usize) -> i32 { s as i32 }
+/// #     fn transitions(&self, s: usize, a: usize, mut outcome: impl FnMut(usize, f64)) {
+/// #         outcome([s.saturating_sub(1), (s + 1).min(4)][a], 1.0);
+/// #     }
+/// # }
+///
+/// // `Row` is five cells in a row. Two skills: reach the left end, reach the right end.
+/// let left = tltl! { |x: &i32| F ({ *x } == 0) };
+/// let right = tltl! { |x: &i32| F ({ *x } == 4) };
+/// let (world, rewards) = (Dynamics::new(&Row)?, Rewards::default());
+/// let one = Problem::new(&world, &Labelled::of_model(&Row, &left)?)?.optimal_q(&rewards);
+/// let two = Problem::new(&world, &Labelled::of_model(&Row, &right)?)?.optimal_q(&rewards);
+///
+/// // Both, by what the skills have learned alone.
+/// let product = Product::conjunction(&[&left, &right]);
+/// let task = Labelled::of_model(&Row, &product)?;
+/// let composition = Composition::new(&product, &task, &[&one, &two], rewards)?;
+/// let refined = composition.refined(&world, &composition.initial(Combine::Sum))?;
+/// let certificate = Problem::new(&world, &task)?.optimum(&rewards).certify(&refined.policy())?;
+/// assert_eq!(certificate.regret_steps, Some(0.0));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Composition<'a> {
-    skills: Vec<Skill<'a>>,
-    task: &'a Labelled,
+    skills: Vec<&'a QTable>,
+    task: Labelled,
+    rewards: Rewards,
     operator: Operator,
     /// For each state of the product the skills' states.
     components: Vec<&'a [u32]>,
@@ -135,55 +159,63 @@ pub struct Composition<'a> {
 
 impl<'a> Composition<'a> {
     /// The composition of `skills`, in the order of the operands of `product`; `task` is the
-    /// product on the world.
+    /// product on the world, and `rewards` are those that the skills' values are for.
     ///
-    /// # Panics
+    /// # Errors
     /// If the skills, the product and the world do not fit together.
-    #[must_use]
     pub fn new<S: ?Sized>(
         product: &'a Product<'_, S>,
-        task: &'a Labelled,
-        skills: &[Skill<'a>],
-    ) -> Self {
-        assert_eq!(skills.len(), product.operands().len(), "a skill for each operand");
-        for (skill, operand) in skills.iter().zip(product.operands()) {
-            assert_eq!(skill.q.automaton_states(), operand.states(), "a skill for its operand");
-            assert_eq!(skill.q.states(), task.states(), "skills in the same world");
-            assert_eq!(skill.q.actions(), skills[0].q.actions(), "skills with the same actions");
+        task: &Labelled,
+        skills: &[&'a QTable],
+        rewards: Rewards,
+    ) -> Result<Self, Mismatch> {
+        let operands = product.operands();
+        let of_product = |states| alloc::format!("a product with {states} automaton states");
+        if product.states() != task.automaton_states() {
+            let found = of_product(product.states());
+            return Err(Mismatch::new("a composition", found, task.describe()));
+        }
+        if skills.len() != operands.len() {
+            let count = |n| alloc::format!("{n} tasks");
+            let (found, expected) = (count(skills.len()), count(operands.len()));
+            return Err(Mismatch::new("a composition", found, expected));
+        }
+        for (skill, operand) in skills.iter().zip(operands) {
+            let own = skill.task();
+            task.expect_world("a skill", own.states(), own.actions())?;
+            if own.automaton_states() != operand.states() {
+                let (name, states) = (operand.name(), operand.states());
+                let expected = alloc::format!("`{name}` ({states} automaton states)");
+                return Err(Mismatch::new("a skill", own.describe(), expected));
+            }
         }
         let states = 0..task.automaton_states();
-        Self {
+        Ok(Self {
             skills: skills.to_vec(),
-            task,
+            task: task.clone(),
+            rewards,
             operator: product.operator(),
             components: states.clone().map(|q| product.components(q)).collect(),
             running: states.map(|q| product.running(q)).collect(),
-        }
+        })
     }
 
     /// The composition, carried out step by step on `dynamics`.
     ///
-    /// # Panics
-    /// In its steps, as [`Self::compensated`].
-    #[must_use]
-    pub fn on(
-        self,
-        dynamics: &'a Dynamics,
-        rewards: Rewards,
-        gamma: f64,
-        combine: Combine,
-    ) -> Stepwise<'a> {
-        let q = self.initial(combine);
-        Stepwise { composition: self, dynamics, rewards, gamma, combine, q }
+    /// # Errors
+    /// If they are of another world.
+    pub fn on(self, dynamics: &Dynamics, combine: Combine) -> Result<Stepwise<'a>, Mismatch> {
+        let (q, problem) = (self.initial(combine), Problem::new(dynamics, &self.task)?);
+        Ok(Stepwise { composition: self, problem, combine, q })
     }
 
     /// Step 2: the skills' values at their components of each product state. In a sequence only
     /// the running skill counts.
     #[must_use]
     pub fn initial(&self, combine: Combine) -> QTable {
-        let tops = self.skills.iter().map(|skill| largest(skill.q.values()));
+        let tops = self.skills.iter().map(|skill| largest(skill.values()));
         let scales: Vec<f64> = tops.map(|top| if top > 0.0 { 1.0 / top } else { 1.0 }).collect();
-        let mut table = QTable::zeros(self.task, self.skills[0].q.actions());
+        let mut table = QTable::zeros(&self.task);
         for (q, s, row) in table.rows_mut() {
             if self.task.end(q).is_some() {
                 continue;
@@ -191,7 +223,7 @@ impl<'a> Composition<'a> {
             for (a, value) in row.iter_mut().enumerate() {
                 let values = self.active(q).map(|(i, at)| {
                     let scale = if combine == Combine::Sum { 1.0 } else { scales[i] };
-                    scale * self.skills[i].q.row(at, s)[a]
+                    scale * self.skills[i].row(at, s)[a]
                 });
                 *value = match combine {
                     Combine::Max => values.fold(f64::NEG_INFINITY, f64::max),
@@ -204,14 +236,15 @@ impl<'a> Composition<'a> {
 
     /// Steps 3–5: the plain sum less the compensation Q_{1∧2} of Eq. 3C10, trap-aware.
     ///
-    /// # Panics
-    /// Unless 0 ≤ `gamma` < 1, or if `dynamics` is of another world.
-    #[must_use]
-    pub fn compensated(&self, dynamics: &Dynamics, rewards: &Rewards, gamma: f64) -> QTable {
+    /// # Errors
+    /// If `dynamics` is of another world.
+    pub fn compensated(&self, dynamics: &Dynamics) -> Result<QTable, Mismatch> {
+        Ok(self.compensated_on(&Problem::new(dynamics, &self.task)?))
+    }
+
+    fn compensated_on(&self, problem: &Problem) -> QTable {
         let mut sum = self.initial(Combine::Sum);
-        let excess = self.excess(rewards, gamma);
-        let problem = Problem::new(dynamics, self.task);
-        let compensation = problem.policy_q(&excess, gamma, &sum.policy());
+        let compensation = problem.policy_q(&self.excess(), self.rewards.gamma(), &sum.policy());
         for (q, s, row) in sum.rows_mut() {
             row.iter_mut().zip(compensation.row(q, s)).for_each(|(value, c)| *value -= c);
         }
@@ -220,18 +253,16 @@ impl<'a> Composition<'a> {
 
     /// Step 6: the optimal values of the product on `dynamics`, starting from `start`.
     ///
-    /// # Panics
-    /// As [`Self::compensated`].
-    #[must_use]
-    pub fn refined(
-        &self,
-        dynamics: &Dynamics,
-        rewards: &Rewards,
-        gamma: f64,
-        start: &QTable,
-    ) -> QTable {
-        let payment = self.task.payment(rewards, gamma);
-        Problem::new(dynamics, self.task).optimal_q_of(&payment, gamma, Some(start))
+    /// # Errors
+    /// If `dynamics` is of another world, or `start` of another task.
+    pub fn refined(&self, dynamics: &Dynamics, start: &QTable) -> Result<QTable, Mismatch> {
+        self.task.expect("a table", start.task())?;
+        Ok(self.refined_on(&Problem::new(dynamics, &self.task)?, start))
+    }
+
+    fn refined_on(&self, problem: &Problem, start: &QTable) -> QTable {
+        let payment = self.task.payment(&self.rewards);
+        problem.optimal_q_of(&payment, self.rewards.gamma(), Some(start))
     }
 
     /// The skills that read states at `q`, and where they are.
@@ -243,19 +274,20 @@ impl<'a> Composition<'a> {
     }
 
     /// What the skills are paid together beyond what the product pays.
-    fn excess(&self, rewards: &Rewards, gamma: f64) -> Payment {
-        let pay = |skill: &Skill<'_>| skill.task.payment(rewards, gamma);
+    fn excess(&self) -> Payment {
+        let pay = |skill: &&QTable| skill.task().payment(&self.rewards);
         let payments: Vec<Payment> = self.skills.iter().map(pay).collect();
-        let whole = self.task.payment(rewards, gamma);
+        let whole = self.task.payment(&self.rewards);
         self.task.payment_by_state(&|q, s| {
             if self.task.end(q).is_some() {
                 return 0.0;
             }
             let paid = self.active(q).map(|(i, at)| {
-                let task = self.skills[i].task;
-                if task.end(at).is_some() { 0.0 } else { payments[i].get(at, s, task.class()[s]) }
+                let task = self.skills[i].task();
+                let class = task.tables().class[s];
+                if task.end(at).is_some() { 0.0 } else { payments[i].get(at, s, class) }
             });
-            paid.sum::<f64>() - whole.get(q, s, self.task.class()[s])
+            paid.sum::<f64>() - whole.get(q, s, self.task.tables().class[s])
         })
     }
 }

@@ -8,8 +8,10 @@ use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::fmt;
 
-use crate::augmented::End;
+use crate::augmented::Labelled;
 use crate::monitor::Monitor;
+use crate::policy::{Policy, PolicyError};
+use crate::reward::End;
 use crate::task::Error;
 
 /// A low-level controller: an action for a state.
@@ -63,6 +65,7 @@ impl<'a, S, M: Monitor<S>> Hierarchy<'a, S, M> {
     /// # Panics
     /// If `q` is not a state of the automaton.
     #[must_use]
+    #[track_caller]
     pub fn with(mut self, q: u32, controller: impl FnMut(&S) -> usize + 'a) -> Self {
         self.controllers[q as usize] = Some(Box::new(controller));
         self
@@ -90,20 +93,26 @@ impl<'a, S, M: Monitor<S>> Hierarchy<'a, S, M> {
         }
     }
 
-    /// What the controllers do in each of a world's states, in the order of their numbers; indexed
-    /// `q * states + s`. As a table the hierarchy can be
-    /// [certified](crate::solve::Problem::certify) exactly, and saved as a
-    /// [`Policy`](crate::policy::Policy) with its certificate. Of a controller with a memory of its
-    /// own the table says what it does when it is asked in this order.
-    pub fn policy(&mut self, states: impl IntoIterator<Item = S>) -> Vec<u32> {
-        let mut layers: Vec<Vec<u32>> = self.controllers.iter().map(|_| Vec::new()).collect();
+    /// What the controllers do in each of a world's `states`, in the order of their numbers. As a
+    /// [`Policy`] the hierarchy can be [certified](crate::solve::Optimum::certify) exactly, and
+    /// saved. Of a controller with a memory of its own the policy says what the controller does when
+    /// it is asked in this order.
+    ///
+    /// # Errors
+    /// If states and controllers do not fit `task`, or an action is not one of the world's.
+    pub fn policy(
+        &mut self,
+        task: &Labelled,
+        states: impl IntoIterator<Item = S>,
+    ) -> Result<Policy, PolicyError> {
+        let mut layers: Vec<Vec<usize>> = self.controllers.iter().map(|_| Vec::new()).collect();
         for s in states {
             for (layer, controller) in layers.iter_mut().zip(&mut self.controllers) {
                 let controller = controller.as_mut().unwrap_or(&mut self.otherwise);
-                layer.push(controller(&s) as u32);
+                layer.push(controller(&s));
             }
         }
-        layers.concat()
+        Policy::new(task, layers.concat())
     }
 
     /// The automaton state; `None` before an episode's first state was observed.

@@ -4,7 +4,7 @@
 //! P(satisfied) gets the interval of Wilson (1927), which stays within [0, 1] and is honest at 0 and
 //! 1; the mean number of steps of the successful episodes gets Student's interval. Both are
 //! estimates under the horizon that was run: an episode that it cuts counts as not satisfied.
-//! Where the world has a model, [`Problem::certify`](crate::solve::Problem::certify) is exact.
+//! Where the world has a model, [`Optimum::certify`](crate::solve::Optimum::certify) is exact.
 
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
@@ -13,6 +13,7 @@ use rand::Rng;
 
 use crate::env::Env;
 use crate::monitor::Monitor;
+use crate::range::checked;
 use crate::task::Error;
 
 /// An estimated number and its confidence interval.
@@ -31,9 +32,16 @@ pub struct Interval {
 impl Interval {
     /// Wilson's interval for the probability of an event that was seen `hits` times in `trials`.
     ///
+    /// ```
+    /// # use tltl::estimate::Interval;
+    /// let seen = Interval::wilson(98, 100, 0.95);
+    /// assert!(0.929 < seen.low && seen.low < 0.931 && seen.high < 0.995);
+    /// ```
+    ///
     /// # Panics
     /// Unless there are trials, and 0 < `confidence` < 1.
     #[must_use]
+    #[track_caller]
     pub fn wilson(hits: u64, trials: u64, confidence: f64) -> Self {
         assert!(trials > 0 && hits <= trials, "a share of some trials");
         let (n, p, z) = (trials as f64, hits as f64 / trials as f64, normal(confidence));
@@ -91,43 +99,77 @@ pub struct Estimate {
     pub steps: Option<Interval>,
 }
 
-/// How to estimate.
+/// How to estimate: how many episodes, how long, and how sure.
+///
+/// ```
+/// use tltl::estimate::Trials;
+///
+/// let trials = Trials::default().with_episodes(500)?.with_confidence(0.99)?;
+/// assert_eq!((trials.episodes(), trials.horizon()), (500, 1_000));
+/// assert!(trials.with_confidence(99.0).is_err());
+/// # Ok::<(), tltl::OutOfRange>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trials {
-    /// The number of episodes, at least 1.
-    pub episodes: u64,
-    /// Steps after which one is cut.
-    pub horizon: u64,
-    /// The confidence of the intervals, between 0 and 1.
-    pub confidence: f64,
+    episodes: u64,
+    horizon: u64,
+    confidence: f64,
 }
 
+checked! { Trials {
+    /// The number of episodes.
+    episodes, with_episodes: u64, "at least 1", |episodes| episodes > 0;
+    /// Steps after which an episode is cut.
+    horizon, with_horizon: u64, "at least 1", |horizon| horizon > 0;
+    /// The confidence of the intervals.
+    confidence, with_confidence: f64, "in (0, 1)", |c| c > 0.0 && c < 1.0;
+}}
+
 impl Default for Trials {
+    /// 10,000 episodes of at most 1,000 steps, 95 % confidence.
     fn default() -> Self {
         Self { episodes: 10_000, horizon: 1_000, confidence: 0.95 }
     }
 }
 
-/// Runs a policy, `act(s, q)`, and counts.
+/// Runs a policy, `act(q, s)`, and counts.
 ///
-/// ```
-/// # use tltl::estimate::Interval;
-/// let seen = Interval::wilson(98, 100, 0.95);
-/// assert!(0.929 < seen.low && seen.low < 0.931 && seen.high < 0.995);
+#[cfg_attr(feature = "macros", doc = "```")]
+#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// use tltl::estimate::{Trials, estimate};
+/// use tltl::prelude::*;
+/// use tltl::rand::{SeedableRng, rngs::Xoshiro256PlusPlus};
+/// # struct Row;
+/// # impl FiniteModel for Row {
+/// #     type State = i32;
+/// #     fn states(&self) -> usize { 5 }
+/// #     fn actions(&self) -> usize { 2 }
+/// #     fn state(&self, s: usize) -> i32 { s as i32 }
+/// #     fn transitions(&self, s: usize, a: usize, mut outcome: impl FnMut(usize, f64)) {
+/// #         outcome([s.saturating_sub(1), (s + 1).min(4)][a], 1.0);
+/// #     }
+/// # }
+///
+/// // `Row` is five cells in a row; reach the last one by always going right.
+/// let end = tltl! { |x: &i32| F ({ *x } == 4) };
+/// let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
+/// let right = |_: u32, _: &i32| Ok::<_, tltl::task::Error>(1);
+/// let seen = estimate(&mut ModelEnv::new(Row)?, &end, Trials::default(), &mut rng, right)?;
+/// assert_eq!(seen.satisfied.mean, 1.0);
+/// assert!(seen.steps.is_some_and(|steps| steps.low < 2.0 && 2.0 < steps.high));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 ///
 /// # Errors
-/// If a predicate is not a number at a state that was met.
-///
-/// # Panics
-/// If there are no episodes, or the confidence is not between 0 and 1.
-pub fn estimate<E: Env, M: Monitor<E::State>, R: Rng + ?Sized>(
+/// If a predicate is not a number at a state that was met, or the first error of `act`; no step is
+/// taken then.
+pub fn estimate<E: Env, M: Monitor<E::State>, R: Rng + ?Sized, F: From<Error>>(
     env: &mut E,
     monitor: &M,
     trials: Trials,
     rng: &mut R,
-    mut act: impl FnMut(&E::State, u32) -> usize,
-) -> Result<Estimate, Error> {
+    mut act: impl FnMut(u32, &E::State) -> Result<usize, F>,
+) -> Result<Estimate, F> {
     let (mut satisfied, mut lost, mut sum, mut squares) = (0, 0, 0.0, 0.0);
     for _ in 0..trials.episodes {
         let (q, steps) = episode(env, monitor, trials.horizon, rng, &mut act)?;
@@ -150,20 +192,20 @@ pub fn estimate<E: Env, M: Monitor<E::State>, R: Rng + ?Sized>(
 }
 
 /// One episode: the automaton state in which it ended, and its steps.
-fn episode<E: Env, M: Monitor<E::State>, R: Rng + ?Sized>(
+fn episode<E: Env, M: Monitor<E::State>, R: Rng + ?Sized, F: From<Error>>(
     env: &mut E,
     monitor: &M,
     horizon: u64,
     rng: &mut R,
-    act: &mut impl FnMut(&E::State, u32) -> usize,
-) -> Result<(u32, u64), Error> {
+    act: &mut impl FnMut(u32, &E::State) -> Result<usize, F>,
+) -> Result<(u32, u64), F> {
     let mut s = env.reset(rng);
     let mut q = monitor.next(0, &s)?;
     for t in 0..horizon {
         if monitor.is_terminal(q) {
             return Ok((q, t));
         }
-        let step = env.step(act(&s, q), rng);
+        let step = env.step(act(q, &s)?, rng);
         s = step.state;
         q = monitor.next(q, &s)?;
         if step.terminated || step.truncated {

@@ -23,12 +23,7 @@
 //!
 #![cfg_attr(all(feature = "std", feature = "macros"), doc = "```")]
 #![cfg_attr(not(all(feature = "std", feature = "macros")), doc = "```ignore")]
-//! use tltl::augmented::{Labelled, Rewards};
-//! use tltl::env::ModelEnv;
-//! use tltl::learn::{Learner, Settings};
-//! use tltl::model::FiniteModel;
-//! use tltl::solve::Problem;
-//! use tltl::tltl;
+//! use tltl::prelude::*;
 //!
 //! /// Ten cells in a row; a step goes wrong one time in ten.
 //! struct Row;
@@ -56,12 +51,12 @@
 //! let phi = tltl! { |x: &i32| ({ *x } == 9) T ({ *x } == 0) };
 //! let mut env = ModelEnv::new(Row)?;
 //! let task = Labelled::of_env(&env, &phi)?;
-//! let mut learner = Learner::new(&task, 2, Settings::default(), 1);
-//! learner.train(&mut env, &task, 100_000);
+//! let mut learner = Learner::new(&task, Settings::default(), 1);
+//! learner.train(&mut env, 100_000)?;
 //!
-//! let problem = Problem::new(env.dynamics(), &task);
-//! let optimum = problem.optimal_q(&Rewards::default(), 0.95);
-//! let certificate = problem.certify(&learner.q().policy(), &optimum);
+//! // What is it worth, against the exact optimum?
+//! let problem = Problem::new(env.dynamics(), &task)?;
+//! let certificate = learner.certify(&problem)?;
 //! assert!(certificate.satisfied > 0.999 && certificate.regret_steps < Some(0.01));
 //! # Ok::<(), Box<dyn core::error::Error>>(())
 //! ```
@@ -79,6 +74,8 @@ pub mod automaton;
 #[cfg(feature = "std")]
 pub mod checkpoint;
 #[cfg(feature = "alloc")]
+mod checksum;
+#[cfg(feature = "alloc")]
 pub mod compose;
 #[cfg(feature = "alloc")]
 pub mod controller;
@@ -94,18 +91,25 @@ mod interner;
 #[cfg(feature = "alloc")]
 pub mod learn;
 #[cfg(feature = "alloc")]
+mod mismatch;
+#[cfg(feature = "alloc")]
 pub mod model;
 pub mod monitor;
 #[cfg(feature = "alloc")]
 pub mod network;
 #[cfg(feature = "alloc")]
 pub mod policy;
+pub mod prelude;
 #[doc(hidden)]
 pub mod private;
 #[cfg(feature = "alloc")]
 pub mod product;
 #[cfg(feature = "alloc")]
 pub mod q;
+#[cfg(feature = "alloc")]
+mod range;
+#[cfg(feature = "alloc")]
+pub mod reward;
 pub mod robustness;
 mod shared;
 #[cfg(feature = "alloc")]
@@ -120,7 +124,11 @@ pub use rand;
 
 pub use automaton::Automaton;
 pub use factored::Factored;
+#[cfg(feature = "alloc")]
+pub use mismatch::Mismatch;
 pub use monitor::{Acceptor, Monitor};
+#[cfg(feature = "alloc")]
+pub use range::OutOfRange;
 pub use robustness::{Boolean, Predicate};
 pub use shared::Shared;
 pub use task::{Formula, Task};

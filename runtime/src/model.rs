@@ -7,6 +7,7 @@
 //! costs about 30 bytes, and a backup reads each successor's value once for all actions.
 
 use alloc::string::{String, ToString};
+use alloc::sync::Arc;
 use alloc::vec::Vec;
 use core::fmt;
 
@@ -115,9 +116,13 @@ impl core::error::Error for ModelError {}
 /// The transition probabilities of a finite model as tables.
 ///
 /// Invariants: successors are sorted and distinct within a state; every row of probabilities sums
-/// to one.
-#[derive(Clone, Debug)]
-pub struct Dynamics {
+/// to one. Cheap to clone: clones share the tables.
+#[derive(Clone)]
+pub struct Dynamics(Arc<Tables>);
+
+/// The tables of a [`Dynamics`].
+#[derive(Default)]
+struct Tables {
     actions: usize,
     first: Vec<u32>,
     successors: Vec<u32>,
@@ -141,64 +146,73 @@ impl Dynamics {
             builder.push(model, s)?;
         }
         let starts = distribution((0..states).map(|s| model.start(s)).collect())?;
-        Ok(Self { starts, ..builder.dynamics })
+        Ok(Self(Arc::new(Tables { starts, ..builder.tables })))
     }
 
     /// The number of states.
     #[inline]
     #[must_use]
     pub fn states(&self) -> usize {
-        self.matrix.len()
+        self.0.matrix.len()
     }
 
     /// The number of actions.
     #[inline]
     #[must_use]
     pub fn actions(&self) -> usize {
-        self.actions
+        self.0.actions
+    }
+
+    /// The outcomes of action `a` in state `s` with their probabilities, ascending.
+    ///
+    /// # Panics
+    /// If there is no such state or action.
+    pub fn outcomes(&self, s: usize, a: usize) -> impl Iterator<Item = (usize, f64)> {
+        let successors = self.successors(s);
+        let row = &self.matrix(s)[a * successors.len()..][..successors.len()];
+        let all = successors.iter().map(|&to| to as usize).zip(row.iter().copied());
+        all.filter(|&(_, p)| p > 0.0)
     }
 
     /// The states that some action leads to from `s`, ascending.
     #[inline]
-    #[must_use]
-    pub fn successors(&self, s: usize) -> &[u32] {
-        &self.successors[self.first[s] as usize..self.first[s + 1] as usize]
+    pub(crate) fn successors(&self, s: usize) -> &[u32] {
+        &self.0.successors[self.0.first[s] as usize..self.0.first[s + 1] as usize]
     }
 
     /// The probabilities of the [successors](Self::successors) of `s`, one row for each action.
     #[inline]
-    #[must_use]
-    pub fn matrix(&self, s: usize) -> &[f64] {
-        let width = (self.first[s + 1] - self.first[s]) as usize;
+    pub(crate) fn matrix(&self, s: usize) -> &[f64] {
+        let width = (self.0.first[s + 1] - self.0.first[s]) as usize;
         let start = self.matrix_offset(s);
-        &self.probabilities[start..start + width * self.actions]
+        &self.0.probabilities[start..start + width * self.0.actions]
     }
 
     /// The probability of starting in each state.
     #[must_use]
     pub fn starts(&self) -> &[f64] {
-        &self.starts
+        &self.0.starts
     }
 
     /// Where the matrix of `s` starts among [all](Self::probabilities).
     #[inline]
     pub(crate) fn matrix_offset(&self, s: usize) -> usize {
-        self.matrix[s] as usize
+        self.0.matrix[s] as usize
     }
 
     /// The distinct matrices, one after the other.
     pub(crate) fn probabilities(&self) -> &[f64] {
-        &self.probabilities
+        &self.0.probabilities
     }
 
     /// For each state those that some action leads to it from, as (first, list).
     pub(crate) fn predecessors(&self) -> (Vec<u32>, Vec<u32>) {
         let mut first = alloc::vec![0; self.states() + 2];
-        self.successors.iter().for_each(|&to| first[to as usize + 2] += 1);
+        self.0.successors.iter().for_each(|&to| first[to as usize + 2] += 1);
         for s in 2..first.len() {
             first[s] += first[s - 1];
         }
-        let mut list = alloc::vec![0; self.successors.len()];
+        let mut list = alloc::vec![0; self.0.successors.len()];
         for s in 0..self.states() {
             for &to in self.successors(s) {
                 let at = &mut first[to as usize + 1];
@@ -207,6 +221,15 @@ impl Dynamics {
             }
         }
         (first, list)
+    }
+}
+
+impl fmt::Debug for Dynamics {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Dynamics")
+            .field("states", &self.states())
+            .field("actions", &self.actions())
+            .finish_non_exhaustive()
     }
 }
 
@@ -222,7 +245,7 @@ fn distribution(mut weights: Vec<f64>) -> Result<Vec<f64>, ModelError> {
 
 /// Collects the tables state by state.
 struct Builder {
-    dynamics: Dynamics,
+    tables: Tables,
     /// The distinct matrices, as bits.
     matrices: Interner<u64>,
     /// Where each of them starts.
@@ -234,20 +257,14 @@ impl Builder {
     fn new(states: usize, actions: usize) -> Self {
         let mut first = Vec::with_capacity(states + 1);
         first.push(0);
-        let dynamics = Dynamics {
-            actions,
-            first,
-            successors: Vec::new(),
-            matrix: Vec::with_capacity(states),
-            probabilities: Vec::new(),
-            starts: Vec::new(),
-        };
-        Self { dynamics, matrices: Interner::new(), offsets: Vec::new(), outcomes: Vec::new() }
+        let matrix = Vec::with_capacity(states);
+        let tables = Tables { actions, first, matrix, ..Tables::default() };
+        Self { tables, matrices: Interner::new(), offsets: Vec::new(), outcomes: Vec::new() }
     }
 
     fn push<M: FiniteModel>(&mut self, model: &M, s: usize) -> Result<(), ModelError> {
         self.outcomes.clear();
-        for a in 0..self.dynamics.actions {
+        for a in 0..self.tables.actions {
             self.read(model, s, a)?;
         }
         self.close();
@@ -256,18 +273,18 @@ impl Builder {
 
     /// Adds the state whose outcomes were read.
     fn close(&mut self) {
-        let start = self.dynamics.successors.len();
+        let start = self.tables.successors.len();
         let mut list = Vec::new();
         for &(_, to, _) in &self.outcomes {
             if let Err(at) = list.binary_search(&to) {
                 list.insert(at, to);
             }
         }
-        self.dynamics.successors.extend(list);
+        self.tables.successors.extend(list);
         let matrix = self.dense(start);
         let offset = self.intern(&matrix);
-        self.dynamics.matrix.push(offset);
-        self.dynamics.first.push(self.dynamics.successors.len() as u32);
+        self.tables.matrix.push(offset);
+        self.tables.first.push(self.tables.successors.len() as u32);
     }
 
     fn read<M: FiniteModel>(&mut self, model: &M, s: usize, a: usize) -> Result<(), ModelError> {
@@ -288,8 +305,8 @@ impl Builder {
 
     /// The outcomes as a matrix over the successors from `start` on.
     fn dense(&self, start: usize) -> Vec<f64> {
-        let list = &self.dynamics.successors[start..];
-        let mut matrix = alloc::vec![0.0; self.dynamics.actions * list.len()];
+        let list = &self.tables.successors[start..];
+        let mut matrix = alloc::vec![0.0; self.tables.actions * list.len()];
         for &(a, to, p) in &self.outcomes {
             let column = list.partition_point(|&other| other < to);
             matrix[a * list.len() + column] += p;
@@ -301,8 +318,8 @@ impl Builder {
         let bits: Vec<u64> = matrix.iter().map(|p| p.to_bits()).collect();
         let number = self.matrices.number(&bits) as usize;
         if number == self.offsets.len() {
-            self.offsets.push(self.dynamics.probabilities.len() as u32);
-            self.dynamics.probabilities.extend_from_slice(matrix);
+            self.offsets.push(self.tables.probabilities.len() as u32);
+            self.tables.probabilities.extend_from_slice(matrix);
         }
         self.offsets[number]
     }

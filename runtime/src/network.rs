@@ -153,7 +153,7 @@ pub struct Dense {
 
 /// Why layers are no network.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Invalid {
+pub enum NetworkError {
     /// There are not as many layers as the shape says.
     Layers {
         /// How many there are.
@@ -184,7 +184,7 @@ pub enum Invalid {
     },
 }
 
-impl fmt::Display for Invalid {
+impl fmt::Display for NetworkError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Layers { found, expected } => {
@@ -209,7 +209,7 @@ impl fmt::Display for Invalid {
     }
 }
 
-impl core::error::Error for Invalid {}
+impl core::error::Error for NetworkError {}
 
 /// A network of action values. Its layers fit its shape, and its weights are finite.
 #[derive(Clone, Debug, PartialEq)]
@@ -225,14 +225,14 @@ impl Network {
     ///
     /// # Errors
     /// If they do not fit the shape, or a weight is not finite.
-    pub fn new(shape: Shape, layers: Vec<Dense>) -> Result<Self, Invalid> {
+    pub fn new(shape: Shape, layers: Vec<Dense>) -> Result<Self, NetworkError> {
         if let Some(field) = shape.fault() {
-            return Err(Invalid::Shape { field });
+            return Err(NetworkError::Shape { field });
         }
         let widths = shape.widths();
         let (found, expected) = (layers.len(), widths.len() - 1);
         if found != expected {
-            return Err(Invalid::Layers { found, expected });
+            return Err(NetworkError::Layers { found, expected });
         }
         for (layer, (dense, width)) in layers.iter().zip(widths.windows(2)).enumerate() {
             let weights = width[0].checked_mul(width[1]);
@@ -241,11 +241,11 @@ impl Network {
             for (part, numbers, expected) in parts {
                 let found = numbers.len();
                 if expected != Some(found) {
-                    return Err(Invalid::Size { layer, part, found, expected });
+                    return Err(NetworkError::Size { layer, part, found, expected });
                 }
             }
             if !dense.weights.iter().chain(&dense.bias).all(|w| w.is_finite()) {
-                return Err(Invalid::NotFinite { layer });
+                return Err(NetworkError::NotFinite { layer });
             }
         }
         Ok(Self { shape, layers })
@@ -323,7 +323,7 @@ impl Network {
     /// As [`Self::values`].
     #[must_use]
     pub fn greedy(&self, head: usize, inputs: &[f32], entities: &[f32]) -> usize {
-        argmax(&self.values(head, inputs, entities)) as usize
+        argmax(&self.values(head, inputs, entities))
     }
 }
 
@@ -350,9 +350,9 @@ struct Unchecked {
 
 #[cfg(feature = "serde")]
 impl TryFrom<Unchecked> for Network {
-    type Error = Invalid;
+    type Error = NetworkError;
 
-    fn try_from(network: Unchecked) -> Result<Self, Invalid> {
+    fn try_from(network: Unchecked) -> Result<Self, NetworkError> {
         Self::new(network.shape, network.layers)
     }
 }

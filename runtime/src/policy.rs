@@ -1,9 +1,10 @@
-//! Policies as documents: what was learned, with all that is needed to run and to judge it.
+//! Policies: an action for each automaton state and world state, with all that is needed to run and
+//! to judge them.
 //!
-//! A [`Policy`] holds the greedy actions, the automaton as tables over the world's states, how it
-//! was trained and what it is worth. With the feature `serde` it is saved and loaded by any
-//! format; [`Policy`] checks itself on loading, so a policy in hand is a valid one. It runs
-//! without its task: [`Policy::reset`] and [`Policy::next`] move the automaton by state numbers.
+//! A [`Policy`] knows its task as tables over the world's states, and may say how it was trained and
+//! what it is worth. With the feature `serde` it is saved and loaded by any format, as a
+//! [`Document`]; loading checks the document, so a policy in hand is a valid one. A policy runs
+//! without its formula: [`Policy::reset`] and [`Policy::next`] move the automaton by state numbers.
 //!
 //! # Schema, version 2
 //! As JSON, every field required unless marked optional, unknown fields refused:
@@ -26,7 +27,7 @@
 //!   "next": [0, 1, ...],               N * C numbers below N: next[q * C + class[s]]
 //!   "action": [3, 3, 0, ...],          N * S numbers below A: action[q * S + s]
 //!   "components": [[0, 0], ...],       optional: N lists, the states of a product's operands
-//!   "training": [{                     one for each skill; none for a policy that was solved
+//!   "training": [{                     one for each skill; none for a policy that was computed
 //!     "task": "visit_both",
 //!     "settings": { ... },             learn::Settings
 //!     "steps": 1000000,                environment steps
@@ -65,7 +66,7 @@
 
 mod document;
 
-use alloc::string::{String, ToString};
+use alloc::string::ToString;
 use alloc::vec::Vec;
 
 #[cfg(feature = "serde")]
@@ -73,30 +74,130 @@ use serde::{Deserialize, Serialize};
 
 #[cfg(feature = "serde")]
 pub(crate) use document::checked;
-pub use document::{Document, Invalid, Starts, States, Training};
+pub use document::{Document, PolicyError, Starts, States, Training};
 
-use crate::augmented::{End, Labelled};
+use crate::augmented::{Labelled, Tables};
+use crate::mismatch::Mismatch;
+use crate::monitor::Acceptor as _;
+use crate::product::Product;
+use crate::reward::{End, Ends};
 use crate::shield::Shielded;
 use crate::solve::{Certificate, Start};
 
-/// A policy for a task on a finite world: for each automaton state and state an action.
+/// A policy for a task on a finite world: for each automaton state and world state an action.
+///
+/// It knows its task and its world. What belongs to another task or another world is refused by
+/// all that takes a policy.
+///
+#[cfg_attr(feature = "macros", doc = "```")]
+#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// use tltl::prelude::*;
+///
+/// // Go to the right end of five cells.
+/// let task = Labelled::new(0..5, ["left", "right"], &tltl! { |x: &i32| F ({ *x } == 4) })?;
+/// let policy = Policy::from_fn(&task, |_, _| 1)?;
+/// let (mut s, mut steps) = (0, 0);
+/// let mut q = policy.reset(s);
+/// while policy.end(q).is_none() {
+///     s += policy.act(q, s);
+///     q = policy.next(q, s);
+///     steps += 1;
+/// }
+/// assert_eq!(steps, 4);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "Document", into = "Document"))]
-pub struct Policy(Document);
+pub struct Policy {
+    task: Labelled,
+    /// The action, indexed `q * states + s`.
+    action: Vec<u32>,
+    record: Record,
+}
+
+/// What a policy says of itself beside its actions.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Record {
+    components: Vec<Vec<u32>>,
+    training: Vec<Training>,
+    certificate: Option<Certificate>,
+    shield: Option<Shielded>,
+    starts: Option<Starts>,
+    #[cfg(feature = "std")]
+    estimate: Option<crate::estimate::Estimate>,
+}
 
 impl TryFrom<Document> for Policy {
-    type Error = Invalid;
+    type Error = PolicyError;
 
-    fn try_from(document: Document) -> Result<Self, Invalid> {
+    fn try_from(document: Document) -> Result<Self, PolicyError> {
         document.check()?;
-        Ok(Self(document))
+        let States { states, initial, accepting, trap } = document.automaton;
+        let end = |q| match q {
+            q if accepting == Some(q) => Some(End::Accepted),
+            q if trap == Some(q) => Some(End::Lost),
+            _ => None,
+        };
+        let of: Vec<Option<End>> = (0..states).map(end).collect();
+        let distance = Tables::distances(&of, &document.next);
+        let tables = Tables {
+            name: document.task,
+            formula: document.formula,
+            actions: document.actions,
+            classes: document.classes,
+            class: document.class,
+            next: document.next,
+            initial,
+            ends: Ends::new(of, distance),
+            robustness: Vec::new(),
+        };
+        let record = Record {
+            components: document.components,
+            training: document.training,
+            certificate: document.certificate,
+            shield: document.shield,
+            starts: document.starts,
+            #[cfg(feature = "std")]
+            estimate: document.estimate,
+        };
+        let action = document.action.into_iter().map(|a| a as u32).collect();
+        let (found, limit) = (document.states, u32::MAX as usize);
+        let too_many = |_| PolicyError::Range { field: "states", at: 0, found, limit };
+        let task = Labelled::from_tables(tables).map_err(too_many)?;
+        Ok(Self { task, action, record })
     }
 }
 
 impl From<Policy> for Document {
     fn from(policy: Policy) -> Self {
-        policy.0
+        let Policy { task, action, record } = policy;
+        let tables = task.tables();
+        Self {
+            format: Policy::FORMAT.to_string(),
+            version: Policy::VERSION,
+            task: task.name().to_string(),
+            formula: task.formula().to_string(),
+            states: task.states(),
+            actions: task.action_names().to_vec(),
+            automaton: States {
+                states: task.automaton_states(),
+                initial: tables.initial,
+                accepting: tables.ends.accepting(),
+                trap: tables.ends.trap(),
+            },
+            classes: tables.classes,
+            class: tables.class.clone(),
+            next: tables.next.clone(),
+            action: action.into_iter().map(|a| a as usize).collect(),
+            components: record.components,
+            training: record.training,
+            certificate: record.certificate,
+            shield: record.shield,
+            starts: record.starts,
+            #[cfg(feature = "std")]
+            estimate: record.estimate,
+        }
     }
 }
 
@@ -107,58 +208,60 @@ impl Policy {
     /// The version that this library writes and reads.
     pub const VERSION: u32 = 2;
 
-    /// The policy `action`, indexed `q * states + s`, for the task `labelled`; `name` and `formula`
-    /// say which task that is, `actions` what the actions are called.
+    /// The policy of these `actions`: for each automaton state in turn, the action in each state of
+    /// the world.
     ///
     /// # Errors
-    /// If the actions do not fit the task or the names.
+    /// If there is not one action for each (q, s), or one that the world does not have.
     pub fn new(
-        name: &str,
-        formula: &str,
-        labelled: &Labelled,
-        action: Vec<u32>,
-        actions: Vec<String>,
-    ) -> Result<Self, Invalid> {
-        let end = |end| (0..labelled.automaton_states()).find(|&q| labelled.end(q) == Some(end));
-        let document = Document {
-            format: Self::FORMAT.to_string(),
-            version: Self::VERSION,
-            task: name.to_string(),
-            formula: formula.to_string(),
-            states: labelled.states(),
-            actions,
-            automaton: States {
-                states: labelled.automaton_states(),
-                initial: 0,
-                accepting: end(End::Accepted),
-                trap: end(End::Lost),
-            },
-            classes: labelled.classes(),
-            class: labelled.class().to_vec(),
-            next: labelled.table().to_vec(),
-            action,
-            components: Vec::new(),
-            training: Vec::new(),
-            certificate: None,
-            shield: None,
-            starts: None,
-            #[cfg(feature = "std")]
-            estimate: None,
-        };
-        Self::try_from(document)
+        task: &Labelled,
+        actions: impl IntoIterator<Item = usize>,
+    ) -> Result<Self, PolicyError> {
+        let mut action = Vec::with_capacity(task.pairs());
+        for (at, found) in actions.into_iter().enumerate() {
+            if found >= task.actions() {
+                let (field, limit) = ("action", task.actions());
+                return Err(PolicyError::Range { field, at, found, limit });
+            }
+            action.push(found as u32);
+        }
+        match (action.len(), task.pairs()) {
+            (found, expected) if found != expected => {
+                Err(PolicyError::Size { field: "action", found, expected })
+            }
+            _ => Ok(Self::from_table(task, action)),
+        }
+    }
+
+    /// The policy that takes the action `act(q, s)`.
+    ///
+    /// # Errors
+    /// If that is not an action of the world for some (q, s).
+    pub fn from_fn(
+        task: &Labelled,
+        mut act: impl FnMut(u32, usize) -> usize,
+    ) -> Result<Self, PolicyError> {
+        let states = task.states();
+        let pairs = 0..task.pairs();
+        Self::new(task, pairs.map(|pair| act((pair / states) as u32, pair % states)))
+    }
+
+    /// The policy of actions that are the world's, one for each pair.
+    pub(crate) fn from_table(task: &Labelled, action: Vec<u32>) -> Self {
+        Self { task: task.clone(), action, record: Record::default() }
     }
 
     /// The same policy, saying how it was learned; called once for each skill of a composition.
     #[must_use]
     pub fn trained(mut self, training: Training) -> Self {
-        self.0.training.push(training);
+        self.record.training.push(training);
         self
     }
 
     /// The same policy, saying what it is worth.
     #[must_use]
     pub fn certified(mut self, certificate: Certificate) -> Self {
-        self.0.certificate = Some(certificate);
+        self.record.certificate = Some(certificate);
         self
     }
 
@@ -166,15 +269,15 @@ impl Policy {
     /// is worth under it is then its certificate.
     #[must_use]
     pub fn shielded(mut self, worth: Shielded) -> Self {
-        self.0.certificate = Some(worth.after.clone());
-        self.0.shield = Some(worth);
+        self.record.certificate = Some(worth.after.clone());
+        self.record.shield = Some(worth);
         self
     }
 
     /// The same policy, saying what it is worth from each start.
     #[must_use]
     pub fn from_starts(mut self, starts: &[Start]) -> Self {
-        self.0.starts = Some(Starts::new(starts));
+        self.record.starts = Some(Starts::new(starts));
         self
     }
 
@@ -182,69 +285,125 @@ impl Policy {
     #[cfg(feature = "std")]
     #[must_use]
     pub fn estimated(mut self, estimate: crate::estimate::Estimate) -> Self {
-        self.0.estimate = Some(estimate);
+        self.record.estimate = Some(estimate);
         self
     }
 
-    /// The same policy, saying which states of a product's operands its own are.
+    /// The same policy, saying which states of the operands of `product` its own automaton states
+    /// are.
     ///
     /// # Errors
-    /// Unless there is a list for each automaton state.
-    pub fn composed(mut self, components: Vec<Vec<u32>>) -> Result<Self, Invalid> {
-        self.0.components = components;
-        Self::try_from(self.0)
+    /// If the product has another number of states.
+    pub fn composed<S: ?Sized>(mut self, product: &Product<'_, S>) -> Result<Self, PolicyError> {
+        let states = product.states();
+        if states != self.task.automaton_states() {
+            let expected = self.task.automaton_states() as usize;
+            let (field, found) = ("components", states as usize);
+            return Err(PolicyError::Size { field, found, expected });
+        }
+        self.record.components = (0..states).map(|q| product.components(q).to_vec()).collect();
+        Ok(self)
     }
 
-    /// All that the policy says.
+    /// The task, on the world that the policy acts in.
     #[must_use]
-    pub const fn document(&self) -> &Document {
-        &self.0
+    pub const fn task(&self) -> &Labelled {
+        &self.task
+    }
+
+    /// All that the policy says, as it is saved.
+    #[must_use]
+    pub fn document(&self) -> Document {
+        self.clone().into()
+    }
+
+    /// How it was learned: one entry for each skill of a composition.
+    #[must_use]
+    pub fn training(&self) -> &[Training] {
+        &self.record.training
+    }
+
+    /// What it is worth, if it says so.
+    #[must_use]
+    pub const fn certificate(&self) -> Option<&Certificate> {
+        self.record.certificate.as_ref()
+    }
+
+    /// What its shield costs and gains, if it is under one.
+    #[must_use]
+    pub const fn shield(&self) -> Option<&Shielded> {
+        self.record.shield.as_ref()
+    }
+
+    /// What it is worth from each start, if it says so.
+    #[must_use]
+    pub const fn starts(&self) -> Option<&Starts> {
+        self.record.starts.as_ref()
+    }
+
+    /// What it was seen to be worth, if it says so.
+    #[cfg(feature = "std")]
+    #[must_use]
+    pub const fn estimate(&self) -> Option<&crate::estimate::Estimate> {
+        self.record.estimate.as_ref()
     }
 
     /// The automaton state after reading the first state of an episode.
     ///
     /// # Panics
     /// If `s` is not a state of the world.
+    #[inline]
     #[must_use]
     pub fn reset(&self, s: usize) -> u32 {
-        self.next(self.0.automaton.initial, s)
+        self.task.start(s)
     }
 
     /// The automaton state after `q` has read `s`.
     ///
     /// # Panics
-    /// If `q` or `s` are out of range.
+    /// If `q` or `s` is out of range.
+    #[inline]
     #[must_use]
     pub fn next(&self, q: u32, s: usize) -> u32 {
-        self.0.next[q as usize * self.0.classes + self.0.class[s] as usize]
+        self.task.next(q, s)
     }
 
     /// The action in `s` at `q`.
     ///
     /// # Panics
-    /// If `q` or `s` are out of range.
+    /// If `q` or `s` is out of range.
+    #[inline]
     #[must_use]
-    pub fn act(&self, q: u32, s: usize) -> u32 {
-        assert!(s < self.0.states, "a state of the world");
-        self.0.action[q as usize * self.0.states + s]
+    #[track_caller]
+    pub fn act(&self, q: u32, s: usize) -> usize {
+        assert!(s < self.task.states(), "a state of the world");
+        self.action[self.task.pair(q, s)] as usize
     }
 
     /// The sub-policy of `q`: its action in each state (paper, Eq. 3A5).
     ///
     /// # Panics
     /// If `q` is out of range.
-    #[must_use]
-    pub fn sub_policy(&self, q: u32) -> &[u32] {
-        &self.0.action[q as usize * self.0.states..][..self.0.states]
+    #[track_caller]
+    pub fn sub_policy(&self, q: u32) -> impl Iterator<Item = usize> {
+        let layer = &self.action[self.task.pair(q, 0)..][..self.task.states()];
+        layer.iter().map(|&a| a as usize)
     }
 
     /// How the task has ended at `q`, if it has.
+    #[inline]
     #[must_use]
     pub fn end(&self, q: u32) -> Option<End> {
-        match q {
-            q if self.0.automaton.accepting == Some(q) => Some(End::Accepted),
-            q if self.0.automaton.trap == Some(q) => Some(End::Lost),
-            _ => None,
-        }
+        self.task.end(q)
+    }
+
+    /// All actions, indexed `q * states + s`.
+    pub(crate) fn table(&self) -> &[u32] {
+        &self.action
+    }
+
+    /// `Ok` if it is a policy for `task`.
+    pub(crate) fn must_be_for(&self, task: &Labelled) -> Result<(), Mismatch> {
+        task.expect("a policy", &self.task)
     }
 }

@@ -2,63 +2,70 @@
 
 use alloc::vec::Vec;
 
-#[cfg(feature = "serde")]
-use serde::{Deserialize, Serialize};
-
 use crate::augmented::Labelled;
+use crate::mismatch::Mismatch;
+use crate::policy::Policy;
 
-/// Action values indexed (q, s, a): `((q * states) + s) * actions + a`.
+/// Action values for each automaton state q, world state s and action a of a task.
 ///
-/// Rows of terminal automaton states are 0. Where an action is chosen, ties go to the lowest
-/// index.
+/// Rows of terminal automaton states are 0. Where an action is chosen, ties go to the lowest number.
+///
+#[cfg_attr(feature = "macros", doc = "```")]
+#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// use tltl::prelude::*;
+///
+/// let task = Labelled::new(0..5, ["left", "right"], &tltl! { |x: &i32| F ({ *x } == 4) })?;
+/// let mut table = QTable::zeros(&task);
+/// table.row_mut(0, 3)[1] = 0.5;
+/// assert_eq!((table.max(0, 3), table.greedy(0, 3)), (0.5, 1));
+/// assert_eq!(table.policy().act(0, 3), 1);
+/// # Ok::<(), tltl::augmented::LabelError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct QTable {
+    task: Labelled,
+    /// Indexed `((q * states) + s) * actions + a`.
     values: Vec<f64>,
-    states: usize,
-    actions: usize,
 }
 
 impl QTable {
-    /// A table of zeros for a task over a world with `actions` actions.
+    /// A table of zeros.
     #[must_use]
-    pub fn zeros(labelled: &Labelled, actions: usize) -> Self {
-        let values = alloc::vec![0.0; labelled.pairs() * actions];
-        Self { values, states: labelled.states(), actions }
+    pub fn zeros(task: &Labelled) -> Self {
+        Self { values: alloc::vec![0.0; task.pairs() * task.actions()], task: task.clone() }
     }
 
     /// A table of `value` in all live automaton states: an optimistic start is one that no true
     /// value exceeds.
     #[must_use]
-    pub fn filled(labelled: &Labelled, actions: usize, value: f64) -> Self {
-        let mut table = Self::zeros(labelled, actions);
-        for q in labelled.live() {
-            table.layer_mut(q).fill(value);
+    pub fn filled(task: &Labelled, value: f64) -> Self {
+        let mut table = Self::zeros(task);
+        let size = task.states() * task.actions();
+        for q in task.live() {
+            table.values[q as usize * size..][..size].fill(value);
         }
         table
     }
 
-    /// The number of states of the world.
-    #[inline]
-    #[must_use]
-    pub const fn states(&self) -> usize {
-        self.states
+    /// The table of these `values`, indexed `((q * states) + s) * actions + a`.
+    ///
+    /// # Errors
+    /// If there is not one value for each q, s and a.
+    pub fn from_values(task: &Labelled, values: Vec<f64>) -> Result<Self, Mismatch> {
+        if values.len() != task.pairs() * task.actions() {
+            let found = alloc::format!("{} values", values.len());
+            return Err(Mismatch::new("a table", found, task.describe()));
+        }
+        Ok(Self { task: task.clone(), values })
     }
 
-    /// The number of actions.
-    #[inline]
+    /// The task that the values are for.
     #[must_use]
-    pub const fn actions(&self) -> usize {
-        self.actions
+    pub const fn task(&self) -> &Labelled {
+        &self.task
     }
 
-    /// The number of automaton states.
-    #[must_use]
-    pub fn automaton_states(&self) -> u32 {
-        (self.values.len() / (self.states * self.actions)) as u32
-    }
-
-    /// All values, in the order of the index.
+    /// All values, indexed `((q * states) + s) * actions + a`.
     #[inline]
     #[must_use]
     pub fn values(&self) -> &[f64] {
@@ -71,33 +78,30 @@ impl QTable {
     }
 
     /// Q(s, q, ·).
+    ///
+    /// # Panics
+    /// If there is no such automaton state or state.
     #[inline]
     #[must_use]
     pub fn row(&self, q: u32, s: usize) -> &[f64] {
-        let start = (q as usize * self.states + s) * self.actions;
-        &self.values[start..start + self.actions]
+        let actions = self.task.actions();
+        &self.values[self.task.pair(q, s) * actions..][..actions]
     }
 
     /// Q(s, q, ·), to change it.
+    ///
+    /// # Panics
+    /// If there is no such automaton state or state.
     #[inline]
     pub fn row_mut(&mut self, q: u32, s: usize) -> &mut [f64] {
-        let start = (q as usize * self.states + s) * self.actions;
-        &mut self.values[start..start + self.actions]
-    }
-
-    /// Q(·, q, ·), the values by which the sub-policy of `q` is chosen (paper, Eq. 3A5).
-    #[must_use]
-    pub fn layer(&self, q: u32) -> &[f64] {
-        let size = self.states * self.actions;
-        &self.values[q as usize * size..][..size]
-    }
-
-    fn layer_mut(&mut self, q: u32) -> &mut [f64] {
-        let size = self.states * self.actions;
-        &mut self.values[q as usize * size..][..size]
+        let actions = self.task.actions();
+        &mut self.values[self.task.pair(q, s) * actions..][..actions]
     }
 
     /// V(s, q): the largest value of an action.
+    ///
+    /// # Panics
+    /// If there is no such automaton state or state.
     #[inline]
     #[must_use]
     pub fn max(&self, q: u32, s: usize) -> f64 {
@@ -105,30 +109,26 @@ impl QTable {
     }
 
     /// The action of the largest value.
+    ///
+    /// # Panics
+    /// If there is no such automaton state or state.
     #[inline]
     #[must_use]
-    pub fn greedy(&self, q: u32, s: usize) -> u32 {
+    pub fn greedy(&self, q: u32, s: usize) -> usize {
         argmax(self.row(q, s))
     }
 
-    /// The greedy policy, indexed `q * states + s`.
+    /// The greedy policy.
     #[must_use]
-    pub fn policy(&self) -> Vec<u32> {
-        self.values.chunks(self.actions).map(argmax).collect()
-    }
-
-    /// The table divided by its largest value, as before a composition (paper, Section 5.1); the
-    /// same table if that is not positive.
-    #[must_use]
-    pub fn normalised(&self) -> Self {
-        let top = largest(&self.values);
-        let scale = if top > 0.0 { 1.0 / top } else { 1.0 };
-        Self { values: self.values.iter().map(|v| v * scale).collect(), ..*self }
+    pub fn policy(&self) -> Policy {
+        let rows = self.values.chunks(self.task.actions());
+        Policy::from_table(&self.task, rows.map(|row| argmax(row) as u32).collect())
     }
 
     /// All (q, s, Q(s, q, ·)), to change them.
     pub(crate) fn rows_mut(&mut self) -> impl Iterator<Item = (u32, usize, &mut [f64])> {
-        let (states, rows) = (self.states, self.values.chunks_mut(self.actions).enumerate());
+        let (states, actions) = (self.task.states(), self.task.actions());
+        let rows = self.values.chunks_mut(actions).enumerate();
         rows.map(move |(pair, row)| ((pair / states) as u32, pair % states, row))
     }
 }
@@ -145,7 +145,8 @@ pub(crate) fn largest(values: &[f64]) -> f64 {
     }
 }
 
-/// The larger; which one it is cannot be guessed, so it is not to become a branch.
+/// The larger of two. Branch prediction cannot guess which one it is, so this must not become a
+/// branch.
 #[inline]
 fn more(a: f64, b: f64) -> f64 {
     core::hint::select_unpredictable(a > b, a, b)
@@ -157,12 +158,12 @@ fn largest_of(values: &[f64]) -> f64 {
 
 /// The index of the largest value, the lowest of equals.
 #[inline]
-pub(crate) fn argmax<T: PartialOrd>(values: &[T]) -> u32 {
+pub(crate) fn argmax<T: PartialOrd>(values: &[T]) -> usize {
     let mut best = 0;
     for (i, v) in values.iter().enumerate() {
         if *v > values[best] {
             best = i;
         }
     }
-    best as u32
+    best
 }

@@ -3,7 +3,7 @@
 //! A [`Shield`] is a mask of actions for each pair (q, s). With a model it leaves only the actions
 //! from which the trap is avoided in the long run with the largest possible probability; without
 //! one it looks one step ahead in what was seen. It never leaves a pair without actions. What it
-//! costs and gains is in [`Problem::certify_shield`].
+//! costs and gains is in [`Optimum::certify_shield`].
 //!
 //! A shield knows the trap, not the goal: where the goal itself lies beside the trap, staying away
 //! for ever avoids it best, and the shield may do that. Laid over optimal safe policies of the three
@@ -16,17 +16,43 @@ use alloc::vec::Vec;
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
-use crate::augmented::{End, Labelled};
+use crate::augmented::Labelled;
 use crate::learn::Experience;
+use crate::mismatch::Mismatch;
 use crate::model::FiniteModel;
+use crate::policy::Policy;
 use crate::q::QTable;
-use crate::solve::{Actions, Certificate, Problem};
+use crate::reward::End;
+use crate::solve::{Actions, Certificate, Optimum, Problem};
 
 /// Which actions are allowed where.
-#[derive(Clone, Debug, PartialEq, Eq)]
+///
+#[cfg_attr(feature = "macros", doc = "```")]
+#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// use tltl::prelude::*;
+/// use tltl::shield::Shield;
+/// # struct Row;
+/// # impl FiniteModel for Row {
+/// #     type State = i32;
+/// #     fn states(&self) -> usize { 5 }
+/// #     fn actions(&self) -> usize { 2 }
+/// #     fn state(&self, s: usize) -> i32 { s as i32 }
+/// #     fn transitions(&self, s: usize, a: usize, mut outcome: impl FnMut(usize, f64)) {
+/// #         outcome([s.saturating_sub(1), (s + 1).min(4)][a], 1.0);
+/// #     }
+/// # }
+///
+/// // `Row` is five cells in a row; the last one, and never the first before.
+/// let task = Labelled::of_model(&Row, &tltl! { |x: &i32| ({ *x } != 0) U ({ *x } == 4) })?;
+/// let problem = Problem::new(&Dynamics::new(&Row)?, &task)?;
+/// let shield = Shield::of_model(&problem);
+/// assert!(!shield.allows(0, 1, 0) && shield.allows(0, 1, 1));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
 pub struct Shield {
+    task: Labelled,
     actions: Actions,
-    states: usize,
 }
 
 /// What a shield does to a policy: means over the starts, `s_0` read.
@@ -52,21 +78,20 @@ impl Shield {
     /// The shield of a known model: the actions with which P(the trap is ever entered) can still be
     /// the smallest possible, within 1e-9.
     #[must_use]
-    pub fn of_model(problem: &Problem<'_>) -> Self {
-        let lost = problem.smallest_lost();
-        Self { actions: problem.avoiding(&lost), states: problem.labelled().states() }
+    pub fn of_model(problem: &Problem) -> Self {
+        let actions = problem.avoiding(&problem.smallest_lost());
+        Self { task: problem.task().clone(), actions }
     }
 
     /// The shield of what was seen: the actions that entered the trap least often, as a fraction of
     /// the times that they were tried. It looks one step ahead only: it may lead to where every
     /// action is dangerous. An action never tried counts as harmless.
     ///
-    /// # Panics
+    /// # Errors
     /// If the experience is of another world.
-    #[must_use]
-    pub fn one_step(experience: &Experience, task: &Labelled) -> Self {
-        assert_eq!(experience.states(), task.states(), "experience of the task's own world");
-        let mut actions = Actions::none(task.pairs(), experience.actions());
+    pub fn one_step(experience: &Experience, task: &Labelled) -> Result<Self, Mismatch> {
+        task.expect_world("experience", experience.states(), experience.actions())?;
+        let mut actions = Actions::none(task.pairs(), task.actions());
         for q in task.live() {
             for s in 0..task.states() {
                 let risk = |a| {
@@ -77,7 +102,7 @@ impl Shield {
                     });
                     risk
                 };
-                let risks: Vec<f64> = (0..experience.actions()).map(risk).collect();
+                let risks: Vec<f64> = (0..task.actions()).map(risk).collect();
                 let least = risks.iter().copied().fold(f64::INFINITY, f64::min);
                 for (a, &risk) in risks.iter().enumerate() {
                     if risk <= least {
@@ -86,62 +111,74 @@ impl Shield {
                 }
             }
         }
-        Self { actions, states: task.states() }
+        Ok(Self { task: task.clone(), actions })
+    }
+
+    /// The task that the shield is for.
+    #[must_use]
+    pub const fn task(&self) -> &Labelled {
+        &self.task
     }
 
     /// Whether action `a` is allowed in `s` at a live `q`.
     ///
     /// # Panics
-    /// If there is no such pair.
+    /// If there is no such pair or action.
     #[inline]
     #[must_use]
+    #[track_caller]
     pub fn allows(&self, q: u32, s: usize, a: usize) -> bool {
-        self.actions.contains(q as usize * self.states + s, a)
+        assert!(s < self.task.states() && a < self.task.actions(), "a state and an action");
+        self.actions.contains(self.task.pair(q, s), a)
     }
 
-    /// The allowed action of the largest value; the lowest of equals.
+    /// The allowed action of the largest value in `table`; the lowest of equals.
     ///
     /// # Panics
-    /// If there is no such pair.
+    /// If there is no such pair in the shield's task or in the table's.
     #[must_use]
-    pub fn greedy(&self, table: &QTable, q: u32, s: usize) -> u32 {
+    #[track_caller]
+    pub fn greedy(&self, table: &QTable, q: u32, s: usize) -> usize {
         let row = table.row(q, s);
         let allowed = (0..row.len()).filter(|&a| self.allows(q, s, a));
         let best = allowed.reduce(|best, a| if row[a] > row[best] { a } else { best });
-        best.map_or_else(|| table.greedy(q, s), |a| a as u32)
+        best.unwrap_or_else(|| table.greedy(q, s))
     }
 
-    /// The greedy policy under the shield, indexed `q * states + s`.
-    #[must_use]
-    pub fn policy(&self, table: &QTable) -> Vec<u32> {
-        let pairs = 0..table.automaton_states() as usize * self.states;
-        pairs.map(|at| self.greedy(table, (at / self.states) as u32, at % self.states)).collect()
+    /// The greedy policy under the shield.
+    ///
+    /// # Errors
+    /// If the table is of another task or another world.
+    pub fn policy(&self, table: &QTable) -> Result<Policy, Mismatch> {
+        self.task.expect("a table", table.task())?;
+        let states = self.task.states();
+        let greedy = |pair| self.greedy(table, (pair / states) as u32, pair % states) as u32;
+        Ok(Policy::from_table(&self.task, (0..self.task.pairs()).map(greedy).collect()))
     }
 }
 
-impl Problem<'_> {
-    /// What `shield` costs and gains when it is laid over the greedy policy of `table`; `q_star`
-    /// are the optimal values for the reward that was trained on.
+impl Optimum {
+    /// What `shield` costs and gains when it is laid over the greedy policy of `table`.
     ///
-    /// # Panics
-    /// If the shield or the tables are not of this problem.
-    #[must_use]
-    pub fn certify_shield(&self, shield: &Shield, table: &QTable, q_star: &QTable) -> Shielded {
-        let (before, after) = (table.policy(), shield.policy(table));
-        let labelled = self.labelled();
-        let live: Vec<u32> = labelled.live().collect();
-        let mut overruled = 0;
-        for &q in &live {
-            let layer = labelled.pair(q, 0)..labelled.pair(q + 1, 0);
-            overruled += layer.filter(|&pair| before[pair] != after[pair]).count();
+    /// # Errors
+    /// If the shield or the table is of another task or another world.
+    pub fn certify_shield(&self, shield: &Shield, table: &QTable) -> Result<Shielded, Mismatch> {
+        let (problem, task) = (self.problem(), self.problem().task());
+        task.expect("a shield", &shield.task)?;
+        let (before, after) = (table.policy(), shield.policy(table)?);
+        let (mut overruled, mut live) = (0, 0);
+        for q in task.live() {
+            let differ = |&s: &usize| before.act(q, s) != after.act(q, s);
+            overruled += (0..task.states()).filter(differ).count();
+            live += task.states();
         }
-        Shielded {
-            lost_before: self.mean_of(&self.lost(&before)),
-            lost_after: self.mean_of(&self.lost(&after)),
-            smallest_lost: self.mean_of(&self.smallest_lost()),
-            overruled: overruled as f64 / (live.len() * labelled.states()).max(1) as f64,
-            before: self.certify(&before, q_star),
-            after: self.certify(&after, q_star),
-        }
+        Ok(Shielded {
+            lost_before: problem.lost(&before)?.mean(),
+            lost_after: problem.lost(&after)?.mean(),
+            smallest_lost: problem.smallest_lost().mean(),
+            overruled: overruled as f64 / live.max(1) as f64,
+            before: self.certify(&before)?,
+            after: self.certify(&after)?,
+        })
     }
 }

@@ -1,25 +1,23 @@
 //! The deep learner against exact values.
 #![cfg(feature = "deep")]
 
-use tltl::augmented::{Labelled, Rewards};
-use tltl::compose::{self, Combine, Compose};
-use tltl::deep::{
-    AsGiven, Checkpoint, Composition, Device, Error, Learned, Learner, Replay, Settings, Skill,
-    SumTree,
-};
-use tltl::env::{Env, ModelEnv, Step};
-use tltl::learn::Schedule;
-use tltl::model::FiniteModel;
+use tltl::OutOfRange;
+use tltl::compose::{self, Compose};
+use tltl::deep::{AsGiven, Checkpoint, Composition, Device, Error, Learner, Settings, Skill};
+use tltl::learn::{Schedule, Updates};
 use tltl::network::Features;
 use tltl::network::policy::NetworkPolicy;
 use tltl::policy::States;
-use tltl::product::Product;
-use tltl::rand::{Rng, SeedableRng, rngs::Xoshiro256PlusPlus};
-use tltl::solve::Problem;
-use tltl::tltl;
-use tltl::{Acceptor, Monitor};
+use tltl::prelude::{
+    Acceptor, Combine, Env, FiniteModel, Labelled, ModelEnv, Monitor, Problem, Product, Rewards,
+    Step, tltl,
+};
+use tltl::rand::Rng;
 
-const GAMMA: f64 = 0.9;
+/// The paper's reward, γ 0.9.
+fn rewards() -> Rewards {
+    Rewards::progress().with_gamma(0.9).unwrap()
+}
 
 /// Six cells in a row, left and right, certain.
 #[derive(Clone)]
@@ -60,21 +58,22 @@ impl Features<i32> for OneHot {
 
 /// Explores at random, and anneals until values stand still.
 fn settings(updates: u64) -> Settings {
-    Settings {
-        gamma: GAMMA,
-        horizon: 40,
-        hidden: vec![32],
-        batch: 64,
-        warmup: 100,
-        capacity: 2_000,
-        steps: 1,
-        steps_per_update: 1,
-        advantage_learning: 0.0,
-        advantage_penalty: 0.0,
-        epsilon: Schedule::Constant(1.0),
-        learning_rate: Schedule::Linear { from: 3e-3, to: 1e-5, steps: updates },
-        ..Settings::default()
-    }
+    let settings = || -> Result<Settings, OutOfRange> {
+        Settings::default()
+            .with_rewards(rewards())
+            .with_horizon(40)?
+            .with_hidden([32])?
+            .with_batch(64)?
+            .with_warmup(100)?
+            .with_capacity(2_000)?
+            .with_steps(1)?
+            .with_steps_per_update(1)?
+            .with_advantage_learning(0.0)?
+            .with_advantage_penalty(0.0)?
+            .with_epsilon(Schedule::constant(1.0)?)?
+            .with_learning_rate(Schedule::linear(3e-3, 1e-5, updates)?)
+    };
+    settings().unwrap()
 }
 
 /// All values against the optimum of the model, where state and automaton state can meet.
@@ -85,7 +84,7 @@ fn assert_optimal(
 ) {
     let env = ModelEnv::new(Row).unwrap();
     let labelled = Labelled::of_env(&env, task).unwrap();
-    let optimum = Problem::new(env.dynamics(), &labelled).optimal_q(&Rewards::default(), GAMMA);
+    let optimum = Problem::new(env.dynamics(), &labelled).unwrap().optimal_q(&rewards());
     for q in labelled.live() {
         for s in 0..6 {
             let meets = |from| task.next(from, &(s as i32)).unwrap() == q;
@@ -105,7 +104,7 @@ fn a_chain_is_learned_to_its_exact_values() {
     let task = tltl! { |x: &i32| ({ *x } == 5) T ({ *x } == 0) };
     let mut env = ModelEnv::new(Row).unwrap();
     let skill = Skill::new(&task, OneHot);
-    let mut learner = Learner::new(skill, env.actions(), settings(6_000), &Device::flex(), 1);
+    let mut learner = Learner::new(skill, &env, settings(6_000), &Device::flex(), 1);
     learner.train(&mut env, 6_000).unwrap();
     assert_optimal(&task, 1e-2, |q, s| learner.values(q, s).unwrap());
     // The network alone says the same.
@@ -130,10 +129,10 @@ fn a_chain_is_learned_to_its_exact_values() {
 fn without_counterfactual_updates_or_normalisation_it_learns_the_same() {
     let task = tltl! { |x: &i32| ({ *x } == 5) T ({ *x } == 0) };
     let mut env = ModelEnv::new(Row).unwrap();
-    let plain =
-        Settings { counterfactual: false, normalisation: 0.0, priority: 0.0, ..settings(8_000) };
+    let plain = settings(8_000).with_updates(Updates::Current);
+    let plain = plain.with_normalisation(0.0).unwrap().with_priority(0.0).unwrap();
     let skill = Skill::new(&task, OneHot);
-    let mut learner = Learner::new(skill, env.actions(), plain, &Device::flex(), 1);
+    let mut learner = Learner::new(skill, &env, plain, &Device::flex(), 1);
     learner.train(&mut env, 8_000).unwrap();
     let mut right = 0;
     for s in 0..6 {
@@ -149,7 +148,7 @@ fn a_learner_resumed_goes_on_bit_for_bit() {
     let skill = Skill::new(&task, OneHot);
     let mut env = ModelEnv::new(Row).unwrap();
     let device = Device::flex();
-    let mut whole = Learner::new(skill, 2, settings(1_000), &device, 1);
+    let mut whole = Learner::new(skill, &env, settings(1_000), &device, 1);
     whole.train(&mut env, 500).unwrap();
     let saved = serde_json::to_string(&whole.checkpoint()).unwrap();
     let checkpoint: Checkpoint<i32> = serde_json::from_str(&saved).unwrap();
@@ -162,9 +161,17 @@ fn a_learner_resumed_goes_on_bit_for_bit() {
     broken["moments"]["second"][0]["bias"].as_array_mut().unwrap().pop();
     let broken: Checkpoint<i32> = serde_json::from_value(broken).unwrap();
     assert!(Learner::resume(skill, broken, &device).is_err(), "moments of another network");
-    let other = tltl! { |x: &i32| F ({ *x } == 5) };
-    let other = Skill::new(&other, OneHot);
-    assert!(Learner::resume(other, whole.checkpoint(), &device).is_err(), "another task's heads");
+    let once = tltl! { |x: &i32| F ({ *x } == 5) };
+    let other = Skill::new(&once, OneHot);
+    let error = Learner::resume(other, whole.checkpoint(), &device).unwrap_err().to_string();
+    for named in ["a checkpoint of `({* x} == 5) T", "2 heads", "does not fit `F ({", "1 heads"] {
+        assert!(error.contains(named), "{error}");
+    }
+    // The same heads, but another task.
+    let nearer = tltl! { |x: &i32| ({ *x } == 4) T ({ *x } == 0) };
+    let other = Skill::new(&nearer, OneHot);
+    let error = Learner::resume(other, whole.checkpoint(), &device).unwrap_err().to_string();
+    assert!(error.contains("== 4"), "{error}");
 }
 
 /// All of Algorithm 2, whatever holds the values.
@@ -179,27 +186,13 @@ fn a_composition_reaches_the_optimum_without_a_step() {
     let right = tltl! { |x: &i32| F ({ *x } == 5) };
     let device = Device::flex();
     let mut env = ModelEnv::new(Row).unwrap();
-    let mut first = Learner::new(Skill::new(&left, OneHot), 2, settings(3_000), &device, 1);
-    let mut second = Learner::new(Skill::new(&right, OneHot), 2, settings(3_000), &device, 2);
+    let mut first = Learner::new(Skill::new(&left, OneHot), &env, settings(3_000), &device, 1);
+    let mut second = Learner::new(Skill::new(&right, OneHot), &env, settings(3_000), &device, 2);
     first.train(&mut env, 3_000).unwrap();
     second.train(&mut env, 3_000).unwrap();
     let steps = env.steps();
     let product = Product::conjunction(&[&left, &right]);
-    let networks = [first.network().unwrap(), second.network().unwrap()];
-    let skills = [
-        Learned {
-            network: &networks[0],
-            features: &OneHot,
-            task: &left,
-            experience: first.replay(),
-        },
-        Learned {
-            network: &networks[1],
-            features: &OneHot,
-            task: &right,
-            experience: second.replay(),
-        },
-    ];
+    let skills = [first.learned().unwrap(), second.learned().unwrap()];
     let compose = |combine, updates| {
         let settings = settings(updates);
         Composition::new(&product, &skills, AsGiven, combine, settings, &device, 3).unwrap()
@@ -208,11 +201,11 @@ fn a_composition_reaches_the_optimum_without_a_step() {
     // Step 2 is the sum: where one skill alone is pending, that skill's values.
     let pending = (0..product.states()).find(|&q| product.components(q)[1] == 1).unwrap();
     let sum = refined.values(pending, &3).unwrap();
-    assert!((sum[0] - networks[0].values(0, &[0., 0., 0., 1., 0., 0.], &[])[0]).abs() < 1e-5);
+    assert!((sum[0] - skills[0].network.values(0, &[0., 0., 0., 1., 0., 0.], &[])[0]).abs() < 1e-5);
     carry_out(&mut refined).unwrap();
     assert_optimal(&product, 2e-2, |q, s| refined.values(q, s).unwrap());
     // Advantage learning moves the other actions away, and leaves the values of states.
-    let settings = Settings { advantage_learning: 0.8, ..settings(8_000) };
+    let settings = settings(8_000).with_advantage_learning(0.8).unwrap();
     let mut wide =
         Composition::new(&product, &skills, AsGiven, Combine::Sum, settings, &device, 3).unwrap();
     carry_out(&mut wide).unwrap();
@@ -223,21 +216,16 @@ fn a_composition_reaches_the_optimum_without_a_step() {
     assert!((wider / narrow - 5.0).abs() < 1.0, "{narrow} {wider}");
 
     // Tables go the same way.
-    let labelled = |task: &dyn Monitor<i32>| Labelled::of_env(&env, task).unwrap();
-    let (task, tasks) = (labelled(&product), [labelled(&left), labelled(&right)]);
-    let rewards = Rewards::default();
+    let problem = |task: &dyn Monitor<i32>| {
+        Problem::new(env.dynamics(), &Labelled::of_env(&env, task).unwrap()).unwrap()
+    };
     let [one, two] =
-        [0, 1].map(|i| Problem::new(env.dynamics(), &tasks[i]).optimal_q(&rewards, GAMMA));
-    let skills =
-        [compose::Skill { q: &one, task: &tasks[0] }, compose::Skill { q: &two, task: &tasks[1] }];
-    let mut tables = compose::Composition::new(&product, &task, &skills).on(
-        env.dynamics(),
-        rewards,
-        GAMMA,
-        Combine::Sum,
-    );
+        [&left as &dyn Monitor<i32>, &right].map(|task| problem(task).optimal_q(&rewards()));
+    let problem = problem(&product);
+    let tables = compose::Composition::new(&product, problem.task(), &[&one, &two], rewards());
+    let mut tables = tables.unwrap().on(env.dynamics(), Combine::Sum).unwrap();
     carry_out(&mut tables).unwrap();
-    let exact = Problem::new(env.dynamics(), &task).optimal_q(&rewards, GAMMA);
+    let exact = problem.optimal_q(&rewards());
     for s in 0..6 {
         let own = [tables.act(both, &(s as usize)).unwrap(), wide.act(both, &s).unwrap()];
         let row = exact.row(both, s as usize);
@@ -247,63 +235,6 @@ fn a_composition_reaches_the_optimum_without_a_step() {
         assert!(own.into_iter().all(right), "{own:?} of {row:?} at {s}");
     }
     assert_eq!(env.steps(), steps, "no step in the world");
-}
-
-#[test]
-fn priorities_are_drawn_in_proportion() {
-    let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
-    let mut below = |n: u64| (rng.next_u64() % n) as usize;
-    let (mut tree, mut naive) = (SumTree::new(100), vec![0.0; 100]);
-    for _ in 0..1_000 {
-        let (i, weight) = (below(100), below(8) as f64);
-        tree.set(i, weight);
-        naive[i] = weight;
-    }
-    let total: f64 = naive.iter().sum();
-    assert!((tree.total() - total).abs() < 1e-9);
-    for step in 0..10_000 {
-        let mass = total * f64::from(step) / 10_000.0;
-        let mut left = mass;
-        let expected = naive.iter().position(|w| {
-            left -= w;
-            left < 0.0
-        });
-        assert_eq!(Some(tree.find(mass)), expected);
-    }
-}
-
-#[test]
-fn a_replay_keeps_its_last_states_in_order() {
-    let mut replay = Replay::new(10);
-    let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
-    for episode in 0..50 {
-        replay.start(episode * 100);
-        for t in 1..=episode % 7 {
-            replay.push(0, t as u32, 0.0, false, episode * 100 + t);
-        }
-        if (0..replay.len()).all(|i| replay.steps_from(i) == 0) {
-            continue;
-        }
-        for _ in 0..20 {
-            let (place, _) = replay.draw(false, &mut rng);
-            let ahead = replay.steps_from(place);
-            assert!(ahead > 0, "a last state has no step");
-            for n in 0..=ahead {
-                let expected = replay.moment(place).state + n as i32;
-                assert_eq!(replay.moment(replay.after(place, n)).state, expected);
-            }
-        }
-    }
-    let mut copy = Replay::new(40);
-    copy.extend(&replay);
-    let whole = |replay: &Replay<i32>| {
-        let steps = (0..replay.len()).filter(|&i| replay.steps_from(i) > 0);
-        let mut steps: Vec<_> =
-            steps.map(|i| (replay.moment(i).state, replay.moment(i).action)).collect();
-        steps.sort_unstable();
-        steps
-    };
-    assert_eq!(whole(&copy), whole(&replay));
 }
 
 /// A world whose reward or state breaks at some step.
@@ -348,18 +279,25 @@ impl Features<i32> for Bad {
 fn what_is_not_finite_is_named_at_once() {
     let task = tltl! { |x: &i32| F ({ *x } == 5) };
     let device = Device::flex();
-    let mut settings = settings(1_000);
+    let settings = settings(1_000);
     let mut env = Broken { at: 200, steps: 0, reward: f64::NAN };
-    let mut learner = Learner::new(Skill::new(&task, OneHot), 2, settings.clone(), &device, 1);
+    let mut learner = Learner::new(Skill::new(&task, OneHot), &env, settings.clone(), &device, 1);
     assert_eq!(learner.train(&mut env, 1_000), Err(Error::Reward(201)));
 
     let mut env = Broken { at: 200, steps: 0, reward: 0.0 };
-    let mut learner = Learner::new(Skill::new(&task, Bad), 2, settings.clone(), &device, 1);
+    let mut learner = Learner::new(Skill::new(&task, Bad), &env, settings.clone(), &device, 1);
     assert_eq!(learner.train(&mut env, 1_000), Err(Error::Feature(1)));
 
-    settings.learning_rate = Schedule::Constant(1e300);
+    // A greedy action cannot be chosen where the network sees no number: no step is taken there.
+    let greedy = settings.clone().with_epsilon(Schedule::constant(0.0).unwrap()).unwrap();
+    let mut env = Broken { at: 20, steps: 0, reward: 0.0 };
+    let mut learner = Learner::new(Skill::new(&task, Bad), &env, greedy, &device, 1);
+    assert_eq!(learner.train(&mut env, 1_000), Err(Error::Feature(1)));
+    assert_eq!((env.steps, learner.steps()), (21, 21), "the step into that state is the last one");
+
+    let wild = settings.with_learning_rate(Schedule::constant(1e300).unwrap()).unwrap();
     let mut env = ModelEnv::new(Row).unwrap();
-    let mut learner = Learner::new(Skill::new(&task, OneHot), 2, settings, &device, 1);
+    let mut learner = Learner::new(Skill::new(&task, OneHot), &env, wild, &device, 1);
     let error = learner.train(&mut env, 2_000).unwrap_err();
     assert!(matches!(error, Error::Loss(_)), "{error}");
     assert!(learner.network().is_err(), "weights that are no numbers are no network");

@@ -2,27 +2,23 @@
 
 mod world;
 
-use tltl::augmented::{Labelled, Reward, Rewards};
-use tltl::compose::{Combine, Composition, Skill};
-use tltl::model::FiniteModel;
-use tltl::product::{Operand, Operator, Product};
-use tltl::q::QTable;
-use tltl::solve::Problem;
-use tltl::{Acceptor, Monitor};
-use world::{A, B, C, Cell, GAMMA, PAPER, avoid, both, dynamics, eventually, next, on_paper};
+use tltl::prelude::*;
+use tltl::product::{Operand, Operator};
+use tltl::reward::Mode;
+use world::{A, B, C, Cell, PAPER, avoid, both, dynamics, eventually, next, on_paper, problem};
 
-const PROGRESS: Rewards = Rewards::of(Reward::Progress);
+/// The paper's reward, γ 0.95.
+const PROGRESS: Rewards = Rewards::progress();
 
 fn near(value: f64, expected: f64, tolerance: f64) {
     assert!((value - expected).abs() < tolerance, "{value} is not {expected}");
 }
 
-fn value_and_steps(labelled: &Labelled) -> (f64, f64, f64) {
-    let dynamics = dynamics();
-    let problem = Problem::new(&dynamics, labelled);
-    let q = problem.optimal_q(&PROGRESS, GAMMA);
-    let (p, steps) = problem.mean(&problem.best());
-    (q.max(labelled.start(0), 0), p, steps)
+fn value_and_steps(task: &Labelled) -> (f64, f64, f64) {
+    let optimum = problem(task).optimum(&PROGRESS);
+    let best = optimum.best();
+    let value = optimum.q().max(task.start(0), 0);
+    (value, best.mean_satisfied(), best.mean_steps().unwrap())
 }
 
 #[test]
@@ -57,31 +53,30 @@ fn product_sizes() {
 
 #[test]
 fn reward_modes_with_a_trap() {
-    let (dynamics, labelled) = (dynamics(), on_paper(&avoid(C, A)));
-    let problem = Problem::new(&dynamics, &labelled);
+    let problem = problem(&on_paper(&avoid(C, A)));
     let p_of = |mode| {
-        let policy = problem.optimal_q(&Rewards::of(mode), GAMMA).policy();
-        100.0 * problem.mean(&problem.evaluate(&policy)).0
+        let policy = problem.optimal_q(&Rewards::of(mode)).policy();
+        100.0 * problem.evaluate(&policy).unwrap().mean_satisfied()
     };
-    near(100.0 * problem.mean(&problem.best()).0, 98.49, 5e-3);
-    near(p_of(Reward::Progress), 98.13, 5e-3);
-    near(p_of(Reward::Literal), 50.0, 5e-2);
-    near(p_of(Reward::Acceptance), p_of(Reward::Shaped), 1e-9);
+    near(100.0 * problem.best().mean_satisfied(), 98.49, 5e-3);
+    near(p_of(Mode::Progress), 98.13, 5e-3);
+    near(p_of(Mode::Literal), 50.0, 5e-2);
+    near(p_of(Mode::Acceptance), p_of(Mode::Shaped), 1e-9);
 }
 
 #[test]
 fn evaluation_agrees_with_the_optimum() {
-    let dynamics = dynamics();
     let tasks: [&dyn Monitor<_>; 3] = [&both(A, B), &avoid(C, A), &next(A, A)];
     for task in tasks {
-        let labelled = on_paper(task);
-        let problem = Problem::new(&dynamics, &labelled);
+        let task = on_paper(task);
+        let problem = problem(&task);
         let best = problem.best();
-        let own = problem.evaluate(&best.policy);
-        for pair in 0..labelled.pairs() {
-            near(own.satisfied[pair], best.satisfied[pair], 1e-8);
-            if best.satisfied[pair] > 0.0 {
-                near(own.steps[pair], best.steps[pair], 1e-6);
+        let own = problem.evaluate(best.policy()).unwrap();
+        for (q, s) in (0..task.automaton_states()).flat_map(|q| (0..80).map(move |s| (q, s))) {
+            near(own.satisfied().at(q, s), best.satisfied().at(q, s), 1e-8);
+            match (own.steps(q, s), best.steps(q, s)) {
+                (Some(own), Some(best)) => near(own, best, 1e-6),
+                ends => assert_eq!(ends, (None, None), "at ({q}, {s})"),
             }
         }
     }
@@ -89,13 +84,12 @@ fn evaluation_agrees_with_the_optimum() {
 
 #[test]
 fn a_policy_that_never_arrives() {
-    let (dynamics, labelled) = (dynamics(), on_paper(&eventually(C)));
-    let problem = Problem::new(&dynamics, &labelled);
+    let task = on_paper(&eventually(C));
     // Staying drifts by slips alone: slow, but it arrives; sweeps alone would take thousands.
-    let outcome = problem.evaluate(&vec![4; labelled.pairs()]);
-    let (p, steps) = problem.mean(&outcome);
-    near(p, 1.0, 1e-9);
-    assert!(steps > 500.0, "{steps}");
+    let staying = Policy::from_fn(&task, |_, _| 4).unwrap();
+    let own = problem(&task).evaluate(&staying).unwrap();
+    near(own.mean_satisfied(), 1.0, 1e-9);
+    assert!(own.mean_steps().unwrap() > 500.0, "{:?}", own.mean_steps());
 }
 
 /// Values and product of φ₁ = ◇a ∧ ◇b and φ₂ = ◇c composed.
@@ -105,28 +99,25 @@ fn composition_of_exact_skills() {
     let whole = Product::conjunction(&[&phi1, &phi2]);
     let (one, two, task) = (on_paper(&phi1), on_paper(&phi2), on_paper(&whole));
     let dynamics = dynamics();
-    let q1 = Problem::new(&dynamics, &one).optimal_q(&PROGRESS, GAMMA);
-    let q2 = Problem::new(&dynamics, &two).optimal_q(&PROGRESS, GAMMA);
-    let problem = Problem::new(&dynamics, &task);
-    let exact = problem.optimal_q(&PROGRESS, GAMMA);
-    let skills = [Skill { q: &q1, task: &one }, Skill { q: &q2, task: &two }];
-    let composition = Composition::new(&whole, &task, &skills);
+    let [q1, q2] = [&one, &two].map(|task| problem(task).optimal_q(&PROGRESS));
+    let optimum = problem(&task).optimum(&PROGRESS);
+    let composition = Composition::new(&whole, &task, &[&q1, &q2], PROGRESS).unwrap();
 
     let sum = composition.initial(Combine::NormalisedSum);
-    let fraction = problem.fraction_optimal(&sum.policy(), &exact, 1e-6);
+    let fraction = optimum.fraction_optimal(&sum.policy()).unwrap();
     near(100.0 * fraction, 91.96, 5e-3);
     let pending: Vec<u32> = task
         .live()
         .filter(|&q| whole.components(q)[0] != 3 && whole.components(q)[1] == 0)
         .collect();
     assert_eq!(pending.len(), 3);
-    let fraction = problem.fraction_optimal_at(&pending, &sum.policy(), &exact, 1e-6);
+    let fraction = optimum.fraction_optimal_at(pending, &sum.policy()).unwrap();
     near(100.0 * fraction, 81.25, 1e-9);
 
-    let start = composition.compensated(&dynamics, &PROGRESS, GAMMA);
-    let refined = composition.refined(&dynamics, &PROGRESS, GAMMA, &start);
-    same(&refined, &exact);
-    near(problem.fraction_optimal(&refined.policy(), &exact, 1e-6), 1.0, 1e-12);
+    let start = composition.compensated(&dynamics).unwrap();
+    let refined = composition.refined(&dynamics, &start).unwrap();
+    same(&refined, optimum.q());
+    near(optimum.fraction_optimal(&refined.policy()).unwrap(), 1.0, 1e-12);
 }
 
 #[test]
@@ -135,15 +126,12 @@ fn composition_with_a_trap() {
     let whole = Product::conjunction(&[&phi1, &phi2]);
     let (one, two, task) = (on_paper(&phi1), on_paper(&phi2), on_paper(&whole));
     let dynamics = dynamics();
-    let q1 = Problem::new(&dynamics, &one).optimal_q(&PROGRESS, GAMMA);
-    let q2 = Problem::new(&dynamics, &two).optimal_q(&PROGRESS, GAMMA);
-    let problem = Problem::new(&dynamics, &task);
-    let exact = problem.optimal_q(&PROGRESS, GAMMA);
-    let skills = [Skill { q: &q1, task: &one }, Skill { q: &q2, task: &two }];
-    let composition = Composition::new(&whole, &task, &skills);
-    let start = composition.compensated(&dynamics, &PROGRESS, GAMMA);
-    same(&composition.refined(&dynamics, &PROGRESS, GAMMA, &start), &exact);
-    let fraction = |q: &QTable| problem.fraction_optimal(&q.policy(), &exact, 1e-6);
+    let [q1, q2] = [&one, &two].map(|task| problem(task).optimal_q(&PROGRESS));
+    let optimum = problem(&task).optimum(&PROGRESS);
+    let composition = Composition::new(&whole, &task, &[&q1, &q2], PROGRESS).unwrap();
+    let start = composition.compensated(&dynamics).unwrap();
+    same(&composition.refined(&dynamics, &start).unwrap(), optimum.q());
+    let fraction = |q: &QTable| optimum.fraction_optimal(&q.policy()).unwrap();
     assert!(fraction(&start) > fraction(&composition.initial(Combine::Sum)));
 }
 
@@ -153,10 +141,9 @@ fn same(one: &QTable, other: &QTable) {
 
 #[test]
 fn sub_policy_values_differ_from_flat_ones() {
-    let (dynamics, labelled) = (dynamics(), on_paper(&both(A, B)));
-    let problem = Problem::new(&dynamics, &labelled);
-    let flat = problem.optimal_q(&PROGRESS, GAMMA);
-    let fixed = problem.sub_policy_q(&PROGRESS, GAMMA);
+    let problem = problem(&on_paper(&both(A, B)));
+    let flat = problem.optimal_q(&PROGRESS);
+    let fixed = problem.sub_policy_q(&PROGRESS);
     // At a fixed q a goal is paid again and again.
     assert!(fixed.max(0, 0) > 2.0 * flat.max(0, 0));
 }
@@ -189,12 +176,11 @@ fn disjunction_survives_a_lost_operand() {
 fn where_one_operand_is_left_its_values_are_the_product_s() {
     let (phi1, phi2) = (avoid(C, A), both(B, C));
     let operands: [Operand<'_, Cell>; 2] = [&phi1, &phi2];
-    let dynamics = dynamics();
-    let modes =
-        [Reward::Progress, Reward::Literal, Reward::Acceptance, Reward::Robustness { bound: 10.0 }];
+    let modes = [Mode::Progress, Mode::Literal, Mode::Acceptance, Mode::Robustness];
     let mut compared = 0;
     for mode in modes {
-        let rewards = Rewards { mode, trap_penalty: 0.5, step_penalty: 0.01, ..PROGRESS };
+        let rewards = Rewards::of(mode).with_bound(10.0).unwrap();
+        let rewards = rewards.with_trap_penalty(0.5).unwrap().with_step_penalty(0.01).unwrap();
         for operator in [Operator::Conjunction, Operator::Disjunction, Operator::Sequence] {
             let whole = Product::new(operator, &operands);
             let table = |task: Operand<'_, Cell>| {
@@ -202,10 +188,9 @@ fn where_one_operand_is_left_its_values_are_the_product_s() {
                 on_paper(task).with_robustness(cells, task).unwrap()
             };
             let task = table(&whole);
-            let exact = Problem::new(&dynamics, &task).optimal_q(&rewards, GAMMA);
+            let exact = problem(&task).optimal_q(&rewards);
             let parts = operands.map(table);
-            let of = |part| Problem::new(&dynamics, part).optimal_q(&rewards, GAMMA);
-            let values = [of(&parts[0]), of(&parts[1])];
+            let values = parts.each_ref().map(|part| problem(part).optimal_q(&rewards));
             for q in task.live() {
                 let at = whole.components(q);
                 let open: Vec<usize> = (0..2).filter(|&i| parts[i].end(at[i]).is_none()).collect();

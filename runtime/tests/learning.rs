@@ -2,32 +2,26 @@
 
 mod world;
 
-use tltl::augmented::{Augmented, Labelled, Reward, Rewards};
-use tltl::compose::{Combine, Composition, Skill};
+use tltl::augmented::Augmented;
 use tltl::controller::Hierarchy;
-use tltl::env::ModelEnv;
-use tltl::learn::{Learner, Settings};
-use tltl::model::Dynamics;
-use tltl::policy::{Policy, Training};
-use tltl::product::Product;
+use tltl::learn::{Checkpoint, Schedule};
+use tltl::prelude::*;
 use tltl::rand::{SeedableRng, rngs::Xoshiro256PlusPlus};
+use tltl::reward::{End, Mode};
 use tltl::shield::Shield;
-use tltl::solve::{Certificate, Problem};
-use world::{A, B, C, GAMMA, PAPER, avoid, both, dynamics, eventually, on_paper};
+use tltl::solve::Certificate;
+use world::{A, B, C, Cell, PAPER, avoid, both, eventually, on_paper, problem};
 
 fn trained(task: &Labelled, settings: Settings, seed: u64, steps: u64) -> Learner {
     let mut env = ModelEnv::new(PAPER).unwrap();
-    let mut learner = Learner::new(task, 5, settings, seed);
-    learner.train(&mut env, task, steps);
+    let mut learner = Learner::new(task, settings, seed);
+    learner.train(&mut env, steps).unwrap();
     assert_eq!(env.steps(), learner.steps());
     learner
 }
 
-fn certified(task: &Labelled, learner: &Learner) -> Certificate {
-    let dynamics = dynamics();
-    let problem = Problem::new(&dynamics, task);
-    let exact = problem.optimal_q(&learner.settings().rewards, learner.settings().gamma);
-    problem.certify(&learner.q().policy(), &exact)
+fn certified(learner: &Learner) -> Certificate {
+    learner.certify(&problem(learner.task())).unwrap()
 }
 
 #[test]
@@ -37,11 +31,11 @@ fn defaults_learn_within_one_percent() {
     for task in [on_paper(&phi1), on_paper(&phi2), on_paper(&whole)] {
         for seed in 0..10 {
             let mut learner = trained(&task, Settings::default(), seed, 1_000_000);
-            let online = certified(&task, &learner);
+            let online = certified(&learner);
             assert!(online.regret_steps.unwrap() < 0.01, "{online:?}");
             assert!(online.worst_regret_satisfied < 1e-3, "from every start: {online:?}");
-            learner.replay(&task).unwrap();
-            let replayed = certified(&task, &learner);
+            learner.replay().unwrap();
+            let replayed = certified(&learner);
             assert!(replayed.worst_regret_satisfied < 1e-3);
             assert!(replayed.regret_steps.unwrap() < 0.003, "{replayed:?}");
         }
@@ -51,23 +45,70 @@ fn defaults_learn_within_one_percent() {
 #[test]
 fn the_papers_recipe_satisfies() {
     let task = on_paper(&both(A, B));
-    let certificate = certified(&task, &trained(&task, Settings::paper(), 1, 340_000));
+    let certificate = certified(&trained(&task, Settings::paper(), 1, 340_000));
     assert!(certificate.satisfied > 0.9);
 }
 
 #[test]
 fn slices_and_checkpoints_change_nothing() {
     let task = on_paper(&both(A, B));
-    let settings = Settings {
-        epsilon: tltl::learn::Schedule::Linear { from: 1.0, to: 0.1, steps: 5_000 },
-        ..Settings::default()
-    };
+    let epsilon = Schedule::linear(1.0, 0.1, 5_000).unwrap();
+    let settings = Settings::default().with_epsilon(epsilon).unwrap();
     let whole = trained(&task, settings, 7, 10_000);
     let part = trained(&task, settings, 7, 3_000);
-    let text = serde_json::to_string(&part).unwrap();
-    let mut resumed: Learner = serde_json::from_str(&text).unwrap();
-    resumed.train(&mut ModelEnv::new(PAPER).unwrap(), &task, 10_000);
+    let text = serde_json::to_string(&part.checkpoint()).unwrap();
+    let mut resumed = Learner::resume(&task, serde_json::from_str(&text).unwrap()).unwrap();
+    resumed.train(&mut ModelEnv::new(PAPER).unwrap(), 10_000).unwrap();
     assert!(resumed == whole, "a resumed learner went another way");
+}
+
+/// What belongs to another task or another world is refused, and both are named.
+#[test]
+fn other_tasks_and_worlds_are_refused() {
+    let (task, other) = (on_paper(&both(A, B)), on_paper(&avoid(C, A)));
+    let learner = trained(&task, Settings::default(), 1, 1_000);
+    let own = "`both` (4 automaton states, 80 states, 5 actions)";
+    let foreign = "`avoid` (3 automaton states, 80 states, 5 actions)";
+    let refused = format!(" of {own} does not fit {foreign}");
+    let error = learner.certify(&problem(&other)).unwrap_err();
+    assert_eq!(error.to_string(), format!("a policy{refused}"));
+    assert_eq!((error.found(), error.expected()), (own, foreign));
+    let error = Learner::resume(&other, learner.checkpoint()).unwrap_err();
+    assert_eq!(error.to_string(), format!("a checkpoint{refused}"));
+    let shield = Shield::of_model(&problem(&other));
+    let error = shield.policy(learner.q()).unwrap_err();
+    assert_eq!(error.to_string(), format!("a table{refused}"));
+
+    // The same task elsewhere: names and sizes agree.
+    let moved = on_paper(&both(A, C));
+    let error = problem(&moved).evaluate(&learner.policy()).unwrap_err().to_string();
+    let expected =
+        format!("a policy of {own} does not fit {own}: the automata move differently on");
+    assert!(error.starts_with(&expected), "{error}");
+    let error = Learner::resume(&moved, learner.checkpoint()).unwrap_err().to_string();
+    assert!(error.contains("move differently"), "{error}");
+
+    let small = world::Grid { width: 4, height: 4 };
+    let error = learner.clone().train(&mut ModelEnv::new(&small).unwrap(), 2_000).unwrap_err();
+    let world = "a world of 16 states and 5 actions";
+    assert_eq!(error.to_string(), format!("an environment of {world} does not fit {own}"));
+    let error = Problem::new(&Dynamics::new(&small).unwrap(), &task).unwrap_err();
+    assert_eq!(error.to_string(), format!("dynamics of {world} does not fit {own}"));
+    assert!(Policy::new(&task, [0; 319]).unwrap_err().to_string().contains("319 entries, not 320"));
+    assert!(Policy::from_fn(&task, |_, _| 5).unwrap_err().to_string().contains("not less than 5"));
+}
+
+/// Files of earlier versions do not say of which task they are; sizes that do not fit are refused.
+#[test]
+fn earlier_checkpoints_are_read() {
+    let task = on_paper(&both(A, B));
+    let learner = trained(&task, Settings::default(), 7, 1_000);
+    let mut saved = serde_json::to_value(learner.checkpoint()).unwrap();
+    saved.as_object_mut().unwrap().remove("task").unwrap();
+    let read = || serde_json::from_value::<Checkpoint>(saved.clone()).unwrap();
+    assert!(Learner::resume(&task, read()).unwrap() == learner);
+    let error = Learner::resume(&on_paper(&avoid(C, A)), read()).unwrap_err().to_string();
+    assert!(error.starts_with("a checkpoint of a task (4 automaton states, 80 states"), "{error}");
 }
 
 /// Two skills learned apart, composed from their experience alone.
@@ -81,16 +122,13 @@ fn composition_of_learned_skills() {
         trained(&two, Settings::default(), 2, 340_000),
     );
     let mut experience = first.experience().clone();
-    experience.extend(second.experience());
+    experience.extend(second.experience()).unwrap();
     let seen = Dynamics::new(&experience).unwrap();
-    let skills = [Skill { q: first.q(), task: &one }, Skill { q: second.q(), task: &two }];
-    let composition = Composition::new(&whole, &task, &skills);
+    let skills = [first.q(), second.q()];
+    let composition = Composition::new(&whole, &task, &skills, first.rewards()).unwrap();
     let start = composition.initial(Combine::NormalisedSum);
-    let refined = composition.refined(&seen, &Rewards::default(), GAMMA, &start);
-    let dynamics = dynamics();
-    let problem = Problem::new(&dynamics, &task);
-    let exact = problem.optimal_q(&Rewards::default(), GAMMA);
-    let certificate = problem.certify(&refined.policy(), &exact);
+    let refined = composition.refined(&seen, &start).unwrap();
+    let certificate = problem(&task).optimum(&first.rewards()).certify(&refined.policy()).unwrap();
     assert!(certificate.satisfied > 0.999);
     assert!(certificate.regret_steps.unwrap() < 0.01, "{certificate:?}");
 }
@@ -98,7 +136,7 @@ fn composition_of_learned_skills() {
 #[test]
 fn augmented_environment_pays_once() {
     let env = ModelEnv::new(PAPER).unwrap();
-    let mut augmented = Augmented::new(env, both(A, B), Rewards::of(Reward::Progress), GAMMA);
+    let mut augmented = Augmented::new(env, both(A, B), Rewards::progress());
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(3);
     let (first, mut q) = augmented.reset(&mut rng).unwrap();
     assert_eq!(q != 0, first == A || first == B);
@@ -118,15 +156,9 @@ fn augmented_environment_pays_once() {
 fn policy() -> Policy {
     let task = on_paper(&avoid(C, A));
     let learner = trained(&task, Settings::default(), 5, 20_000);
-    let names = (0..5).map(|a| tltl::model::FiniteModel::action_name(&PAPER, a)).collect();
-    let dynamics = dynamics();
-    let problem = Problem::new(&dynamics, &task);
-    let starts = problem.starts(&learner.q().policy(), &problem.best());
-    Policy::new("avoid", "!c U a", &task, learner.q().policy(), names)
-        .unwrap()
-        .trained(Training::of("avoid", &learner, 5))
-        .certified(certified(&task, &learner))
-        .from_starts(&starts)
+    let optimum = problem(&task).optimum(&learner.rewards());
+    let starts = optimum.starts(&learner.policy()).unwrap();
+    learner.policy().certified(certified(&learner)).from_starts(&starts)
 }
 
 #[test]
@@ -135,8 +167,11 @@ fn policies_survive_the_file() {
     let text = serde_json::to_string(&saved).unwrap();
     assert_eq!(serde_json::from_str::<Policy>(&text).unwrap(), saved);
     let (a, c) = (2 * 8 + 2, 7 * 8 + 2);
-    assert_eq!(saved.end(saved.reset(a)), Some(tltl::augmented::End::Accepted));
-    assert_eq!(saved.end(saved.reset(c)), Some(tltl::augmented::End::Lost));
+    assert_eq!(saved.end(saved.reset(a)), Some(End::Accepted));
+    assert_eq!(saved.end(saved.reset(c)), Some(End::Lost));
+    // A policy that was read is one for the task, as it was before.
+    let read: Policy = serde_json::from_str(&text).unwrap();
+    assert!(problem(&on_paper(&avoid(C, A))).evaluate(&read).is_ok());
 }
 
 #[test]
@@ -174,35 +209,31 @@ fn foreign_and_broken_policies_are_refused() {
 /// The certificates of a shield and of a hierarchy of controllers travel with the policy.
 #[test]
 fn certificates_travel() {
-    let (formula, dynamics) = (avoid(C, A), dynamics());
+    let formula = avoid(C, A);
     let task = on_paper(&formula);
-    let problem = Problem::new(&dynamics, &task);
-    let q = problem.optimal_q(&Rewards::of(Reward::Literal), GAMMA);
-    let names = || (0..5).map(|a| tltl::model::FiniteModel::action_name(&PAPER, a)).collect();
+    let optimum = problem(&task).optimum(&Rewards::of(Mode::Literal));
+    let q = optimum.q();
     let survives = |policy: Policy| {
         let text = serde_json::to_string(&policy).unwrap();
         assert_eq!(serde_json::from_str::<Policy>(&text).unwrap(), policy);
         policy
     };
 
-    let shield = Shield::of_model(&problem);
-    let worth = problem.certify_shield(&shield, &q, &q);
-    let policy = Policy::new("avoid", "!c U a", &task, shield.policy(&q), names()).unwrap();
-    let policy = survives(policy.shielded(worth.clone()));
-    assert_eq!(policy.document().certificate.as_ref(), Some(&worth.after));
-    assert_eq!(policy.document().shield.as_ref(), Some(&worth));
+    let shield = Shield::of_model(optimum.problem());
+    let worth = optimum.certify_shield(&shield, q).unwrap();
+    let policy = survives(shield.policy(q).unwrap().shielded(worth.clone()));
+    assert_eq!(policy.certificate(), Some(&worth.after));
+    assert_eq!(policy.shield(), Some(&worth));
 
-    let index = |s: &world::Cell| (s.y * 8 + s.x) as usize;
-    let mut hierarchy = Hierarchy::new(&formula, |_: &world::Cell| 4)
-        .with(0, |s: &world::Cell| shield.greedy(&q, 0, index(s)) as usize);
-    let cells = (0..80).map(|s| tltl::model::FiniteModel::state(&PAPER, s));
-    let table = hierarchy.policy(cells);
-    let certificate = problem.certify(&table, &q);
+    let index = |s: &Cell| (s.y * 8 + s.x) as usize;
+    let mut hierarchy =
+        Hierarchy::new(&formula, |_: &Cell| 4).with(0, |s: &Cell| shield.greedy(q, 0, index(s)));
+    let policy = hierarchy.policy(&task, (0..80).map(|s| PAPER.state(s))).unwrap();
+    let certificate = optimum.certify(&policy).unwrap();
     assert_eq!(certificate, worth.after, "the controllers do what the shield says");
-    let starts = problem.starts(&table, &problem.best());
-    let policy = Policy::new("avoid", "!c U a", &task, table, names()).unwrap();
+    let starts = optimum.starts(&policy).unwrap();
     let policy = survives(policy.certified(certificate).from_starts(&starts));
-    let saved = policy.document().starts.as_ref().unwrap();
+    let saved = policy.starts().unwrap();
     assert_eq!((saved.state.len(), saved.satisfied[58]), (80, 0.0), "c, a lost start");
     assert!(saved.steps[58].is_none() && saved.steps[18] == Some(0.0));
 }

@@ -4,25 +4,26 @@ mod world;
 
 use core::fmt::Debug;
 
-use tltl::augmented::{Augmented, JointError, Labelled, Payment, Rewards};
+use tltl::augmented::{Augmented, LabelError};
 use tltl::automaton::{Automaton, Edge, Guard, TableError, Tables};
-use tltl::compose::{Composition, Skill, Stepwise};
+use tltl::compose::Stepwise;
 use tltl::controller::Hierarchy;
-use tltl::env::{ModelEnv, Step, TimeLimit};
+use tltl::env::TimeLimit;
 use tltl::estimate::{Estimate, Interval, Trials};
 use tltl::factored::{Factored, Numbered, Part, Select, TooManyStates};
-use tltl::learn::{Learner, Settings, WholeLearner};
-use tltl::model::{Dynamics, ModelError};
+use tltl::learn::{Checkpoint, Experience, Schedule, TrainError, TrajectoryLearner};
+use tltl::model::ModelError;
 use tltl::network::Network;
 use tltl::network::policy::NetworkPolicy;
-use tltl::policy::Policy;
-use tltl::product::{Operand, Product};
-use tltl::q::QTable;
+use tltl::policy::PolicyError;
+use tltl::prelude::*;
+use tltl::product::Operand;
+use tltl::reward::{Arrival, Arrivals, Ends};
 use tltl::robustness::{Boolean, NotANumber, Op};
 use tltl::shield::Shield;
-use tltl::solve::{Certificate, Outcome, Problem};
+use tltl::solve::{Certificate, Evaluation, Optimum, Values};
 use tltl::task::{Error, Parametric};
-use tltl::{Formula, Monitor, Shared, Task};
+use tltl::{Formula, Mismatch, OutOfRange, Shared, Task};
 use world::{A, B, Cell, both, eventually};
 
 fn is_printable<T: Debug + ?Sized>() {}
@@ -42,11 +43,11 @@ fn values_are_printed_sent_and_shared() {
         Shared<str>, Shared<[u32]>, Formula, Op, Automaton, Tables, Edge<'_>, Guard<'_>, TableError,
         Task<Silent>, Error, NotANumber, Boolean<fn(&i32) -> bool>, Parametric<Silent, Silent>,
         Factored<Silent>, Part, Select<'_, Silent>, Numbered<Silent>, TooManyStates,
-        Product<'_, i32>, Product<'_, [f64]>, Labelled, Payment, Rewards, JointError,
-        Augmented<ModelEnv<()>, Task<Silent>>, TimeLimit<()>, Step<i32>, Dynamics,
-        ModelError, Learner, WholeLearner, Settings, QTable, Policy, Network, NetworkPolicy,
-        Problem<'_>, Outcome, Certificate, Shield, Skill<'_>, Composition<'_>, Stepwise<'_>, Estimate,
-        Interval, Trials,
+        Product<'_, i32>, Product<'_, [f64]>, Labelled, LabelError, Mismatch, OutOfRange, Rewards, Ends, Arrival,
+        Arrivals<'_>, Augmented<ModelEnv<()>, Task<Silent>>, TimeLimit<()>, Step<i32>, Dynamics,
+        ModelError, Learner, TrajectoryLearner, Checkpoint, Experience, TrainError, Schedule,
+        Settings, QTable, Policy, PolicyError, Network, NetworkPolicy, Problem, Optimum, Evaluation,
+        Values, Certificate, Shield, Composition<'_>, Stepwise<'_>, Estimate, Interval, Trials,
     }
     // Its controllers are functions that may do anything.
     is_printable::<Hierarchy<'_, i32, Task<Silent>>>();

@@ -7,19 +7,15 @@ use std::path::PathBuf;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use tltl::augmented::{End, Labelled, Reward, Rewards};
 use tltl::checkpoint;
-use tltl::compose::{Combine, Composition, Skill};
 use tltl::controller::Hierarchy;
-use tltl::env::{Env, FiniteEnv, ModelEnv};
 use tltl::estimate::{Interval, Trials, estimate};
-use tltl::learn::{Learner, Settings, Terminal, WholeLearner, seeds};
-use tltl::model::{Dynamics, FiniteModel};
-use tltl::product::Product;
+use tltl::learn::{Observation, TerminalReward, TrajectoryLearner, seeds};
+use tltl::prelude::*;
 use tltl::rand::{SeedableRng, rngs::Xoshiro256PlusPlus};
+use tltl::reward::{End, Mode};
 use tltl::shield::Shield;
-use tltl::solve::Problem;
-use world::{A, B, C, Cell, GAMMA, PAPER, avoid, both, dynamics, eventually, on_paper};
+use world::{A, B, C, Cell, PAPER, avoid, both, dynamics, eventually, on_paper, problem};
 
 fn rng(seed: u64) -> Xoshiro256PlusPlus {
     Xoshiro256PlusPlus::seed_from_u64(seed)
@@ -31,18 +27,34 @@ fn index(s: &Cell) -> usize {
 
 #[test]
 fn estimates_hold_the_exact_value() {
-    let (task, dynamics) = (avoid(C, A), dynamics());
-    let labelled = on_paper(&task);
-    let problem = Problem::new(&dynamics, &labelled);
-    let policy = problem.optimal_q(&Rewards::of(Reward::Literal), GAMMA).policy();
-    let (p, steps) = problem.mean(&problem.evaluate(&policy));
-    let trials = Trials { episodes: 20_000, horizon: 1_000, confidence: 0.999 };
-    let act = |s: &Cell, q| policy[labelled.pair(q, index(s))] as usize;
+    let task = avoid(C, A);
+    let problem = problem(&on_paper(&task));
+    let policy = problem.optimal_q(&Rewards::of(Mode::Literal)).policy();
+    let own = problem.evaluate(&policy).unwrap();
+    let (p, steps) = (own.mean_satisfied(), own.mean_steps().unwrap());
+    let trials = Trials::default().with_episodes(20_000).unwrap().with_confidence(0.999).unwrap();
+    let act = |q, s: &Cell| Ok::<_, tltl::task::Error>(policy.act(q, index(s)));
     let mut env = ModelEnv::new(PAPER).unwrap();
     let seen = estimate(&mut env, &task, trials, &mut rng(1), act).unwrap();
     let holds = |interval: Interval, value: f64| interval.low < value && value < interval.high;
     assert!(holds(seen.satisfied, p) && holds(seen.steps.unwrap(), steps), "{seen:?}");
     assert!(holds(seen.lost, 1.0 - p), "what is not satisfied is lost here: {seen:?}");
+}
+
+/// An episode in which no action can be chosen ends without a step.
+#[test]
+fn what_cannot_act_takes_no_step() {
+    let mut env = ModelEnv::new(PAPER).unwrap();
+    let error = tltl::task::Error { predicate: "p".into(), instant: None };
+    let result = estimate(&mut env, &next_to_nothing(), Trials::default(), &mut rng(1), |_, _| {
+        Err::<usize, _>(error.clone())
+    });
+    assert_eq!((result.unwrap_err(), env.steps()), (error, 0));
+}
+
+/// A task that is not satisfied at any start.
+fn next_to_nothing() -> impl Monitor<Cell> {
+    eventually(Cell { x: 99, y: 99 })
 }
 
 #[test]
@@ -64,16 +76,16 @@ fn intervals_are_those_of_the_tables() {
 
 #[test]
 fn certificates_name_starts_and_mistakes() {
-    let (dynamics, labelled) = (dynamics(), on_paper(&both(A, B)));
-    let problem = Problem::new(&dynamics, &labelled);
-    let exact = problem.optimal_q(&Rewards::default(), GAMMA);
-    let mut policy = exact.policy();
-    assert!(problem.mistakes(&policy, &exact, 1e-6).is_empty());
-    policy[labelled.pair(0, 0)] = 4;
-    let mistakes = problem.mistakes(&policy, &exact, 1e-6);
+    let task = on_paper(&both(A, B));
+    let optimum = problem(&task).optimum(&Rewards::default());
+    let right = optimum.q().policy();
+    assert!(optimum.mistakes(&right).unwrap().is_empty());
+    let stays = |q, s| if (q, s) == (0, 0) { 4 } else { right.act(q, s) };
+    let policy = Policy::from_fn(&task, stays).unwrap();
+    let mistakes = optimum.mistakes(&policy).unwrap();
     assert_eq!(mistakes.len(), 1);
     assert_eq!((mistakes[0].q, mistakes[0].state, mistakes[0].action), (0, 0, 4));
-    let starts = problem.starts(&policy, &problem.best());
+    let starts = optimum.starts(&policy).unwrap();
     assert_eq!(starts.len(), 80);
     let corner = starts[0];
     assert!(corner.steps.unwrap() > corner.optimal_steps.unwrap() + 1.0, "{corner:?}");
@@ -81,29 +93,27 @@ fn certificates_name_starts_and_mistakes() {
 
 #[test]
 fn shields_keep_out_of_the_trap() {
-    let (dynamics, labelled) = (dynamics(), on_paper(&avoid(C, A)));
-    let problem = Problem::new(&dynamics, &labelled);
-    let q = problem.optimal_q(&Rewards::of(Reward::Literal), GAMMA);
-    let shield = Shield::of_model(&problem);
-    let worth = problem.certify_shield(&shield, &q, &q);
+    let task = on_paper(&avoid(C, A));
+    let optimum = problem(&task).optimum(&Rewards::of(Mode::Literal));
+    let shield = Shield::of_model(optimum.problem());
+    let worth = optimum.certify_shield(&shield, optimum.q()).unwrap();
     assert!(worth.lost_before > 0.4 && worth.overruled > 0.0, "{worth:?}");
     assert!((worth.lost_after - worth.smallest_lost).abs() < 1e-6, "{worth:?}");
     // Without a model: the step into the trap itself.
-    let mut learner = Learner::new(&labelled, 5, Settings::default(), 1);
-    learner.train(&mut ModelEnv::new(PAPER).unwrap(), &labelled, 200_000);
-    let shield = Shield::one_step(learner.experience(), &labelled);
+    let mut learner = Learner::new(&task, Settings::default(), 1);
+    learner.train(&mut ModelEnv::new(PAPER).unwrap(), 200_000).unwrap();
+    let shield = Shield::one_step(learner.experience(), &task).unwrap();
     let (beside, up) = (index(&C) - 8, 0);
     assert!(!shield.allows(0, beside, up) && shield.allows(0, 0, up));
 }
 
 #[test]
 fn the_automaton_chooses_the_controller() {
-    let (task, dynamics) = (both(A, B), dynamics());
-    let labelled = on_paper(&task);
-    let policy = Problem::new(&dynamics, &labelled).best().policy;
+    let task = both(A, B);
+    let best = problem(&on_paper(&task)).best();
     let sub = |q: u32| {
-        let layer = policy[labelled.pair(q, 0)..labelled.pair(q + 1, 0)].to_vec();
-        move |s: &Cell| layer[index(s)] as usize
+        let layer: Vec<usize> = best.policy().sub_policy(q).collect();
+        move |s: &Cell| layer[index(s)]
     };
     let mut hierarchy = Hierarchy::new(&task, sub(0)).with(1, sub(1)).with(2, sub(2));
     let (mut env, mut random) = (ModelEnv::new(PAPER).unwrap(), rng(2));
@@ -119,59 +129,56 @@ fn the_automaton_chooses_the_controller() {
 
 #[test]
 fn whole_trajectories_teach_less() {
-    let (task, labelled) = (eventually(A), on_paper(&eventually(A)));
+    let (formula, task) = (eventually(A), on_paper(&eventually(A)));
     let mut env = ModelEnv::new(PAPER).unwrap();
-    let paid = Terminal::Robustness { bound: 10.0 };
-    let mut learner = WholeLearner::new(&labelled, 5, Settings::paper(), paid, true, 1);
-    learner.train(&mut env, &task, &labelled, 300_000).unwrap();
-    let dynamics = dynamics();
-    let problem = Problem::new(&dynamics, &labelled);
-    let (p, steps) = problem.mean(&problem.evaluate(&learner.policy()));
+    let settings = Settings::paper().with_rewards(Rewards::default().with_bound(10.0).unwrap());
+    let (paid, sees) = (TerminalReward::Robustness, Observation::WorldAndAutomaton);
+    let mut learner = TrajectoryLearner::new(&task, settings, paid, sees, 1);
+    learner.train(&mut env, &formula, 300_000).unwrap();
+    let own = problem(&task).evaluate(&learner.policy()).unwrap();
+    let (p, steps) = (own.mean_satisfied(), own.mean_steps().unwrap());
     assert!(p > 0.9 && steps < 30.0, "one goal can be learned even so: {p}, {steps}");
 }
 
 /// Penalties make no difference where they cannot be earned, and keep out of the trap where they can.
 #[test]
 fn penalties_are_paid() {
-    let (dynamics, labelled) = (dynamics(), on_paper(&avoid(C, A)));
-    let problem = Problem::new(&dynamics, &labelled);
+    let problem = problem(&on_paper(&avoid(C, A)));
     let p_of = |rewards: Rewards| {
-        problem.mean(&problem.evaluate(&problem.optimal_q(&rewards, GAMMA).policy())).0
+        let policy = problem.optimal_q(&rewards).policy();
+        problem.evaluate(&policy).unwrap().mean_satisfied()
     };
     let progress = Rewards::default();
-    let punished = p_of(Rewards { trap_penalty: 10.0, ..progress });
+    let punished = p_of(progress.with_trap_penalty(10.0).unwrap());
     assert!(punished > p_of(progress), "a penalty for the trap makes safer");
-    let value = |rewards: Rewards| problem.optimal_q(&rewards, GAMMA).max(0, 0);
-    let stepped = value(Rewards { step_penalty: 0.01, ..progress });
+    let value = |rewards: Rewards| problem.optimal_q(&rewards).max(0, 0);
+    let stepped = value(progress.with_step_penalty(0.01).unwrap());
     let free = value(progress);
-    assert!(stepped < free && free - stepped < 0.01 / (1.0 - GAMMA));
+    assert!(stepped < free && free - stepped < 0.01 / (1.0 - progress.gamma()));
 }
 
 #[test]
 fn the_safe_setting_is_safe() {
-    let (dynamics, labelled) = (dynamics(), on_paper(&avoid(C, A)));
-    let problem = Problem::new(&dynamics, &labelled);
-    let settings = Settings::safe();
-    let exact = problem.optimal_q(&settings.rewards, settings.gamma);
-    assert!(problem.certify(&exact.policy(), &exact).regret_satisfied < 1e-3);
+    let optimum = problem(&on_paper(&avoid(C, A))).optimum(&Settings::safe().rewards());
+    let certificate = optimum.certify(&optimum.q().policy()).unwrap();
+    assert!(certificate.regret_satisfied < 1e-3);
 }
 
 /// 6 million steps with default settings: fresh seeds, other layouts.
 #[test]
 fn defaults_learn_within_a_thousandth() {
-    let dynamics = dynamics();
     let corners = (Cell { x: 0, y: 0 }, Cell { x: 7, y: 9 });
     for (layout, (a, b)) in [(0, (A, B)), (1, corners)] {
         let task = on_paper(&both(a, b));
-        let problem = Problem::new(&dynamics, &task);
-        let optimum = problem.mean(&problem.best()).1;
+        let problem = problem(&task);
+        let steps = |policy| problem.evaluate(&policy).unwrap().mean_steps().unwrap();
+        let optimum = problem.best().mean_steps().unwrap();
         let excess = seeds(100..102, |seed| {
-            let mut learner = Learner::new(&task, 5, Settings::default(), seed);
-            learner.train(&mut ModelEnv::new(PAPER).unwrap(), &task, 6_000_000);
-            let online = problem.mean(&problem.evaluate(&learner.q().policy())).1;
-            learner.replay(&task).unwrap();
-            let replayed = problem.mean(&problem.evaluate(&learner.q().policy())).1;
-            [online / optimum - 1.0, replayed / optimum - 1.0]
+            let mut learner = Learner::new(&task, Settings::default(), seed);
+            learner.train(&mut ModelEnv::new(PAPER).unwrap(), 6_000_000).unwrap();
+            let online = steps(learner.policy());
+            learner.replay().unwrap();
+            [online / optimum - 1.0, steps(learner.policy()) / optimum - 1.0]
         });
         for [online, replayed] in excess {
             assert!(layout > 0 || online < 1e-3, "{online}");
@@ -186,26 +193,26 @@ fn composition_of_learned_skills_on_fresh_seeds() {
     let (phi1, phi2) = (both(A, B), eventually(C));
     let whole = Product::conjunction(&[&phi1, &phi2]);
     let (one, two, task) = (on_paper(&phi1), on_paper(&phi2), on_paper(&whole));
-    let dynamics = dynamics();
-    let problem = Problem::new(&dynamics, &task);
+    let problem = problem(&task);
     let worst = seeds(200..220, |seed| {
         let mut env = ModelEnv::new(PAPER).unwrap();
         let mut learn = |task: &Labelled, seed| {
-            let mut learner = Learner::new(task, 5, Settings::default(), seed);
-            learner.train(&mut env, task, 340_000);
+            let mut learner = Learner::new(task, Settings::default(), seed);
+            learner.train(&mut env, 340_000).unwrap();
             learner
         };
         let (first, second) = (learn(&one, seed), learn(&two, seed + 1_000));
         let taken = env.steps();
         let mut experience = first.experience().clone();
-        experience.extend(second.experience());
+        experience.extend(second.experience()).unwrap();
         let seen = Dynamics::new(&experience).unwrap();
-        let skills = [Skill { q: first.q(), task: &one }, Skill { q: second.q(), task: &two }];
-        let composition = Composition::new(&whole, &task, &skills);
+        let skills = [first.q(), second.q()];
+        let composition = Composition::new(&whole, &task, &skills, first.rewards()).unwrap();
         let start = composition.initial(Combine::NormalisedSum);
-        let refined = composition.refined(&seen, &Rewards::default(), GAMMA, &start);
+        let refined = composition.refined(&seen, &start).unwrap();
         assert_eq!(env.steps(), taken, "a composition takes no step in the world");
-        let (p, steps) = problem.mean(&problem.evaluate(&refined.policy()));
+        let own = problem.evaluate(&refined.policy()).unwrap();
+        let (p, steps) = (own.mean_satisfied(), own.mean_steps().unwrap());
         assert!(p > 0.999);
         steps / 16.7111 - 1.0
     });
@@ -219,20 +226,26 @@ fn other_operators_compose() {
     let (phi1, phi2) = (avoid(C, A), eventually(B));
     let products: [Product<'_, Cell>; 2] =
         [Product::disjunction(&[&phi1, &phi2]), Product::sequence(&[&phi1, &phi2])];
-    let (one, two, dynamics) = (on_paper(&phi1), on_paper(&phi2), dynamics());
-    let solved =
-        |task: &Labelled| Problem::new(&dynamics, task).optimal_q(&Rewards::default(), GAMMA);
-    let (q1, q2) = (solved(&one), solved(&two));
-    let skills = [Skill { q: &q1, task: &one }, Skill { q: &q2, task: &two }];
+    let (dynamics, rewards) = (dynamics(), Rewards::default());
+    let solved = |task: &Labelled| problem(task).optimal_q(&rewards);
+    let (q1, q2) = (solved(&on_paper(&phi1)), solved(&on_paper(&phi2)));
     for product in &products {
         let task = on_paper(product);
-        let composition = Composition::new(product, &task, &skills);
-        let start = composition.compensated(&dynamics, &Rewards::default(), GAMMA);
-        let refined = composition.refined(&dynamics, &Rewards::default(), GAMMA, &start);
+        let composition = Composition::new(product, &task, &[&q1, &q2], rewards).unwrap();
+        let start = composition.compensated(&dynamics).unwrap();
+        let refined = composition.refined(&dynamics, &start).unwrap();
         for (a, b) in refined.values().iter().zip(solved(&task).values()) {
             assert!((a - b).abs() < 1e-8);
         }
     }
+    // Two of the same task are no skills for these two.
+    let task = on_paper(&products[0]);
+    let error = Composition::new(&products[0], &task, &[&q1, &q1], rewards).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "a skill of `avoid` (3 automaton states, 80 states, 5 actions) does not fit `eventually` \
+         (2 automaton states)"
+    );
 }
 
 fn place(name: &str) -> PathBuf {
@@ -270,14 +283,15 @@ const SLICE: u64 = 2_000;
 /// Trains from the last checkpoint to the end, one checkpoint a slice.
 fn study(path: &std::path::Path) -> Learner {
     let task = on_paper(&both(A, B));
-    let mut learner: Learner = match checkpoint::read(path, "learner").unwrap() {
-        Some(content) => serde_json::from_slice(&content).unwrap(),
-        None => Learner::new(&task, 5, Settings::default(), 7),
+    let mut learner = match checkpoint::read(path, "learner").unwrap() {
+        Some(content) => Learner::resume(&task, serde_json::from_slice(&content).unwrap()).unwrap(),
+        None => Learner::new(&task, Settings::default(), 7),
     };
     let mut env = ModelEnv::new(PAPER).unwrap();
     while learner.steps() < TOTAL {
-        learner.train(&mut env, &task, (learner.steps() + SLICE).min(TOTAL));
-        checkpoint::write(path, "learner", &serde_json::to_vec(&learner).unwrap()).unwrap();
+        learner.train(&mut env, (learner.steps() + SLICE).min(TOTAL)).unwrap();
+        let content = serde_json::to_vec(&learner.checkpoint()).unwrap();
+        checkpoint::write(path, "learner", &content).unwrap();
     }
     learner
 }
@@ -314,11 +328,11 @@ fn a_killed_study_goes_on() {
     }
     assert!(kills > 0, "every child was done before it was killed");
     let left = checkpoint::read(&path, "learner").unwrap().expect("a slice was done");
-    let left: Learner = serde_json::from_slice(&left).unwrap();
-    assert!(left.steps() >= SLICE);
     let task = on_paper(&both(A, B));
-    let mut whole = Learner::new(&task, 5, Settings::default(), 7);
-    whole.train(&mut ModelEnv::new(PAPER).unwrap(), &task, TOTAL);
+    let left = Learner::resume(&task, serde_json::from_slice(&left).unwrap()).unwrap();
+    assert!(left.steps() >= SLICE);
+    let mut whole = Learner::new(&task, Settings::default(), 7);
+    whole.train(&mut ModelEnv::new(PAPER).unwrap(), TOTAL).unwrap();
     assert!(study(&path) == whole, "a resumed study went another way");
 }
 

@@ -18,10 +18,7 @@ use rurel::mdp::{Agent, State};
 use rurel::strategy::explore::RandomExploration;
 use rurel::strategy::learn::QLearning;
 use rurel::strategy::terminate::TerminationStrategy;
-use tltl::augmented::Labelled;
-use tltl::env::{FiniteEnv, ModelEnv};
-use tltl::learn::{Learner, Settings};
-use tltl::policy::Policy;
+use tltl::prelude::{FiniteEnv, Labelled, Learner, ModelEnv, Policy, Settings};
 use tltl::rand::{Rng, SeedableRng, rngs::Xoshiro256PlusPlus};
 use world::{A, B, Grid, PAPER, both, on_paper};
 
@@ -101,8 +98,8 @@ fn loop_by_hand(seed: u64) -> Vec<f64> {
 
 fn library(task: &Labelled, settings: Settings, seed: u64) -> Vec<f64> {
     let mut env = ModelEnv::new(PAPER).unwrap();
-    let mut learner = Learner::new(task, 5, settings, seed);
-    learner.train(&mut env, task, STEPS);
+    let mut learner = Learner::new(task, settings, seed);
+    learner.train(&mut env, STEPS).unwrap();
     learner.q().values().to_vec()
 }
 
@@ -225,15 +222,13 @@ fn median(values: impl Iterator<Item = f64>) -> f64 {
 /// Nanoseconds of `Policy::act` and `Policy::next` together.
 fn act(task: &Labelled) {
     let q = library(task, Settings::default(), 1);
-    let actions =
-        q.chunks(5).map(|row| (0..5).max_by(|&i, &j| row[i].total_cmp(&row[j])).unwrap() as u32);
-    let names = (0..5).map(|a| tltl::model::FiniteModel::action_name(&PAPER, a)).collect();
-    let policy = Policy::new("both", "F a && F b", task, actions.collect(), names).unwrap();
-    let (start, mut sum, rounds) = (Instant::now(), 0u64, 20_000_000);
+    let actions = q.chunks(5).map(|row| (0..5).max_by(|&i, &j| row[i].total_cmp(&row[j])).unwrap());
+    let policy = Policy::new(task, actions).unwrap();
+    let (start, mut sum, rounds) = (Instant::now(), 0, 20_000_000);
     for i in 0..rounds {
         let s = black_box(i % 80);
         let q = policy.next(0, s);
-        sum += u64::from(policy.act(q, s));
+        sum += policy.act(q, s);
     }
     assert!(black_box(sum) > 0);
     let each = start.elapsed().as_secs_f64() * 1e9 / rounds as f64;

@@ -7,13 +7,10 @@ mod world;
 
 use std::time::Instant;
 
-use tltl::augmented::{Labelled, Reward, Rewards};
-use tltl::model::Dynamics;
-use tltl::product::Product;
-use tltl::solve::Problem;
-use world::{A, B, C, Cell, GAMMA, Grid, PAPER, both, eventually};
+use tltl::prelude::{Dynamics, Labelled, Problem, Product, Rewards};
+use world::{A, B, C, Cell, Grid, PAPER, both, eventually, problem};
 
-const PROGRESS: Rewards = Rewards::of(Reward::Progress);
+const PROGRESS: Rewards = Rewards::progress();
 
 fn timed<T>(what: &str, work: impl FnOnce() -> T) -> (T, f64) {
     let start = Instant::now();
@@ -38,15 +35,14 @@ fn least(what: &str, repetitions: usize, mut work: impl FnMut()) -> f64 {
 fn paper() {
     let (phi1, phi2) = (both(A, B), eventually(C));
     let whole = Product::conjunction(&[&phi1, &phi2]);
-    let labelled = Labelled::of_model(&PAPER, &whole).unwrap();
-    let dynamics = Dynamics::new(&PAPER).unwrap();
-    let problem = Problem::new(&dynamics, &labelled);
-    let q = problem.optimal_q(&PROGRESS, GAMMA);
+    let problem = problem(&Labelled::of_model(&PAPER, &whole).unwrap());
+    let q = problem.optimal_q(&PROGRESS);
     assert!((q.max(0, 0) - 1.832763429).abs() < 1e-9);
-    let (p, steps) = problem.mean(&problem.best());
+    let best = problem.best();
+    let (p, steps) = (best.mean_satisfied(), best.mean_steps().unwrap());
     assert!((p - 1.0).abs() < 1e-9 && (steps - 16.7111).abs() < 5e-5);
-    let solve = least("paper, Q*", 50, || drop(problem.optimal_q(&PROGRESS, GAMMA)));
-    let reach = least("paper, P", 50, || drop(problem.largest_p()));
+    let solve = least("paper, Q*", 50, || drop(problem.optimal_q(&PROGRESS)));
+    let reach = least("paper, P", 50, || drop(problem.largest_satisfied()));
     least("paper, P and steps", 50, || drop(problem.best()));
     assert!(solve + reach < 1e-3, "Q* and P of the composed task take {} s", solve + reach);
 }
@@ -58,12 +54,12 @@ fn large(side: usize) {
     let whole = Product::conjunction(&[&one, &two]);
     let (dynamics, _) = timed("tables", || Dynamics::new(&grid).unwrap());
     let (labelled, _) = timed("labels", || Labelled::of_model(&grid, &whole).unwrap());
-    let (problem, _) = timed("problem", || Problem::new(&dynamics, &labelled));
-    let (q, solve) = timed("Q*", || problem.optimal_q(&PROGRESS, GAMMA));
+    let (problem, _) = timed("problem", || Problem::new(&dynamics, &labelled).unwrap());
+    let (q, solve) = timed("Q*", || problem.optimal_q(&PROGRESS));
     println!("V(0) = {:.12}", q.max(0, 0));
     drop(q);
     let (best, reach) = timed("P and steps", || problem.best());
-    let (p, steps) = problem.mean(&best);
+    let (p, steps) = (best.mean_satisfied(), best.mean_steps().unwrap());
     println!("P {p:.12}, E[steps] {steps:.9}");
     println!("{side} x {side}: {:.1} s in all, peak memory {} MiB", solve + reach, peak());
 }

@@ -6,7 +6,7 @@ use tltlc::emit::policy::rust;
 
 /// A policy composed of two skills in a world of two states.
 fn policy() -> Value {
-    let settings = serde_json::to_value(Settings { gamma: 0.95, ..Settings::default() }).unwrap();
+    let settings = serde_json::to_value(Settings::default()).unwrap();
     let training = |task: &str, seed: u64| json!({"task": task, "settings": settings, "steps": 1000, "episodes": 10, "seed": seed});
     let certificate = json!({
         "kind": "exact", "satisfied": 1.0, "steps": 2.5,

@@ -10,7 +10,6 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use tltl::deep::{Device, Learner, Settings, Skill};
-use tltl::env::Env;
 use tltl::learn::Schedule;
 use tltl::network::Features;
 use tltl::rand::{Rng, SeedableRng, rngs::Xoshiro256PlusPlus};
@@ -28,19 +27,20 @@ fn learner() -> f64 {
     let id = |name| layout.id(name).expect("an apple and a fridge");
     let goals = Goals::Fixed { object: id("apple"), receptacle: id("fridge") };
     let mut kitchen = Kitchen::new(layout.clone(), goals, 100).expect("a feasible goal");
-    let settings = Settings {
-        hidden: vec![HIDDEN; 2],
-        batch: BATCH,
-        steps_per_update: 1,
-        warmup: 0,
-        relabelled: 0.0,
-        epsilon: Schedule::Constant(0.5),
-        ..Settings::default()
+    let settings = || {
+        Settings::default()
+            .with_hidden([HIDDEN; 2])?
+            .with_batch(BATCH)?
+            .with_steps_per_update(1)?
+            .with_warmup(0)?
+            .with_relabelled(0.0)?
+            .with_epsilon(Schedule::constant(0.5)?)
     };
+    let settings = settings().expect("in range");
     let skill =
         Skill::with_goals(phi1_3(), View::new(layout.clone()), FeasibleGoals::new(&layout, None));
-    let mut learner = Learner::new(skill, kitchen.actions(), settings, &Device::flex(), 1)
-        .exploring(exploration(&layout));
+    let mut learner =
+        Learner::new(skill, &kitchen, settings, &Device::flex(), 1).exploring(exploration(&layout));
     let start = Instant::now();
     learner.train(&mut kitchen, STEPS).expect("numbers stay finite");
     assert_eq!(learner.updates(), learner.steps());

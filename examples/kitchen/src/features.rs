@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use tltl::deep::Goals as Relabel;
+use tltl::deep::Relabel;
 use tltl::network::Features;
 use tltl::rand::Rng;
 
@@ -228,7 +228,7 @@ impl Relabel<Known> for FeasibleGoals {
 /// The actions to explore with: half of the time one without an argument, half of the time a
 /// `navigate`. Drawn uniformly, 56 of 62 actions would only walk.
 #[must_use]
-pub fn exploration(layout: &Layout) -> Vec<u32> {
-    let simple = (0..layout.ids() as u32).map(|i| i % 6);
-    simple.chain((0..layout.ids() as u32).map(|id| 6 + id)).collect()
+pub fn exploration(layout: &Layout) -> Vec<usize> {
+    let simple = (0..layout.ids()).map(|i| i % 6);
+    simple.chain((0..layout.ids()).map(|id| 6 + id)).collect()
 }

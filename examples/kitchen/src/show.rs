@@ -109,17 +109,17 @@ pub struct Episode {
 }
 
 impl Episode {
-    /// Runs `policy` in `kitchen`, from where it is now, until `monitor` or the kitchen ends it.
-    /// `policy` is given what is known and the automaton state; `goals` are what to show.
+    /// Runs `act` in `kitchen`, from where it is now, until `monitor` or the kitchen ends it. `act`
+    /// is given the automaton state and what is known; `goals` are what to show.
     ///
     /// # Errors
-    /// If a predicate is not a number.
-    pub fn record(
+    /// If a predicate is not a number, or the first error of `act`; no step is taken then.
+    pub fn record<E: From<Error>>(
         kitchen: &mut Kitchen,
         monitor: &dyn Monitor<Known>,
         goals: &[Goal],
-        mut policy: impl FnMut(&Known, u32) -> Action,
-    ) -> Result<Self, Error> {
+        mut act: impl FnMut(u32, &Known) -> Result<Action, E>,
+    ) -> Result<Self, E> {
         let mut q = monitor.next(0, kitchen.known())?;
         let known = *kitchen.known();
         let reasons = reasons_for(monitor, goals, 0, &known)?;
@@ -127,7 +127,7 @@ impl Episode {
         let mut moments = vec![start];
         let mut truncated = false;
         while !monitor.is_terminal(q) && !truncated {
-            let action = policy(kitchen.known(), q);
+            let action = act(q, kitchen.known())?;
             let step = kitchen.act(action);
             let reasons = reasons_for(monitor, goals, q, &step.state)?;
             q = monitor.next(q, &step.state)?;

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use tltl::env::Env;
+use tltl::rand::{SeedableRng, rngs::Xoshiro256PlusPlus};
 use tltl_kitchen::show::{self, Episode};
 use tltl_kitchen::tasks::phi_3;
 use tltl_kitchen::{Action, Goal, Goals, Kitchen, Layout, Truth, strip};
@@ -29,8 +31,8 @@ fn recorded() -> (Arc<Layout>, Episode) {
     ]
     .into_iter();
     let task = phi_3(goal.object, goal.receptacle);
-    let policy = |_: &_, _| plan.next().unwrap();
-    (layout.clone(), Episode::record(&mut kitchen, &task, &[goal], policy).unwrap())
+    let act = |_, _: &_| Ok::<_, tltl::task::Error>(plan.next().unwrap());
+    (layout.clone(), Episode::record(&mut kitchen, &task, &[goal], act).unwrap())
 }
 
 #[test]
@@ -73,4 +75,17 @@ fn read_back_from_their_text() {
     let actions: Vec<Action> = episode.moments.iter().filter_map(|moment| moment.action).collect();
     assert_eq!(show::actions(&episode.text(&layout), &layout), actions);
     assert_eq!(show::actions("t   action\n0   (start)\n1   fly\n2   pick\n", &layout), []);
+}
+
+/// A policy that cannot choose an action ends the episode, and takes no step in the kitchen.
+#[test]
+fn what_cannot_act_takes_no_step() {
+    let layout = Arc::new(Layout::small());
+    let mut kitchen = Kitchen::new(layout, Goals::Random { except: None }, 50).unwrap();
+    let goal = kitchen.reset(&mut Xoshiro256PlusPlus::seed_from_u64(1)).goal();
+    let error = tltl::task::Error { predicate: "see".into(), instant: None };
+    let task = phi_3(goal.object, goal.receptacle);
+    let act = |_, _: &_| Err(error.clone());
+    assert_eq!(Episode::record(&mut kitchen, &task, &[goal], act).unwrap_err(), error);
+    assert_eq!(kitchen.steps(), 0);
 }

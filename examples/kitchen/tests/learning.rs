@@ -2,27 +2,25 @@
 
 use std::sync::Arc;
 
-use tltl::Monitor;
 use tltl::checkpoint;
-use tltl::compose::{Combine, Compose};
-use tltl::deep::{Composition, Device, Goals as _, Learned, Learner, Settings, Skill};
-use tltl::env::Env;
+use tltl::compose::Compose;
+use tltl::deep::{Composition, Device, Learner, Relabel as _, Settings, Skill};
 use tltl::learn::Schedule;
 use tltl::network::Features;
-use tltl::product::Product;
+use tltl::prelude::{Combine, Env, Monitor, Product};
 use tltl::rand::{Rng, SeedableRng, rngs::Xoshiro256PlusPlus};
 use tltl_kitchen::features::{FeasibleGoals, View, exploration};
 use tltl_kitchen::tasks::{phi_3, told};
 use tltl_kitchen::{Action, Goal, Goals, Kitchen, Known, Layout};
 
 fn settings(updates: u64) -> Settings {
-    Settings {
-        horizon: 100,
-        hidden: vec![128, 128],
-        learning_rate: Schedule::Linear { from: 5e-4, to: 1e-5, steps: updates },
-        epsilon: Schedule::Linear { from: 1.0, to: 0.05, steps: 3_000 },
-        ..Settings::default()
-    }
+    let settings = || {
+        Settings::default()
+            .with_horizon(100)?
+            .with_learning_rate(Schedule::linear(5e-4, 1e-5, updates)?)?
+            .with_epsilon(Schedule::linear(1.0, 0.05, 3_000)?)
+    };
+    settings().unwrap()
 }
 
 /// How many of 100 episodes satisfy the task, and how many steps all of them take.
@@ -60,38 +58,25 @@ fn networks_learn_and_are_composed() {
     let goals = |except| FeasibleGoals::new(&layout, except);
     let device = Device::flex();
 
-    let alone = Settings { relabelled: 0.0, ..settings(6_000) };
+    let alone = settings(6_000).with_relabelled(0.0).unwrap();
     let skill = Skill::with_goals(put.clone(), View::of(layout.clone(), apple), goals(None));
-    let mut first =
-        Learner::new(skill, layout.actions(), alone, &device, 1).exploring(exploration(&layout));
     let fixed = Goals::Fixed { object, receptacle };
+    let mut first =
+        Learner::new(skill, &kitchen(fixed), alone, &device, 1).exploring(exploration(&layout));
     first.train(&mut kitchen(fixed), 12_000).unwrap();
     let (satisfied, steps) = worth(kitchen(fixed), &put, |q, s| first.act(q, s).unwrap());
     assert!(satisfied >= 99, "{satisfied} of 100 episodes");
     assert!(steps <= 100 * 10, "{steps} steps in 100 episodes");
 
     let skill = Skill::with_goals(any.clone(), View::new(layout.clone()), goals(None));
-    let mut second = Learner::new(skill, layout.actions(), settings(6_000), &device, 1)
-        .exploring(exploration(&layout));
-    second.train(&mut kitchen(Goals::Random { except: None }), 12_000).unwrap();
+    let mut random = kitchen(Goals::Random { except: None });
+    let mut second =
+        Learner::new(skill, &random, settings(6_000), &device, 1).exploring(exploration(&layout));
+    second.train(&mut random, 12_000).unwrap();
 
     let product = Product::conjunction(&[&put, &any]);
-    let networks = [first.network().unwrap(), second.network().unwrap()];
-    let skills = [
-        Learned {
-            network: &networks[0],
-            features: &first.skill().features,
-            task: &put,
-            experience: first.replay(),
-        },
-        Learned {
-            network: &networks[1],
-            features: &second.skill().features,
-            task: &any,
-            experience: second.replay(),
-        },
-    ];
-    let from = Settings { relabelled: 1.0, batch: 64, ..settings(2_000) };
+    let skills = [first.learned().unwrap(), second.learned().unwrap()];
+    let from = settings(2_000).with_relabelled(1.0).unwrap().with_batch(64).unwrap();
     let others = goals(Some(object));
     let mut composition =
         Composition::new(&product, &skills, others, Combine::Sum, from, &device, 1).unwrap();
@@ -121,9 +106,9 @@ fn a_learner_goes_on_from_its_file() {
         Skill::with_goals(&task, View::new(layout.clone()), goals)
     };
     let device = Device::flex();
-    let small = Settings { hidden: vec![16], warmup: 200, ..settings(500) };
+    let small = settings(500).with_hidden([16]).unwrap().with_warmup(200).unwrap();
     let mut through =
-        Learner::new(skill(), layout.actions(), small, &device, 5).exploring(exploration(&layout));
+        Learner::new(skill(), &kitchen(), small, &device, 5).exploring(exploration(&layout));
     through.train(&mut kitchen(), 600).unwrap();
 
     let path = std::env::temp_dir().join(format!("kitchen-{}.checkpoint", std::process::id()));
@@ -146,7 +131,7 @@ fn features_are_small_numbers_and_goals_can_be_reached() {
     let (view, goals) = (View::new(layout.clone()), FeasibleGoals::new(&layout, Some(0)));
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
     let explored = exploration(&layout);
-    assert!((0..layout.actions() as u32).all(|a| explored.contains(&a)), "every action is tried");
+    assert!((0..layout.actions()).all(|a| explored.contains(&a)), "every action is tried");
     for _ in 0..20 {
         let mut known = kitchen.reset(&mut rng);
         for _ in 0..100 {
@@ -157,7 +142,7 @@ fn features_are_small_numbers_and_goals_can_be_reached() {
             let goal = goals.choose(&known, &mut rng).unwrap();
             assert!(layout.feasible(goal.object, goal.receptacle) && goal.object != 0);
             assert_eq!(goals.give(&known, &goal).goal(), goal);
-            let action = explored[rng.next_u32() as usize % explored.len()] as usize;
+            let action = explored[rng.next_u32() as usize % explored.len()];
             known = kitchen.act(Action::from_index(action)).state;
         }
     }

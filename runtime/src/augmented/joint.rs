@@ -1,45 +1,17 @@
 //! Factored tasks as tables, without multiplying out their automata.
 
+use alloc::string::String;
 use alloc::vec::Vec;
-use core::fmt;
 
-use super::{End, Ends, Labelled};
+use super::label::{LabelError, Labelled, Tables};
 use crate::factored::Factored;
 use crate::interner::Interner;
+use crate::reward::{End, Ends};
 use crate::robustness::Predicates;
-use crate::task::Error;
-
-/// Why a factored task has no table.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum JointError {
-    /// A predicate is not a number at a state of the world.
-    NotANumber(Error),
-    /// More joint states can be reached than the budget allows.
-    TooLarge {
-        /// The number of parts.
-        parts: usize,
-        /// The most joint states that were allowed.
-        budget: usize,
-    },
-}
-
-impl fmt::Display for JointError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NotANumber(error) => error.fmt(f),
-            Self::TooLarge { parts, budget } => write!(
-                f,
-                "the {parts} parts of the task reach more than {budget} states together; learn them as \
-                 skills and compose those, or allow more"
-            ),
-        }
-    }
-}
-
-impl core::error::Error for JointError {}
 
 impl Labelled {
-    /// The table of a factored task over a world's states, in the order of their numbers.
+    /// The table of a factored task over a world's states, in the order of their numbers; `actions`
+    /// are what the world's actions are called.
     ///
     /// Only joint states that some sequence of the world's states reaches are numbered, in the
     /// order in which they are found, 0 being the initial one; all that accept are one state, all
@@ -47,18 +19,19 @@ impl Labelled {
     /// times the classes of states: goals that lie apart in the world still reach 2^n.
     ///
     /// # Errors
-    /// If a predicate is not a number at a state of the world, whose number `instant` then is; if
-    /// there are more than `budget` joint states.
-    pub fn of_factored<S: Clone, P: Predicates<S>>(
+    /// As [`Self::new`], or if there are more than `budget` joint states.
+    pub fn of_factored<S, P: Predicates<S>>(
         states: impl IntoIterator<Item = S> + Clone,
+        actions: impl IntoIterator<Item: Into<String>>,
         task: &Factored<P>,
         budget: usize,
-    ) -> Result<Self, JointError> {
-        let part = |i| Self::new(states.clone(), &task.part(i)).map_err(JointError::NotANumber);
+    ) -> Result<Self, LabelError> {
+        let actions: Vec<String> = actions.into_iter().map(Into::into).collect();
+        let part = |i| Self::new(states.clone(), actions.clone(), &task.part(i));
         let parts = (0..task.len()).map(part).collect::<Result<Vec<_>, _>>()?;
         let (class, letters) = letters(&parts);
         let letters = letters.items();
-        let mut joint = Joint::new(&parts);
+        let mut joint = JointStates::new(&parts);
         let (mut next, mut q) = (Vec::new(), 0);
         // Rows are made in the order of the numbers; each may find more.
         while let Some(&tuple) = joint.found.get(q) {
@@ -66,14 +39,24 @@ impl Labelled {
             for letter in letters {
                 next.push(joint.read(&tuple, letter));
                 if joint.numbers.len() > budget {
-                    return Err(JointError::TooLarge { parts: task.len(), budget });
+                    return Err(LabelError::TooLarge { parts: task.len(), budget });
                 }
             }
             q += 1;
         }
-        let distance = distances(joint.ends.len(), joint.accepted, &next, letters.len());
-        let ends = Ends::at(joint.ends, distance);
-        Ok(Self { class, classes: letters.len(), next, ends, robustness: Vec::new() })
+        let classes = letters.len();
+        let distance = Tables::distances(&joint.ends, &next);
+        Self::from_tables(Tables {
+            name: task.name().into(),
+            formula: task.formula().text().into(),
+            actions,
+            classes,
+            class,
+            next,
+            initial: 0,
+            ends: Ends::new(joint.ends, distance),
+            robustness: Vec::new(),
+        })
     }
 }
 
@@ -83,14 +66,14 @@ fn letters(parts: &[Labelled]) -> (Vec<u32>, Interner<u32>) {
     let states = parts.first().map_or(0, Labelled::states);
     let mut class = Vec::with_capacity(states);
     for s in 0..states {
-        let letter: Vec<u32> = parts.iter().map(|part| part.class[s]).collect();
+        let letter: Vec<u32> = parts.iter().map(|part| part.tables().class[s]).collect();
         class.push(letters.number(&letter));
     }
     (class, letters)
 }
 
 /// The joint states found so far.
-struct Joint<'a> {
+struct JointStates<'a> {
     parts: &'a [Labelled],
     /// The parts' states.
     tuples: Interner<u32>,
@@ -104,7 +87,7 @@ struct Joint<'a> {
     lost: Option<u32>,
 }
 
-impl<'a> Joint<'a> {
+impl<'a> JointStates<'a> {
     fn new(parts: &'a [Labelled]) -> Self {
         let mut joint = Self {
             parts,
@@ -123,7 +106,8 @@ impl<'a> Joint<'a> {
     fn read(&mut self, q: &[u32], letter: &[u32]) -> u32 {
         let mut next = Vec::with_capacity(q.len());
         for ((part, &q), &class) in self.parts.iter().zip(q).zip(letter) {
-            next.push(part.next[q as usize * part.classes + class as usize]);
+            let Tables { next: table, classes, .. } = part.tables();
+            next.push(table[q as usize * classes + class as usize]);
         }
         self.number(&next)
     }
@@ -158,28 +142,4 @@ impl<'a> Joint<'a> {
         }
         accepted.then_some(End::Accepted)
     }
-}
-
-/// The least number of moves from each state to acceptance.
-fn distances(
-    states: usize,
-    accepted: Option<u32>,
-    next: &[u32],
-    classes: usize,
-) -> Vec<Option<u32>> {
-    let mut distance = alloc::vec![None; states];
-    let Some(accepted) = accepted else { return distance };
-    distance[accepted as usize] = Some(0);
-    let mut changed = true;
-    while core::mem::take(&mut changed) {
-        for (q, row) in next.chunks(classes).enumerate() {
-            for &to in row {
-                let Some(through) = distance[to as usize].map(|moves| moves + 1) else { continue };
-                if distance[q].is_none_or(|known| through < known) {
-                    (distance[q], changed) = (Some(through), true);
-                }
-            }
-        }
-    }
-    distance
 }

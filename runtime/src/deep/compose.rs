@@ -16,27 +16,29 @@
 use burn::tensor::Device;
 use rand::SeedableRng;
 use rand::rngs::Xoshiro256PlusPlus;
-use std::fmt;
 use std::vec::Vec;
 
 use super::model::{Batch, Model};
 use super::replay::Replay;
 use super::settings::Settings;
 use super::trainer::{Heads, Objective, Trainer, bounds};
-use super::{Error, Goals};
-use crate::augmented::{Moves, Reward};
+use super::{Error, Relabel};
+use crate::augmented::Moves;
 use crate::compose::{Combine, Compose};
+use crate::env::Step;
 use crate::learn::episode::Move;
+use crate::mismatch::Mismatch;
 use crate::monitor::{Acceptor, Monitor};
 use crate::network::{Features, Network, Shape};
 use crate::product::{Operator, Product};
 use crate::q::argmax;
+use crate::reward::Mode;
 use crate::task;
 
-/// A skill that was learned.
+/// A skill that was learned: what [`Learner::learned`](super::Learner::learned) gives.
 pub struct Learned<'a, S> {
     /// Its values; the heads are the task's live states in order.
-    pub network: &'a Network,
+    pub network: Network,
     /// What the network sees.
     pub features: &'a dyn Features<S>,
     /// Its task.
@@ -45,27 +47,20 @@ pub struct Learned<'a, S> {
     pub experience: &'a Replay<S>,
 }
 
-impl<S> fmt::Debug for Learned<'_, S> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut learned = f.debug_struct("Learned");
-        learned.field("task", &self.task.name()).field("shape", self.network.shape());
-        learned.finish_non_exhaustive()
+impl<S> core::fmt::Debug for Learned<'_, S> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_struct("Learned")
+            .field("task", &self.task.name())
+            .field("shape", self.network.shape())
+            .finish_non_exhaustive()
     }
 }
-
-impl<S> Clone for Learned<'_, S> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<S> Copy for Learned<'_, S> {}
 
 /// What several skills see, side by side. All must have the same entities.
 pub struct Joint<'a, S>(pub Vec<&'a dyn Features<S>>);
 
-impl<S> fmt::Debug for Joint<'_, S> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl<S> core::fmt::Debug for Joint<'_, S> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         f.debug_struct("Joint").field("skills", &self.0.len()).finish_non_exhaustive()
     }
 }
@@ -94,20 +89,21 @@ impl<S> Features<S> for Joint<'_, S> {
 }
 
 /// A skill, ready to be evaluated.
-struct Part<'a, S> {
-    skill: Learned<'a, S>,
+struct Ready<'a, S> {
+    features: &'a dyn Features<S>,
+    task: &'a dyn Monitor<S>,
     model: Model,
     heads: Heads,
     moves: Moves,
     scale: f32,
 }
 
-impl<S> Part<'_, S> {
+impl<S> Ready<'_, S> {
     /// All values of some states, `(row * heads + head) * actions + action`.
     fn values(&self, states: &[S]) -> Result<Vec<f32>, Error> {
         let mut batch = Batch::default();
         for s in states {
-            batch.push(&self.skill.features, s).map_err(Error::Feature)?;
+            batch.push(self.features, s).map_err(Error::Feature)?;
         }
         Ok(self.model.values(&batch))
     }
@@ -119,7 +115,7 @@ pub struct Composition<'a, S, G> {
     settings: Settings,
     goals: G,
     combine: Combine,
-    parts: Vec<Part<'a, S>>,
+    parts: Vec<Ready<'a, S>>,
     features: Joint<'a, S>,
     moves: Moves,
     bounds: Vec<(f64, f64)>,
@@ -129,27 +125,28 @@ pub struct Composition<'a, S, G> {
     actions: usize,
 }
 
-impl<S, G> fmt::Debug for Composition<'_, S, G> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl<S, G> core::fmt::Debug for Composition<'_, S, G> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         f.debug_struct("Composition")
-            .field("product", self.product)
-            .field("settings", &self.settings)
-            .field("combine", &self.combine)
+            .field("task", &self.product.name())
+            .field("updates", &self.trainer.updates)
             .finish_non_exhaustive()
     }
 }
 
-impl<'a, S: Clone, G: Goals<S>> Composition<'a, S, G> {
+impl<'a, S: Clone, G: Relabel<S>> Composition<'a, S, G> {
     /// Step 2: the composition of `skills`, in the order of the operands of `product`, on what
-    /// they have seen. Of `settings` it reads those of updates and rewards; γ and rewards must be
+    /// they have seen. Of `settings` it reads those of updates and rewards; the rewards must be
     /// those that the skills were learned with, whose values are taken as they are. The goals of
-    /// replayed steps are drawn from `goals` by the share `settings.relabelled`.
+    /// replayed steps are drawn from `goals` by the share [`Settings::relabelled`].
     ///
     /// # Errors
-    /// If a feature is not a finite number in a state that was seen.
+    /// If skills and product do not fit together, or a feature is not a finite number in a state
+    /// that was seen.
     ///
     /// # Panics
-    /// If skills and product do not fit together, or nothing was seen.
+    /// If nothing was seen.
+    #[track_caller]
     pub fn new(
         product: &'a Product<'a, S>,
         skills: &[Learned<'a, S>],
@@ -159,31 +156,31 @@ impl<'a, S: Clone, G: Goals<S>> Composition<'a, S, G> {
         device: &Device,
         seed: u64,
     ) -> Result<Self, Error> {
-        assert_eq!(skills.len(), product.operands().len(), "a skill for each operand");
+        check(product, skills)?;
         let actions = skills[0].network.shape().actions;
-        let moves = Moves::new(&product, settings.rewards, settings.gamma);
+        let rewards = settings.rewards();
+        let moves = Moves::new(product, rewards);
         let heads = Heads::new(&moves, product.states());
         let features = Joint(skills.iter().map(|skill| skill.features).collect());
-        let shape = Shape::of(&features, &settings.hidden, heads.states.len(), actions);
+        let shape = Shape::of(&features, settings.hidden(), heads.states.len(), actions);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
         let network = Network::random(shape, &mut rng).silent();
-        let mut replay = Replay::new(skills.iter().map(|skill| skill.experience.len()).sum());
+        let seen: usize = skills.iter().map(|skill| skill.experience.len()).sum();
+        assert!(seen > 1, "skills that have seen something");
+        let mut replay = Replay::new(seen);
         skills.iter().for_each(|skill| replay.extend(skill.experience));
-        let part = |&skill: &Learned<'a, S>| {
-            let moves = Moves::new(&skill.task, settings.rewards, settings.gamma);
-            let heads = Heads::new(&moves, skill.task.states());
-            assert_eq!(skill.network.shape().heads, heads.states.len(), "a network for its task");
-            assert_eq!(skill.network.shape().actions, actions, "skills with the same actions");
-            Part { skill, model: Model::new(skill.network, device), heads, moves, scale: 1.0 }
+        let ready = |skill: &Learned<'a, S>| {
+            let (features, task) = (skill.features, skill.task);
+            let moves = Moves::new(task, rewards);
+            let heads = Heads::new(&moves, task.states());
+            let model = Model::new(&skill.network, device);
+            Ready { features, task, model, heads, moves, scale: 1.0 }
         };
+        let paid = worst(&replay, rewards.environment());
         let mut composition = Self {
-            parts: skills.iter().map(part).collect(),
-            bounds: bounds(
-                &moves.most(&product),
-                &settings,
-                worst(&replay, settings.rewards.environment),
-            ),
-            trainer: Trainer::new(Model::new(&network, device), heads, settings.normalisation),
+            parts: skills.iter().map(ready).collect(),
+            bounds: bounds(&moves.most(product), &rewards, paid),
+            trainer: Trainer::new(Model::new(&network, device), heads, settings.normalisation()),
             product,
             settings,
             goals,
@@ -260,7 +257,7 @@ impl<'a, S: Clone, G: Goals<S>> Composition<'a, S, G> {
     }
 }
 
-impl<S: Clone, G: Goals<S>> Compose for Composition<'_, S, G> {
+impl<S: Clone, G: Relabel<S>> Compose for Composition<'_, S, G> {
     type State = S;
     type Error = Error;
 
@@ -278,8 +275,31 @@ impl<S: Clone, G: Goals<S>> Compose for Composition<'_, S, G> {
     }
 
     fn act(&self, q: u32, s: &S) -> Result<usize, Error> {
-        Ok(argmax(&self.values(q, s)?) as usize)
+        Ok(argmax(&self.values(q, s)?))
     }
+}
+
+/// `Ok` if there is a network for each operand, all with the same actions.
+fn check<S>(product: &Product<'_, S>, skills: &[Learned<'_, S>]) -> Result<(), Mismatch> {
+    let operands = product.operands();
+    if skills.len() != operands.len() {
+        let count = |n| std::format!("{n} tasks");
+        let (found, expected) = (count(skills.len()), count(operands.len()));
+        return Err(Mismatch::new("a composition", found, expected));
+    }
+    for (skill, operand) in skills.iter().zip(operands) {
+        let live = (0..operand.states()).filter(|&q| !operand.is_terminal(q)).count();
+        let (own, first) = (skill.network.shape(), skills[0].network.shape());
+        if (own.heads, own.actions) != (live, first.actions) {
+            let size = |name: &str, heads, actions| {
+                std::format!("`{name}` ({heads} live automaton states, {actions} actions)")
+            };
+            let found = size(skill.task.name(), own.heads, own.actions);
+            let expected = size(operand.name(), live, first.actions);
+            return Err(Mismatch::new("a skill", found, expected));
+        }
+    }
+    Ok(())
 }
 
 /// The least and the largest reward of the environment that was seen.
@@ -291,7 +311,7 @@ fn worst<S>(replay: &Replay<S>, environment: f64) -> (f64, f64) {
 /// The skills that read states at `q` and are not done, and where they are.
 fn active<'p, S>(
     product: &'p Product<'_, S>,
-    parts: &'p [Part<'_, S>],
+    parts: &'p [Ready<'_, S>],
     q: u32,
 ) -> impl Iterator<Item = (usize, u32)> {
     let only = product.operator() == Operator::Sequence;
@@ -303,7 +323,7 @@ fn active<'p, S>(
 /// The skills' values of the state in `row` at `q`, combined.
 fn combined<S>(
     product: &Product<'_, S>,
-    parts: &[Part<'_, S>],
+    parts: &[Ready<'_, S>],
     values: &[Vec<f32>],
     combine: Combine,
     q: u32,
@@ -324,7 +344,7 @@ fn combined<S>(
 /// What the further network is to learn beside the skills.
 struct Base<'a, S> {
     product: &'a Product<'a, S>,
-    parts: &'a [Part<'a, S>],
+    parts: &'a [Ready<'a, S>],
     combine: Combine,
     heads: &'a Heads,
     moves: &'a Moves,
@@ -335,22 +355,15 @@ struct Base<'a, S> {
 }
 
 impl<S> Objective<S> for Base<'_, S> {
-    fn read(&self, q: u32, s: &S) -> Result<Move, task::Error> {
-        let mut read = self.moves.read(self.product, q, s)?;
+    fn read(&self, q: u32, step: &Step<S>) -> Result<Move, task::Error> {
+        let mut read = self.moves.read(self.product, q, step)?;
         if self.evaluates {
             for (i, at) in active(self.product, self.parts, q) {
                 let part = &self.parts[i];
-                read.paid -= part.moves.read(&part.skill.task, at, s)?.paid;
+                read.reward -= part.moves.read(part.task, at, step)?.reward;
             }
         }
         Ok(read)
-    }
-
-    fn environment(&self, q: u32) -> f64 {
-        if !self.evaluates {
-            return 1.0;
-        }
-        1.0 - active(self.product, self.parts, q).count() as f64
     }
 
     fn bounds(&self, q: u32) -> (f64, f64) {
@@ -382,16 +395,16 @@ impl<S> Objective<S> for Base<'_, S> {
     /// Where all operands but one are decided, the product's optimum is that operand's, unless potentials
     /// are paid: those depend on the whole automaton.
     fn learns(&self, q: u32) -> bool {
-        let exact = self.combine == Combine::Sum && self.settings.rewards.mode != Reward::Shaped;
+        let exact = self.combine == Combine::Sum && self.settings.rewards().mode() != Mode::Shaped;
         let ends = self.product.components(q).iter().zip(self.parts);
         !exact || ends.filter(|(at, part)| part.heads.of(**at).is_some()).count() > 1
     }
 
     fn advantage_learning(&self) -> f64 {
-        self.settings.advantage_learning
+        self.settings.advantage_learning()
     }
 
     fn advantage_penalty(&self) -> f64 {
-        self.settings.advantage_penalty
+        self.settings.advantage_penalty()
     }
 }

@@ -4,39 +4,70 @@ use burn::tensor::Device;
 use rand::rngs::Xoshiro256PlusPlus;
 use rand::{Rng, SeedableRng};
 use serde::{Deserialize, Serialize};
-use std::fmt;
+use std::string::{String, ToString};
 use std::vec::Vec;
 
-use super::model::{Batch, Descent, Model, Moments};
+use super::model::{AdamMoments, Batch, Descent, Model};
 use super::popart::PopArt;
 use super::replay::Replay;
 use super::settings::Settings;
 use super::trainer::{Heads, Optimum, Trainer, bounds};
-use super::{Error, Goals, Skill};
+use super::{Error, Learned, Relabel, Skill};
 use crate::augmented::Moves;
 use crate::env::{Env, Step, below, unit};
-use crate::learn::episode::{self, Agent, Done, Move, Seen, World};
-use crate::monitor::Monitor;
-use crate::network::{Dense, Features, Invalid, Network, Shape};
+use crate::learn::episode::{self, Agent, Elapsed, Monitored, Move, Transition};
+use crate::mismatch::Mismatch;
+use crate::monitor::{Acceptor, Monitor};
+use crate::network::policy::NetworkTraining;
+use crate::network::{Dense, Features, Network, NetworkError, Shape};
 use crate::q::argmax;
 use crate::task;
 
 /// A double-DQN learner of one skill.
+///
+/// ```
+/// use tltl::deep::{Device, Learner, Settings, Skill};
+/// use tltl::network::Features;
+/// use tltl::prelude::*;
+/// # struct Row;
+/// # impl FiniteModel for Row {
+/// #     type State = i32;
+/// #     fn states(&self) -> usize { 5 }
+/// #     fn actions(&self) -> usize { 2 }
+/// #     fn state(&self, s: usize) -> i32 { s as i32 }
+/// #     fn transitions(&self, s: usize, a: usize, mut outcome: impl FnMut(usize, f64)) {
+/// #         outcome([s.saturating_sub(1), (s + 1).min(4)][a], 1.0);
+/// #     }
+/// # }
+///
+/// /// What the network sees of a cell: where it is.
+/// struct Place;
+///
+/// impl Features<i32> for Place {
+///     fn inputs(&self) -> usize {
+///         5
+///     }
+///     fn write(&self, x: &i32, inputs: &mut [f32], _: &mut [f32]) {
+///         inputs[*x as usize] = 1.0;
+///     }
+/// }
+///
+/// // `Row` is five cells in a row; reach the last one.
+/// let mut env = ModelEnv::new(Row)?;
+/// let skill = Skill::new(tltl! { |x: &i32| F ({ *x } == 4) }, Place);
+/// let settings = Settings::default().with_hidden([16])?.with_batch(16)?.with_warmup(50)?;
+/// let mut learner = Learner::new(skill, &env, settings, &Device::flex(), 1);
+/// learner.train(&mut env, 1_000)?;
+/// assert_eq!(learner.act(0, &3)?, 1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct Learner<S, M, F, G> {
     skill: Skill<M, F, G>,
     moves: Moves,
     core: Core<S>,
     rng: Xoshiro256PlusPlus,
-    done: Done,
-}
-
-impl<S, M, F, G> fmt::Debug for Learner<S, M, F, G> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Learner")
-            .field("settings", &self.core.settings)
-            .field("done", &self.done)
-            .finish_non_exhaustive()
-    }
+    elapsed: Elapsed,
+    seed: u64,
 }
 
 /// All that learning changes, but for the random generator.
@@ -44,7 +75,7 @@ struct Core<S> {
     settings: Settings,
     actions: usize,
     /// The actions that exploration draws from, each as often as it is listed.
-    explored: Vec<u32>,
+    explored: Vec<usize>,
     /// For each automaton state the most that its task pays from there on.
     most: Vec<f64>,
     /// The least and the largest that the environment has paid, 0 included.
@@ -54,6 +85,16 @@ struct Core<S> {
     single: Batch,
 }
 
+impl<S, M: Monitor<S>, F, G> core::fmt::Debug for Learner<S, M, F, G> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_struct("Learner")
+            .field("task", &self.skill.task.name())
+            .field("shape", self.core.trainer.model.shape())
+            .field("steps", &self.elapsed.steps)
+            .finish_non_exhaustive()
+    }
+}
+
 /// The learner while it plays.
 struct Playing<'a, S, M, F, G> {
     skill: &'a Skill<M, F, G>,
@@ -61,8 +102,6 @@ struct Playing<'a, S, M, F, G> {
     core: &'a mut Core<S>,
     /// Environment steps, the one that is being taken included.
     steps: u64,
-    /// Why no action could be chosen.
-    failure: Option<Error>,
 }
 
 /// An environment beside the task of a skill.
@@ -72,7 +111,7 @@ struct Beside<'a, E, M> {
     moves: &'a Moves,
 }
 
-impl<S, E: Env<State = S>, M: Monitor<S>> World for Beside<'_, E, M> {
+impl<S, E: Env<State = S>, M: Monitor<S>> Monitored for Beside<'_, E, M> {
     type State = S;
     type Error = task::Error;
 
@@ -88,8 +127,8 @@ impl<S, E: Env<State = S>, M: Monitor<S>> World for Beside<'_, E, M> {
         Ok(self.env.step(action, rng))
     }
 
-    fn read(&self, q: u32, s: &S) -> Result<Move, task::Error> {
-        self.moves.read(self.task, q, s)
+    fn read(&self, q: u32, step: &Step<S>) -> Result<Move, task::Error> {
+        self.moves.read(self.task, q, step)
     }
 }
 
@@ -98,7 +137,7 @@ where
     S: Clone,
     M: Monitor<S>,
     F: Features<S>,
-    G: Goals<S>,
+    G: Relabel<S>,
 {
     type State = S;
     type Error = Error;
@@ -108,45 +147,41 @@ where
     }
 
     /// ε-greedy.
-    fn act<R: Rng + ?Sized>(&mut self, s: &S, q: u32, steps: u64, rng: &mut R) -> usize {
+    fn act<R: Rng + ?Sized>(
+        &mut self,
+        q: u32,
+        s: &S,
+        steps: u64,
+        rng: &mut R,
+    ) -> Result<usize, Error> {
         self.steps = steps + 1;
-        if unit(rng) < self.core.settings.epsilon.at(steps) {
-            return self.core.explored[below(self.core.explored.len(), rng)] as usize;
+        if unit(rng) < self.core.settings.epsilon().at(steps) {
+            return Ok(self.core.explored[below(self.core.explored.len(), rng)]);
         }
-        let values = self.core.values(&self.skill.features, q, s);
-        values.map_or_else(
-            |error| {
-                self.failure = Some(error);
-                0
-            },
-            |values| argmax(&values) as usize,
-        )
+        Ok(argmax(&self.core.values(&self.skill.features, q, s)?))
     }
 
     /// Remembers the step, and makes an update if it is time for one.
-    fn learn<W: World<State = S, Error: Into<Error>>, R: Rng + ?Sized>(
+    fn learn<W: Monitored<State = S, Error: Into<Error>>, R: Rng + ?Sized>(
         &mut self,
         _: &W,
-        seen: &Seen<'_, S>,
+        transition: &Transition<'_, S>,
         rng: &mut R,
     ) -> Result<(), Error> {
-        if let Some(failure) = self.failure.take() {
-            return Err(failure);
-        }
-        let core = &mut *self.core;
-        if !seen.paid.is_finite() {
+        let (core, &Transition { q, action, step, .. }) = (&mut *self.core, transition);
+        if !step.reward.is_finite() {
             return Err(Error::Reward(self.steps));
         }
-        let paid = core.settings.rewards.environment * seen.paid;
+        let rewards = core.settings.rewards();
+        let paid = rewards.environment() * step.reward;
         core.paid = (core.paid.0.min(paid), core.paid.1.max(paid));
-        let (action, to) = (seen.action as u32, seen.to.clone());
-        core.replay.push(seen.q, action, seen.paid, seen.terminated, to);
-        let Settings { warmup, steps_per_update, .. } = core.settings;
-        if self.steps < warmup || !self.steps.is_multiple_of(steps_per_update.max(1)) {
+        core.replay.push(q, action, Step { state: step.state.clone(), ..*step });
+        let (warmup, between) = (core.settings.warmup(), core.settings.steps_per_update());
+        if self.steps < warmup || !self.steps.is_multiple_of(between) {
             return Ok(());
         }
         let Skill { task, features, goals } = self.skill;
-        let bounds = bounds(&core.most, &core.settings, core.paid);
+        let bounds = bounds(&core.most, &rewards, core.paid);
         let objective = Optimum { task, moves: self.moves, bounds: &bounds };
         let from = (features, goals);
         core.trainer.update(&mut core.replay, from, &objective, &core.settings, rng)?;
@@ -172,46 +207,50 @@ where
     S: Clone,
     M: Monitor<S>,
     F: Features<S>,
-    G: Goals<S>,
+    G: Relabel<S>,
 {
-    /// A learner of `skill` with `actions` actions on `device`, seeded.
+    /// A learner of `skill` in a world with the actions of `env`, on `device`; all that is random
+    /// comes from `seed`.
     ///
     /// # Panics
     /// If no state of the task's automaton is live, or there are more entities than actions.
+    #[track_caller]
     pub fn new(
         skill: Skill<M, F, G>,
-        actions: usize,
+        env: &impl Env<State = S>,
         settings: Settings,
         device: &Device,
         seed: u64,
     ) -> Self {
-        let moves = Moves::new(&skill.task, settings.rewards, settings.gamma);
+        let moves = Moves::new(&skill.task, settings.rewards());
         let heads = Heads::new(&moves, skill.task.states());
-        assert!(!heads.states.is_empty(), "a task that is decided from the start");
-        let shape = Shape::of(&skill.features, &settings.hidden, heads.states.len(), actions);
+        assert!(!heads.states.is_empty(), "a task that is not decided from the start");
+        let actions = env.actions();
+        let shape = Shape::of(&skill.features, settings.hidden(), heads.states.len(), actions);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
         let network = Network::random(shape, &mut rng);
         let core = Core {
-            trainer: Trainer::new(Model::new(&network, device), heads, settings.normalisation),
-            replay: Replay::new(settings.capacity),
-            explored: (0..actions as u32).collect(),
+            trainer: Trainer::new(Model::new(&network, device), heads, settings.normalisation()),
+            replay: Replay::new(settings.capacity()),
+            explored: (0..actions).collect(),
             most: moves.most(&skill.task),
             paid: (0.0, 0.0),
             settings,
             actions,
             single: Batch::default(),
         };
-        Self { skill, moves, core, rng, done: Done::default() }
+        Self { skill, moves, core, rng, elapsed: Elapsed::default(), seed }
     }
 
     /// The same learner, which explores by drawing from `actions`, each as often as it is listed.
     /// (By default all are as likely, which wastes exploration where most actions are of one kind.)
     ///
     /// # Panics
-    /// If the list is empty or has what is no action.
+    /// If the list is empty, or names an action that the world does not have.
     #[must_use]
-    pub fn exploring(mut self, actions: Vec<u32>) -> Self {
-        let all = actions.iter().all(|&a| (a as usize) < self.core.actions);
+    #[track_caller]
+    pub fn exploring(mut self, actions: Vec<usize>) -> Self {
+        let all = actions.iter().all(|&a| a < self.core.actions);
         assert!(!actions.is_empty() && all, "exploration draws from the world's actions");
         self.core.explored = actions;
         self
@@ -222,14 +261,19 @@ where
     /// their very first state.
     ///
     /// # Errors
-    /// If a predicate, a feature, a reward or the loss is not a finite number.
+    /// If the environment has other actions, or a predicate, a feature, a reward or the loss is not
+    /// a finite number. Where no action can be chosen, no step is taken.
     pub fn train<E: Env<State = S>>(&mut self, env: &mut E, total: u64) -> Result<(), Error> {
-        assert_eq!(env.actions(), self.core.actions, "a learner stays with its world");
-        let Self { skill, moves, core, rng, done } = self;
-        let horizon = core.settings.horizon;
+        if env.actions() != self.core.actions {
+            let count = |actions| std::format!("a world of {actions} actions");
+            let (found, expected) = (count(env.actions()), count(self.core.actions));
+            return Err(Error::Mismatch(Mismatch::new("an environment", found, expected)));
+        }
+        let Self { skill, moves, core, rng, elapsed, .. } = self;
+        let horizon = core.settings.horizon();
         let mut world = Beside { env, task: &skill.task, moves };
-        let mut agent = Playing { skill, moves, core, steps: done.steps, failure: None };
-        episode::run(&mut world, &mut agent, done, horizon, total, rng)
+        let mut agent = Playing { skill, moves, core, steps: elapsed.steps };
+        episode::run(&mut world, &mut agent, elapsed, horizon, total, rng)
     }
 
     /// The greedy action in (s, q); any where the task is decided.
@@ -237,7 +281,7 @@ where
     /// # Errors
     /// If a feature is not a finite number.
     pub fn act(&mut self, q: u32, s: &S) -> Result<usize, Error> {
-        Ok(argmax(&self.values(q, s)?) as usize)
+        Ok(argmax(&self.values(q, s)?))
     }
 
     /// Q(s, q, ·); zeros where the task is decided.
@@ -252,8 +296,29 @@ where
     ///
     /// # Errors
     /// If learning has diverged so far that a weight is infinite or not a number.
-    pub fn network(&self) -> Result<Network, Invalid> {
+    pub fn network(&self) -> Result<Network, NetworkError> {
         self.core.trainer.network()
+    }
+
+    /// The skill as it was learned, to be composed with others.
+    ///
+    /// # Errors
+    /// As [`Self::network`].
+    pub fn learned(&self) -> Result<Learned<'_, S>, NetworkError> {
+        let Skill { task, features, .. } = &self.skill;
+        Ok(Learned { network: self.network()?, features, task, experience: &self.core.replay })
+    }
+
+    /// How the network was learned so far, as policies say it.
+    pub fn training(&self) -> NetworkTraining {
+        NetworkTraining {
+            task: self.skill.task.name().into(),
+            steps: self.steps(),
+            episodes: self.episodes(),
+            updates: self.updates(),
+            gamma: self.core.settings.rewards().gamma(),
+            seed: self.seed,
+        }
     }
 
     /// The skill.
@@ -273,12 +338,12 @@ where
 
     /// Environment steps so far.
     pub const fn steps(&self) -> u64 {
-        self.done.steps
+        self.elapsed.steps
     }
 
     /// Episodes so far.
     pub const fn episodes(&self) -> u64 {
-        self.done.episodes
+        self.elapsed.episodes
     }
 
     /// Updates of the network so far.
@@ -286,8 +351,11 @@ where
         self.core.trainer.updates
     }
 
-    /// All that learning has changed.
-    pub fn checkpoint(&self) -> Checkpoint<S> {
+    /// All that learning has changed, to be saved.
+    pub fn checkpoint(&self) -> Checkpoint<S>
+    where
+        S: Clone,
+    {
         Checkpoint {
             settings: self.core.settings.clone(),
             explored: self.core.explored.clone(),
@@ -300,7 +368,9 @@ where
             updates: self.core.trainer.updates,
             replay: self.core.replay.clone(),
             rng: self.rng.clone(),
-            done: self.done,
+            done: self.elapsed,
+            task: Some(Identity::of(&self.skill.task)),
+            seed: self.seed,
         }
     }
 
@@ -308,25 +378,29 @@ where
     /// the same kind of device, with the same numbers.
     ///
     /// # Errors
-    /// If the checkpoint, or the moments in it, are of a network of another shape: that shape.
+    /// If the checkpoint is of another task, or of a network of another shape.
     pub fn resume(
         skill: Skill<M, F, G>,
         checkpoint: Checkpoint<S>,
         device: &Device,
-    ) -> Result<Self, Shape> {
+    ) -> Result<Self, Mismatch> {
         let Checkpoint { settings, shape, network, target, .. } = &checkpoint;
-        let moves = Moves::new(&skill.task, settings.rewards, settings.gamma);
+        let moves = Moves::new(&skill.task, settings.rewards());
         let heads = Heads::new(&moves, skill.task.states());
         let actions = shape.actions;
-        let wanted = Shape::of(&skill.features, &settings.hidden, heads.states.len(), actions);
+        let wanted = Shape::of(&skill.features, settings.hidden(), heads.states.len(), actions);
+        let own = Identity::of(&skill.task);
+        let same = checkpoint.task.as_ref().is_none_or(|task| task.formula == own.formula);
         let model = |layers| Model::resume(wanted.clone(), layers, device);
         let fit = checkpoint.moments.as_ref().is_none_or(|moments| moments.fit(network));
-        let (true, true, Some(model), Some(target)) =
-            (*shape == wanted, fit, model(network), model(target))
+        let (true, true, true, Some(model), Some(target)) =
+            (same, *shape == wanted, fit, model(network), model(target))
         else {
-            return Err(shape.clone());
+            let found = checkpoint.task.as_ref().map_or("a task", |task| &task.name);
+            let (found, expected) = (describe(found, shape), describe(&own.name, &wanted));
+            return Err(Mismatch::new("a checkpoint", found, expected));
         };
-        let mut trainer = Trainer::new(model, heads, settings.normalisation);
+        let mut trainer = Trainer::new(model, heads, settings.normalisation());
         trainer.target = target;
         if let Some(moments) = &checkpoint.moments {
             trainer.descent = Descent::resume(moments, device);
@@ -342,23 +416,51 @@ where
             replay: checkpoint.replay,
             single: Batch::default(),
         };
-        Ok(Self { skill, moves, core, rng: checkpoint.rng, done: checkpoint.done })
+        let (rng, elapsed, seed) = (checkpoint.rng, checkpoint.done, checkpoint.seed);
+        Ok(Self { skill, moves, core, rng, elapsed, seed })
     }
 }
 
-/// All that learning changes, to be saved and resumed; see [`Learner::checkpoint`].
+/// All that learning changes, and which task it was for; see [`Learner::checkpoint`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Checkpoint<S> {
     settings: Settings,
-    explored: Vec<u32>,
+    explored: Vec<usize>,
     paid: (f64, f64),
     shape: Shape,
     network: Vec<Dense>,
     target: Vec<Dense>,
-    moments: Option<Moments>,
+    moments: Option<AdamMoments>,
     popart: PopArt,
     updates: u64,
     replay: Replay<S>,
     rng: Xoshiro256PlusPlus,
-    done: Done,
+    done: Elapsed,
+    /// Not there in files of earlier versions, which are known by their shape alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    task: Option<Identity>,
+    #[serde(default)]
+    seed: u64,
+}
+
+/// Which task a checkpoint is of.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+struct Identity {
+    name: String,
+    formula: String,
+}
+
+impl Identity {
+    fn of(task: &impl Acceptor) -> Self {
+        Self { name: task.name().to_string(), formula: task.formula().text().to_string() }
+    }
+}
+
+/// A task and the network that it is learned with, as errors show them.
+fn describe(task: &str, shape: &Shape) -> String {
+    let Shape { inputs, hidden, heads, actions, entities, channels } = shape;
+    std::format!(
+        "`{task}` (a network of {inputs} inputs, layers {hidden:?}, {heads} heads, {actions} actions, \
+         {entities} entities of {channels} channels)"
+    )
 }

@@ -3,12 +3,12 @@
 //!
 //! A [`Skill`] is a task, what a network sees of a state, and which goals a step can be relabelled
 //! with. A [`Learner`] trains its network by double DQN (van Hasselt et al. 2016) with prioritized
-//! replay, targets normalised by [`PopArt`], n-step returns and a soft target network; a
+//! replay, targets normalised by PopArt (van Hasselt et al. 2016), n-step returns and a soft target network; a
 //! [`Composition`] makes one skill of several from what they have seen, without a step in the world.
 //!
 //! The network has a [head](crate::network) for each live automaton state, and a step of the world
 //! does not depend on q: so each replayed step updates *every* head (counterfactual updates), and,
-//! where tasks have goals as parameters, it is relabelled with other goals ([`Goals`]; universal
+//! where tasks have goals as parameters, it is relabelled with other goals ([`Relabel`]; universal
 //! values, Schaul et al. 2015).
 //!
 //! The device is chosen at run time; everything random comes from the seed, so on the CPU the same
@@ -29,8 +29,7 @@ pub use burn::tensor::Device;
 
 pub use compose::{Composition, Joint, Learned};
 pub use learner::{Checkpoint, Learner};
-pub use popart::PopArt;
-pub use replay::{Moment, Replay, SumTree};
+pub use replay::Replay;
 pub use settings::Settings;
 
 use core::convert::Infallible;
@@ -38,6 +37,7 @@ use core::fmt;
 
 use rand::Rng;
 
+use crate::mismatch::Mismatch;
 use crate::task;
 
 /// What is to be learned: a task, and what a network sees of the world.
@@ -65,8 +65,9 @@ impl<M, F, G> Skill<M, F, G> {
     }
 }
 
-/// Goals that are part of the state, and do not change what the world does.
-pub trait Goals<S> {
+/// Goals that are part of the state, do not change what the world does, and may be exchanged in what
+/// is replayed.
+pub trait Relabel<S> {
     /// A goal.
     type Goal;
 
@@ -83,7 +84,7 @@ pub trait Goals<S> {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct AsGiven;
 
-impl<S: Clone> Goals<S> for AsGiven {
+impl<S: Clone> Relabel<S> for AsGiven {
     type Goal = Infallible;
 
     fn choose<R: Rng + ?Sized>(&self, _: &S, _: &mut R) -> Option<Infallible> {
@@ -99,25 +100,28 @@ impl<S: Clone> Goals<S> for AsGiven {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Error {
     /// A predicate is not a number.
-    Predicate(task::Error),
+    NotANumber(task::Error),
     /// A feature is not a finite number: the number of the feature, entities' after the state's.
     Feature(usize),
     /// The loss is not a finite number, at this update.
     Loss(u64),
     /// The environment paid what is not a finite number, at this step, counted from 1.
     Reward(u64),
+    /// What belongs to different tasks or worlds was brought together.
+    Mismatch(Mismatch),
 }
 
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Predicate(error) => error.fmt(f),
+            Self::NotANumber(error) => error.fmt(f),
             Self::Feature(i) => write!(f, "feature {i} is not a finite number"),
             Self::Loss(update) => write!(
                 f,
                 "the loss of update {update} is not a finite number: learning has diverged; try a \
                  smaller learning rate"
             ),
+            Self::Mismatch(error) => error.fmt(f),
             Self::Reward(step) => write!(f, "the reward of step {step} is not a finite number"),
         }
     }
@@ -125,8 +129,14 @@ impl fmt::Display for Error {
 
 impl std::error::Error for Error {}
 
+impl From<Mismatch> for Error {
+    fn from(error: Mismatch) -> Self {
+        Self::Mismatch(error)
+    }
+}
+
 impl From<task::Error> for Error {
     fn from(error: task::Error) -> Self {
-        Self::Predicate(error)
+        Self::NotANumber(error)
     }
 }

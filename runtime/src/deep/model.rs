@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use std::vec::Vec;
 
 use super::popart::PopArt;
-use crate::network::{Dense, Features, Invalid, Network, Shape};
+use crate::network::{Dense, Features, Network, NetworkError, Shape};
 
 /// The features of some states.
 #[derive(Clone, Debug, Default)]
@@ -135,9 +135,9 @@ impl Model {
         &self.shape
     }
 
-    /// The network: the values of states added to those of their actions. Invalid if a weight has
+    /// The network: the values of states added to those of their actions. NetworkError if a weight has
     /// become infinite or no number.
-    pub(super) fn network(&self) -> Result<Network, Invalid> {
+    pub(super) fn network(&self) -> Result<Network, NetworkError> {
         let mut layers = self.dense();
         let (width, levels) = (self.shape.head_width(), self.shape.levels());
         let heads = layers.last_mut().expect("a network has heads");
@@ -281,13 +281,13 @@ pub(super) struct Descent {
 
 /// Adam's moments as numbers.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct Moments {
+pub(super) struct AdamMoments {
     time: usize,
     first: Vec<Dense>,
     second: Vec<Dense>,
 }
 
-impl Moments {
+impl AdamMoments {
     /// Whether these are moments of such layers.
     pub(super) fn fit(&self, layers: &[Dense]) -> bool {
         let sizes = |layers: &[Dense]| {
@@ -331,8 +331,8 @@ impl Descent {
     }
 
     /// The moments; `None` before the first step.
-    pub(super) fn moments(&self) -> Option<Moments> {
-        let mut all = Moments { time: 0, first: Vec::new(), second: Vec::new() };
+    pub(super) fn moments(&self) -> Option<AdamMoments> {
+        let mut all = AdamMoments { time: 0, first: Vec::new(), second: Vec::new() };
         for (w, b) in &self.moments {
             let (w, b) = (&w.as_ref()?.momentum, &b.as_ref()?.momentum);
             let dense = |w: &Tensor<2>, b: &Tensor<1>| Dense {
@@ -347,7 +347,7 @@ impl Descent {
     }
 
     /// An optimiser that goes on from `moments`.
-    pub(super) fn resume(moments: &Moments, device: &Device) -> Self {
+    pub(super) fn resume(moments: &AdamMoments, device: &Device) -> Self {
         let mut descent = Self::new(moments.first.len());
         let layers = moments.first.iter().zip(&moments.second);
         for (state, (first, second)) in descent.moments.iter_mut().zip(layers) {

@@ -9,13 +9,13 @@ use std::vec::Vec;
 /// values stay what they were. Each automaton state has its own: values fall along the way to
 /// acceptance.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct PopArt {
+pub(super) struct PopArt {
     rate: f64,
-    heads: Vec<Moments>,
+    heads: Vec<TargetMoments>,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-struct Moments {
+struct TargetMoments {
     /// How much of a target has gone into the running sums so far: 1 − (1 − rate)^n.
     share: f64,
     sum: f64,
@@ -28,18 +28,16 @@ const RANGE: (f64, f64) = (1e-2, 1e6);
 impl PopArt {
     /// No normalisation yet, for this number of heads; each update takes in new targets by the
     /// share `rate`, and 0 never normalises.
-    #[must_use]
-    pub fn new(heads: usize, rate: f64) -> Self {
-        Self { rate, heads: std::vec![Moments::default(); heads] }
+    pub(super) fn new(heads: usize, rate: f64) -> Self {
+        Self { rate, heads: std::vec![TargetMoments::default(); heads] }
     }
 
     /// (μ, σ) of a head.
     ///
     /// # Panics
     /// If there is no such head.
-    #[must_use]
-    pub fn scale(&self, head: usize) -> (f64, f64) {
-        let Moments { share, sum, squares } = self.heads[head];
+    pub(super) fn scale(&self, head: usize) -> (f64, f64) {
+        let TargetMoments { share, sum, squares } = self.heads[head];
         if share == 0.0 {
             return (0.0, 1.0);
         }
@@ -52,7 +50,7 @@ impl PopArt {
     ///
     /// # Panics
     /// If there is no such head.
-    pub fn observe(&mut self, head: usize, targets: impl IntoIterator<Item = f64>) {
+    pub(super) fn observe(&mut self, head: usize, targets: impl IntoIterator<Item = f64>) {
         let (mut n, mut sum, mut squares) = (0.0, 0.0, 0.0);
         for target in targets {
             n += 1.0;
@@ -60,7 +58,7 @@ impl PopArt {
             squares += target * target;
         }
         if n > 0.0 && self.rate > 0.0 {
-            let Moments { share, sum: s, squares: q } = &mut self.heads[head];
+            let TargetMoments { share, sum: s, squares: q } = &mut self.heads[head];
             let blend = |old: &mut f64, new: f64| *old += self.rate * (new - *old);
             blend(share, 1.0);
             blend(s, sum / n);

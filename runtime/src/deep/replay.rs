@@ -4,12 +4,12 @@ use rand::Rng;
 use serde::{Deserialize, Serialize};
 use std::vec::Vec;
 
-use crate::env::{below, unit};
+use crate::env::{Step, below, unit};
 
 /// Non-negative weights in a binary tree of sums: to change one and to draw one in proportion cost
 /// log₂ n.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct SumTree {
+pub(super) struct SumTree {
     /// Node i has the children 2i and 2i + 1; the leaves are `leaves..2 * leaves`.
     sums: Vec<f64>,
     leaves: usize,
@@ -17,21 +17,18 @@ pub struct SumTree {
 
 impl SumTree {
     /// `n` weights of 0.
-    #[must_use]
-    pub fn new(n: usize) -> Self {
+    pub(super) fn new(n: usize) -> Self {
         let leaves = n.next_power_of_two();
         Self { sums: std::vec![0.0; 2 * leaves], leaves }
     }
 
     /// The weight of `i`.
-    #[must_use]
-    pub fn get(&self, i: usize) -> f64 {
+    pub(super) fn get(&self, i: usize) -> f64 {
         self.sums[self.leaves + i]
     }
 
     /// The sum of all weights.
-    #[must_use]
-    pub fn total(&self) -> f64 {
+    pub(super) fn total(&self) -> f64 {
         self.sums[1]
     }
 
@@ -39,7 +36,7 @@ impl SumTree {
     ///
     /// # Panics
     /// If it is negative or not finite.
-    pub fn set(&mut self, i: usize, weight: f64) {
+    pub(super) fn set(&mut self, i: usize, weight: f64) {
         assert!(weight.is_finite() && weight >= 0.0, "weights are finite and not negative");
         let mut node = self.leaves + i;
         self.sums[node] = weight;
@@ -51,8 +48,7 @@ impl SumTree {
     }
 
     /// The number whose share of the sum `mass` falls into, 0 ≤ `mass` < [`Self::total`].
-    #[must_use]
-    pub fn find(&self, mut mass: f64) -> usize {
+    pub(super) fn find(&self, mut mass: f64) -> usize {
         let mut node = 1;
         while node < self.leaves {
             node *= 2;
@@ -69,17 +65,17 @@ impl SumTree {
 
 /// A state that was met, and what was done there.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Moment<S> {
+pub(super) struct Moment<S> {
     /// The state.
-    pub state: S,
+    pub(super) state: S,
     /// The automaton state then, of the task that was being learned; of a last state 0.
-    pub q: u32,
+    pub(super) q: u32,
     /// The action taken.
-    pub action: u32,
+    pub(super) action: u32,
     /// What the environment paid for it.
-    pub reward: f64,
+    pub(super) reward: f64,
     /// Whether it ended the environment's episode.
-    pub terminated: bool,
+    pub(super) terminated: bool,
     /// The place of the episode's last state; meaningless until the episode is over.
     last: u32,
 }
@@ -105,8 +101,7 @@ impl<S> Replay<S> {
     ///
     /// # Panics
     /// If there is room for none, or for more than 2^32.
-    #[must_use]
-    pub fn new(capacity: usize) -> Self {
+    pub(super) fn new(capacity: usize) -> Self {
         assert!(capacity > 1 && u32::try_from(capacity).is_ok(), "room for 2 to 2^32 states");
         let priorities = SumTree::new(capacity);
         Self { moments: Vec::new(), capacity, head: 0, age: 0, priorities, largest: 1.0 }
@@ -136,18 +131,18 @@ impl<S> Replay<S> {
     }
 
     /// An episode begins in `state`, and the one before is over.
-    pub fn start(&mut self, state: S) {
+    pub(super) fn start(&mut self, state: S) {
         self.end();
         self.put(state);
     }
 
-    /// A step from the current state, taken in the automaton state `q`, to `state`.
-    pub fn push(&mut self, q: u32, action: u32, reward: f64, terminated: bool, state: S) {
+    /// A step from the current state, taken in the automaton state `q`.
+    pub(super) fn push(&mut self, q: u32, action: usize, step: Step<S>) {
         let moment = &mut self.moments[self.head];
-        (moment.q, moment.action) = (q, action);
-        (moment.reward, moment.terminated) = (reward, terminated);
+        (moment.q, moment.action) = (q, action as u32);
+        (moment.reward, moment.terminated) = (step.reward, step.terminated);
         self.priorities.set(self.head, self.largest);
-        self.put(state);
+        self.put(step.state);
         self.age += 1;
     }
 
@@ -170,14 +165,12 @@ impl<S> Replay<S> {
     }
 
     /// What is at a place.
-    #[must_use]
-    pub fn moment(&self, place: usize) -> &Moment<S> {
+    pub(super) fn moment(&self, place: usize) -> &Moment<S> {
         &self.moments[place]
     }
 
     /// How many steps of its episode follow the place, itself included.
-    #[must_use]
-    pub fn steps_from(&self, place: usize) -> usize {
+    pub(super) fn steps_from(&self, place: usize) -> usize {
         let since = (self.head + self.capacity - place) % self.capacity;
         if since <= self.age {
             return since;
@@ -186,44 +179,51 @@ impl<S> Replay<S> {
     }
 
     /// The place `n` steps later.
-    #[must_use]
-    pub fn after(&self, place: usize, n: usize) -> usize {
+    pub(super) fn after(&self, place: usize, n: usize) -> usize {
         (place + n) % self.capacity
     }
 
-    /// Draws a step in proportion to its priority, or uniformly if `uniform`: its place, and its
-    /// probability times the number of states kept.
+    /// Draws a step uniformly: its place.
     ///
     /// # Panics
     /// If there are no steps.
-    pub fn draw<R: Rng + ?Sized>(&self, uniform: bool, rng: &mut R) -> (usize, f64) {
-        let total = self.priorities.total();
-        assert!(total > 0.0, "there are no steps to draw");
-        if uniform {
-            loop {
-                let place = below(self.moments.len(), rng);
-                if self.priorities.get(place) > 0.0 {
-                    return (place, 1.0);
-                }
+    #[track_caller]
+    pub(super) fn draw_uniformly<R: Rng + ?Sized>(&self, rng: &mut R) -> usize {
+        assert!(self.priorities.total() > 0.0, "there are no steps to draw");
+        loop {
+            let place = below(self.moments.len(), rng);
+            if self.priorities.get(place) > 0.0 {
+                return place;
             }
         }
+    }
+
+    /// Draws a step in proportion to its priority: its place, and its probability times the number
+    /// of states kept.
+    ///
+    /// # Panics
+    /// If there are no steps.
+    #[track_caller]
+    pub(super) fn draw<R: Rng + ?Sized>(&self, rng: &mut R) -> (usize, f64) {
+        let total = self.priorities.total();
+        assert!(total > 0.0, "there are no steps to draw");
         let place = self.priorities.find(unit(rng) * total);
         (place, self.priorities.get(place) / total * self.moments.len() as f64)
     }
 
     /// Sets the priority of the step at `place`; it must be positive.
-    pub fn prioritise(&mut self, place: usize, priority: f64) {
+    pub(super) fn prioritise(&mut self, place: usize, priority: f64) {
         self.largest = self.largest.max(priority);
         self.priorities.set(place, priority);
     }
 
     /// The states, oldest episode first is not promised; with what was done there.
-    pub fn moments(&self) -> &[Moment<S>] {
+    pub(super) fn moments(&self) -> &[Moment<S>] {
         &self.moments
     }
 
     /// Adds all of another replay's episodes.
-    pub fn extend(&mut self, other: &Self)
+    pub(super) fn extend(&mut self, other: &Self)
     where
         S: Clone,
     {
@@ -238,8 +238,9 @@ impl<S> Replay<S> {
             begun = other.priorities.get(place) > 0.0;
             if begun {
                 let Moment { q, action, reward, terminated, .. } = *moment;
-                let next = other.moments[(place + 1) % n].state.clone();
-                self.push(q, action, reward, terminated, next);
+                let state = other.moments[(place + 1) % n].state.clone();
+                let step = Step { state, reward, terminated, truncated: false };
+                self.push(q, action as usize, step);
             }
         }
     }

@@ -8,7 +8,8 @@ use rand::rngs::Xoshiro256PlusPlus;
 
 use super::model::{Batch, Descent, Model, Target};
 use super::popart::PopArt;
-use crate::env::unit;
+use super::replay::{Replay, SumTree};
+use crate::env::{Step, below, unit};
 use crate::network::{Dense, Features, Network, Shape};
 
 /// Features that are given as such.
@@ -169,4 +170,60 @@ fn descent_goes_on_from_its_moments() {
     (0..3).for_each(|_| assert!(step(&mut model, &mut descent) > 0.0));
     (0..3).for_each(|_| assert!(step(&mut again, &mut resumed) > 0.0));
     assert_eq!(model.dense(), again.dense());
+}
+
+#[test]
+fn priorities_are_drawn_in_proportion() {
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
+    let (mut tree, mut naive) = (SumTree::new(100), std::vec![0.0; 100]);
+    for _ in 0..1_000 {
+        let (i, weight) = (below(100, &mut rng), below(8, &mut rng) as f64);
+        tree.set(i, weight);
+        naive[i] = weight;
+    }
+    let total: f64 = naive.iter().sum();
+    assert!((tree.total() - total).abs() < 1e-9);
+    for step in 0..10_000 {
+        let mass = total * f64::from(step) / 10_000.0;
+        let mut left = mass;
+        let expected = naive.iter().position(|w| {
+            left -= w;
+            left < 0.0
+        });
+        assert_eq!(Some(tree.find(mass)), expected);
+    }
+}
+
+#[test]
+fn a_replay_keeps_its_last_states_in_order() {
+    let mut replay = Replay::new(10);
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
+    for episode in 0..50 {
+        replay.start(episode * 100);
+        for t in 1..=episode % 7 {
+            replay.push(0, t as usize, Step::to(episode * 100 + t));
+        }
+        if (0..replay.len()).all(|i| replay.steps_from(i) == 0) {
+            continue;
+        }
+        for _ in 0..20 {
+            let (place, _) = replay.draw(&mut rng);
+            let ahead = replay.steps_from(place);
+            assert!(ahead > 0, "a last state has no step");
+            for n in 0..=ahead {
+                let expected = replay.moment(place).state + n as i32;
+                assert_eq!(replay.moment(replay.after(place, n)).state, expected);
+            }
+        }
+    }
+    let mut copy = Replay::new(40);
+    copy.extend(&replay);
+    let whole = |replay: &Replay<i32>| {
+        let steps = (0..replay.len()).filter(|&i| replay.steps_from(i) > 0);
+        let mut steps: Vec<_> =
+            steps.map(|i| (replay.moment(i).state, replay.moment(i).action)).collect();
+        steps.sort_unstable();
+        steps
+    };
+    assert_eq!(whole(&copy), whole(&replay));
 }

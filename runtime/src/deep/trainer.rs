@@ -7,13 +7,15 @@ use super::model::{Batch, Descent, Model, Target};
 use super::popart::PopArt;
 use super::replay::Replay;
 use super::settings::Settings;
-use super::{Error, Goals};
-use crate::augmented::{Moves, Reward};
-use crate::env::unit;
+use super::{Error, Relabel};
+use crate::augmented::Moves;
+use crate::env::{Step, unit};
+use crate::learn::Updates;
 use crate::learn::episode::Move;
 use crate::monitor::Monitor;
-use crate::network::{Features, Invalid, Network};
+use crate::network::{Features, Network, NetworkError};
 use crate::q::argmax;
+use crate::reward::{Mode, Rewards};
 use crate::task;
 
 /// Added to every error before it becomes a priority, so that no step is forgotten.
@@ -30,7 +32,7 @@ pub(super) struct Heads {
 
 impl Heads {
     pub(super) fn new(moves: &Moves, automaton_states: u32) -> Self {
-        let states: Vec<u32> = moves.live().collect();
+        let states: Vec<u32> = moves.ends().live().collect();
         let mut of = std::vec![None; automaton_states as usize];
         states.iter().enumerate().for_each(|(head, &q)| of[q as usize] = Some(head));
         Self { states, of }
@@ -44,17 +46,12 @@ impl Heads {
 
 /// What an update is to learn.
 pub(super) trait Objective<S> {
-    /// The automaton state after `q` has read `s`, and what the move pays.
-    fn read(&self, q: u32, s: &S) -> Result<Move, task::Error>;
+    /// What a step does at `q`, and what it pays there.
+    fn read(&self, q: u32, step: &Step<S>) -> Result<Move, task::Error>;
 
     /// Values that the network's are added to, indexed `(row * heads + head) * actions + action`; none
     /// are zeros.
     fn base(&self, states: &[S]) -> Result<Option<Vec<f32>>, Error>;
-
-    /// How often a reward of the environment counts at `q`.
-    fn environment(&self, _q: u32) -> f64 {
-        1.0
-    }
 
     /// The least and the most that can be had from an automaton state on. Bootstrapped values are kept
     /// between them, so that errors cannot feed on themselves.
@@ -94,8 +91,8 @@ pub(super) struct Optimum<'a, M> {
 }
 
 impl<S, M: Monitor<S>> Objective<S> for Optimum<'_, M> {
-    fn read(&self, q: u32, s: &S) -> Result<Move, task::Error> {
-        self.moves.read(self.task, q, s)
+    fn read(&self, q: u32, step: &Step<S>) -> Result<Move, task::Error> {
+        self.moves.read(self.task, q, step)
     }
 
     fn bounds(&self, q: u32) -> (f64, f64) {
@@ -109,28 +106,23 @@ impl<S, M: Monitor<S>> Objective<S> for Optimum<'_, M> {
 
 /// For each automaton state the least and the most that can be had, from the most that the task
 /// pays and the least and the largest reward of the environment.
-pub(super) fn bounds(
-    most: &[f64],
-    settings: &Settings,
-    environment: (f64, f64),
-) -> Vec<(f64, f64)> {
-    let Settings { gamma, rewards, .. } = settings;
-    let for_ever = 1.0 / (1.0 - gamma);
+pub(super) fn bounds(most: &[f64], rewards: &Rewards, environment: (f64, f64)) -> Vec<(f64, f64)> {
+    let for_ever = 1.0 / (1.0 - rewards.gamma());
     let each = environment.0
-        - rewards.step_penalty.max(0.0)
-        - match rewards.mode {
-            Reward::Robustness { bound } => bound,
-            Reward::Shaped => 1.0,
+        - rewards.step_penalty()
+        - match rewards.mode() {
+            Mode::Robustness => rewards.bound(),
+            Mode::Shaped => 1.0,
             _ => 0.0,
         };
-    let least = each * for_ever - rewards.trap_penalty.max(0.0);
+    let least = each * for_ever - rewards.trap_penalty();
     most.iter().map(|task| (least, (task + environment.1 * for_ever).max(least))).collect()
 }
 
-/// What all heads make of one replayed step.
-struct Outcome {
-    /// The rewards of the steps.
-    paid: f64,
+/// The n-step return of some replayed steps, up to the value after them.
+struct Return {
+    /// The discounted rewards of the steps.
+    reward: f64,
     /// What a value after them is worth now; 0 if there is none.
     discount: f64,
     /// The head after them, if the task goes on.
@@ -146,7 +138,7 @@ struct Sample<S> {
     taken: Vec<Option<usize>>,
     before: Vec<S>,
     after: Vec<S>,
-    outcomes: Vec<Outcome>,
+    returns: Vec<Return>,
 }
 
 /// A network, its target, and what moves them.
@@ -176,7 +168,7 @@ impl Trainer {
     }
 
     /// The network, its normalisation taken back.
-    pub(super) fn network(&self) -> Result<Network, Invalid> {
+    pub(super) fn network(&self) -> Result<Network, NetworkError> {
         let mut model = self.model.clone();
         model.rescale(&self.popart, &PopArt::new(self.heads.states.len(), 0.0));
         model.network()
@@ -205,7 +197,7 @@ impl Trainer {
     where
         S: Clone,
         F: Features<S>,
-        G: Goals<S>,
+        G: Relabel<S>,
         O: Objective<S>,
         R: Rng + ?Sized,
     {
@@ -222,9 +214,9 @@ impl Trainer {
         if !loss.is_finite() {
             return Err(Error::Loss(self.updates));
         }
-        let rate = settings.learning_rate.at(self.updates);
-        self.descent.step(&mut self.model, gradients, rate, settings.gradient_norm);
-        self.target.follow(&self.model, settings.target_rate);
+        let rate = settings.learning_rate().at(self.updates);
+        self.descent.step(&mut self.model, gradients, rate, settings.gradient_norm());
+        self.target.follow(&self.model, settings.target_rate());
         self.prioritise(replay, &sample, &targets, &values, settings);
         self.updates += 1;
         Ok(f64::from(loss))
@@ -240,7 +232,7 @@ impl Trainer {
     ) -> Result<Sample<S>, Error>
     where
         S: Clone,
-        G: Goals<S>,
+        G: Relabel<S>,
         O: Objective<S>,
         R: Rng + ?Sized,
     {
@@ -251,54 +243,54 @@ impl Trainer {
             taken: Vec::new(),
             before: Vec::new(),
             after: Vec::new(),
-            outcomes: Vec::new(),
+            returns: Vec::new(),
         };
-        let beta = settings.importance.at(self.updates);
-        for _ in 0..settings.batch {
-            let (place, probability) = replay.draw(settings.priority == 0.0, rng);
-            let mut states = relabelled(replay, place, goals, settings, rng);
+        let beta = settings.importance().at(self.updates);
+        let gamma = settings.rewards().gamma();
+        for _ in 0..settings.batch() {
+            let uniform = settings.priority() == 0.0;
+            let (place, probability) =
+                if uniform { (replay.draw_uniformly(rng), 1.0) } else { replay.draw(rng) };
+            let mut steps = relabelled(replay, place, goals, settings, rng);
             for &q in &self.heads.states {
-                let rewards = (0..states.len() - 1).map(|i| replay.moment(replay.after(place, i)));
-                let steps = states[1..].iter().zip(rewards.map(|m| (m.reward, m.terminated)));
-                sample.outcomes.push(self.outcome(q, steps, objective, settings)?);
+                sample.returns.push(self.return_of(q, &steps[1..], objective, gamma)?);
             }
             let moment = replay.moment(place);
             sample.places.push(place);
             sample.weights.push(probability.powf(-beta));
             sample.actions.push(moment.action);
             sample.taken.push(self.heads.of(moment.q));
-            sample.after.push(states.pop().expect("a step has two states"));
-            sample.before.push(states.swap_remove(0));
+            sample.after.push(steps.pop().expect("a step has two states").state);
+            sample.before.push(steps.swap_remove(0).state);
         }
         let largest = sample.weights.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
         sample.weights.iter_mut().for_each(|w| *w /= largest);
         Ok(sample)
     }
 
-    /// What some steps are worth to the automaton state `q`.
-    fn outcome<'s, S: 's, O: Objective<S>>(
+    /// The return of some steps to the automaton state `q`.
+    fn return_of<S, O: Objective<S>>(
         &self,
         mut q: u32,
-        steps: impl Iterator<Item = (&'s S, (f64, bool))>,
+        steps: &[Step<S>],
         objective: &O,
-        settings: &Settings,
-    ) -> Result<Outcome, Error> {
-        let mut outcome = Outcome { paid: 0.0, discount: 1.0, head: 0 };
-        for (state, (reward, terminated)) in steps {
-            let Move { to, paid, .. } = objective.read(q, state)?;
-            let environment = objective.environment(q) * settings.rewards.environment;
-            outcome.paid += outcome.discount * (paid + environment * reward);
-            outcome.discount *= settings.gamma;
+        gamma: f64,
+    ) -> Result<Return, Error> {
+        let mut found = Return { reward: 0.0, discount: 1.0, head: 0 };
+        for step in steps {
+            let Move { to, reward, .. } = objective.read(q, step)?;
+            found.reward += found.discount * reward;
+            found.discount *= gamma;
             q = to;
             match self.heads.of(q) {
-                Some(head) if !terminated => outcome.head = head,
+                Some(head) if !step.terminated => found.head = head,
                 _ => {
-                    outcome.discount = 0.0;
+                    found.discount = 0.0;
                     break;
                 }
             }
         }
-        Ok(outcome)
+        Ok(found)
     }
 
     /// What the network should say of each step, indexed `row * heads + head`.
@@ -325,18 +317,18 @@ impl Trainer {
         let before =
             (share > 0.0).then(|| sum(self.values(&self.target, &self.before), own.as_deref()));
         let own = own.as_deref();
-        let wanted = sample.outcomes.iter().enumerate().map(|(i, outcome)| {
-            let mut wanted = outcome.paid;
-            if outcome.discount > 0.0 {
-                let from = (i / heads * heads + outcome.head) * actions;
-                let best = argmax(&chooses[from..from + actions]) as usize;
-                let (least, most) = objective.bounds(self.heads.states[outcome.head]);
-                wanted += outcome.discount * f64::from(target[from + best]).clamp(least, most);
+        let wanted = sample.returns.iter().enumerate().map(|(i, found)| {
+            let mut wanted = found.reward;
+            if found.discount > 0.0 {
+                let from = (i / heads * heads + found.head) * actions;
+                let best = argmax(&chooses[from..from + actions]);
+                let (least, most) = objective.bounds(self.heads.states[found.head]);
+                wanted += found.discount * f64::from(target[from + best]).clamp(least, most);
             }
             let (row, action) = (i * actions, sample.actions[i / heads] as usize);
             if let Some(before) = before.as_deref() {
                 let chooses = own.filter(|_| objective.evaluates()).unwrap_or(before);
-                let best = argmax(&chooses[row..row + actions]) as usize;
+                let best = argmax(&chooses[row..row + actions]);
                 wanted += share * f64::from(before[row + action] - before[row + best]);
             }
             match own {
@@ -355,7 +347,7 @@ impl Trainer {
         settings: &Settings,
     ) -> Vec<bool> {
         let learns: Vec<bool> = self.heads.states.iter().map(|&q| objective.learns(q)).collect();
-        let all = settings.counterfactual;
+        let all = settings.updates() == Updates::Counterfactual;
         let of = |&taken: &Option<usize>| {
             let learns = learns.iter().enumerate();
             learns.map(move |(head, &learns)| learns && (all || taken == Some(head)))
@@ -393,7 +385,7 @@ impl Trainer {
         values: &[f32],
         settings: &Settings,
     ) {
-        if settings.priority == 0.0 {
+        if settings.priority() == 0.0 {
             return;
         }
         let heads = self.heads.states.len();
@@ -404,28 +396,34 @@ impl Trainer {
                 (n + 1, sum + f64::from((target.value - value).abs()))
             });
             let error = if n == 0 { 0.0 } else { error / f64::from(n) };
-            replay.prioritise(place, (error + LEAST_ERROR).powf(settings.priority));
+            replay.prioritise(place, (error + LEAST_ERROR).powf(settings.priority()));
         }
     }
 }
 
-/// The states of a step or of several, with one goal.
-fn relabelled<S: Clone, G: Goals<S>, R: Rng + ?Sized>(
+/// A step or several, with one goal; the first one leads to the state before them.
+fn relabelled<S: Clone, G: Relabel<S>, R: Rng + ?Sized>(
     replay: &Replay<S>,
     place: usize,
     goals: &G,
     settings: &Settings,
     rng: &mut R,
-) -> Vec<S> {
+) -> Vec<Step<S>> {
     let ahead = replay.steps_from(place);
-    let count = settings.steps.clamp(1, ahead);
-    let state = |i| &replay.moment(replay.after(place, i)).state;
-    let relabel = settings.relabelled > 0.0 && unit(rng) < settings.relabelled;
-    let goal = relabel.then(|| goals.choose(state(0), rng));
-    match goal.flatten() {
-        Some(goal) => (0..=count).map(|i| goals.give(state(i), &goal)).collect(),
-        None => (0..=count).map(|i| state(i).clone()).collect(),
-    }
+    let count = settings.steps().clamp(1, ahead);
+    let moment = |i| replay.moment(replay.after(place, i));
+    let relabel = settings.relabelled() > 0.0 && unit(rng) < settings.relabelled();
+    let goal = relabel.then(|| goals.choose(&moment(0).state, rng)).flatten();
+    let given = |state: &S| match &goal {
+        Some(goal) => goals.give(state, goal),
+        None => state.clone(),
+    };
+    let first = Step::to(given(&moment(0).state));
+    let later = (0..count).map(|i| {
+        let (reward, terminated) = (moment(i).reward, moment(i).terminated);
+        Step { reward, terminated, ..Step::to(given(&moment(i + 1).state)) }
+    });
+    core::iter::once(first).chain(later).collect()
 }
 
 fn encode<S, F: Features<S>>(batch: &mut Batch, features: &F, states: &[S]) -> Result<(), Error> {

@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
+use crate::mismatch::{self, Mismatch};
 use crate::model::FiniteModel;
 
 /// How often each (s, a, s') and each start was seen.
@@ -31,6 +32,14 @@ impl Experience {
         Self { actions, outcomes, starts: alloc::vec![0; states] }
     }
 
+    /// Whether all of it is of a world of this size: it may come from a file.
+    pub(super) fn is_of(&self, states: usize, actions: usize) -> bool {
+        let inside = |list: &Vec<(u32, u32)>| list.iter().all(|&(to, _)| (to as usize) < states);
+        (self.starts.len(), self.actions) == (states, actions)
+            && Some(self.outcomes.len()) == states.checked_mul(actions)
+            && self.outcomes.iter().all(inside)
+    }
+
     /// Adds a start in `s`.
     #[inline]
     pub fn start(&mut self, s: usize) {
@@ -54,15 +63,18 @@ impl Experience {
 
     /// Adds all of another experience of the same world.
     ///
-    /// # Panics
+    /// # Errors
     /// If the worlds differ in size.
-    pub fn extend(&mut self, other: &Self) {
-        let size = |e: &Self| (e.actions, e.starts.len());
-        assert_eq!(size(self), size(other), "experience of the same world");
+    pub fn extend(&mut self, other: &Self) -> Result<(), Mismatch> {
+        let world = |e: &Self| mismatch::world(e.starts.len(), e.actions);
+        if world(self) != world(other) {
+            return Err(Mismatch::new("experience", world(other), world(self)));
+        }
         for (cell, list) in other.outcomes.iter().enumerate() {
             list.iter().for_each(|&(to, times)| self.add(cell, to, times));
         }
         self.starts.iter_mut().zip(&other.starts).for_each(|(n, m)| *n = n.saturating_add(*m));
+        Ok(())
     }
 
     /// How often `a` was tried in `s`.

@@ -5,41 +5,53 @@ use core::convert::Infallible;
 
 use rand::Rng;
 
-use super::episode::{Agent, Move, Seen, World};
-use super::{Experience, Schedule, Settings};
-use crate::augmented::Labelled;
+use super::episode::{Agent, Monitored, Move, Transition};
+use super::{Experience, Settings, TrainError};
+use crate::augmented::{Labelled, Payment};
 use crate::env::{FiniteEnv, Step, below, unit};
 use crate::q::{argmax, largest};
+use crate::reward::Rewards;
 
 /// A finite environment beside a task, states as numbers: reading one is a single look-up.
 pub(super) struct Numbered<'a, E> {
     env: &'a mut E,
+    task: Labelled,
     states: usize,
-    /// Where each (q, s') leads and what it pays, indexed `q * states + s'`.
+    /// Where each (q, s') leads and what the task pays for it, indexed `q * states + s'`.
     moves: Vec<Move>,
+    /// What the task pays for a move with which the environment ends.
+    last: Payment,
     /// The weight of the environment's own reward.
     environment: f64,
 }
 
 impl<'a, E> Numbered<'a, E> {
-    pub(super) fn new(env: &'a mut E, task: &Labelled, settings: &Settings) -> Self {
-        let payment = task.payment(&settings.rewards, settings.gamma);
+    pub(super) fn new(env: &'a mut E, task: &Labelled, rewards: &Rewards) -> Self {
+        let (payment, class) = (task.payment(rewards), &task.tables().class);
         let moves = (0..task.pairs()).map(|pair| {
             let (q, s) = ((pair / task.states()) as u32, pair % task.states());
             let to = task.next(q, s);
-            let paid = payment.get(q, s, task.class()[s]);
-            Move { to, paid, over: task.end(to).is_some() }
+            Move { to, reward: payment.get(q, s, class[s]), over: task.end(to).is_some() }
         });
         Self {
             env,
             states: task.states(),
             moves: moves.collect(),
-            environment: settings.rewards.environment,
+            last: task.last_payment(rewards),
+            environment: rewards.environment(),
+            task: task.clone(),
         }
+    }
+
+    /// What the task does on the last step of the environment.
+    #[cold]
+    fn read_last(&self, q: u32, s: usize) -> Move {
+        let reward = self.last.get(q, s, self.task.tables().class[s]);
+        Move { to: self.task.next(q, s), reward, over: true }
     }
 }
 
-impl<E: FiniteEnv> World for Numbered<'_, E> {
+impl<E: FiniteEnv> Monitored for Numbered<'_, E> {
     type State = usize;
     type Error = Infallible;
 
@@ -54,13 +66,17 @@ impl<E: FiniteEnv> World for Numbered<'_, E> {
         action: usize,
         rng: &mut R,
     ) -> Result<Step<usize>, Infallible> {
-        let step = self.env.step_index(action, rng);
-        Ok(Step { reward: self.environment * step.reward, ..step })
+        Ok(self.env.step_index(action, rng))
     }
 
     #[inline(always)]
-    fn read(&self, q: u32, &s: &usize) -> Result<Move, Infallible> {
-        Ok(self.moves[q as usize * self.states + s])
+    fn read(&self, q: u32, step: &Step<usize>) -> Result<Move, Infallible> {
+        let read = if step.terminated {
+            self.read_last(q, step.state)
+        } else {
+            self.moves[q as usize * self.states + step.state]
+        };
+        Ok(Move { reward: read.reward + self.environment * step.reward, ..read })
     }
 }
 
@@ -91,6 +107,7 @@ impl Width for usize {
 /// current automaton state alone, and nothing is remembered.
 pub(super) struct Tabular<'a, W, const PLAIN: bool> {
     pub(super) settings: Settings,
+    pub(super) gamma: f64,
     /// The automaton states that a counterfactual update visits.
     pub(super) live: Vec<u32>,
     pub(super) states: usize,
@@ -109,26 +126,38 @@ impl<W: Width, const PLAIN: bool> Tabular<'_, W, PLAIN> {
         &self.values[(q as usize * self.states + s) * width..][..width]
     }
 
+    /// Whether to explore: with probability ε.
+    #[inline(always)]
+    pub(super) fn explores<R: Rng + ?Sized>(&self, steps: u64, rng: &mut R) -> bool {
+        let epsilon = match self.settings.epsilon().fixed() {
+            Some(epsilon) => epsilon,
+            None => self.settings.epsilon().at(steps),
+        };
+        epsilon >= 1.0 || unit(rng) < epsilon
+    }
+
     /// The step size of this update.
     #[inline(always)]
-    fn alpha(&mut self, seen: &Seen<'_, usize>) -> f64 {
-        if let Schedule::Constant(alpha) = self.settings.alpha {
+    fn alpha(&mut self, transition: &Transition<'_, usize>) -> f64 {
+        if let Some(alpha) = self.settings.alpha().fixed() {
             return alpha;
         }
-        let shared = !PLAIN && self.settings.counterfactual;
-        let layer = if shared { 0 } else { seen.q as usize * self.states };
-        let visits = &mut self.visits[(layer + seen.s) * self.width.get() + seen.action];
+        let shared = !PLAIN && self.settings.is_counterfactual();
+        let layer = if shared { 0 } else { transition.q as usize * self.states };
+        let entry = (layer + transition.s) * self.width.get() + transition.action;
+        let visits = &mut self.visits[entry];
         let before = *visits;
         *visits = before.saturating_add(1);
-        self.settings.alpha.at(u64::from(before))
+        self.settings.alpha().at(u64::from(before))
     }
 
     /// Q ← Q + α (r + γ max Q' − Q); the rows of terminal automaton states are 0.
     #[inline(always)]
-    fn update(&mut self, q: u32, read: Move, seen: &Seen<'_, usize>, alpha: f64) {
-        let best = if seen.terminated { 0.0 } else { largest(self.row(read.to, *seen.to)) };
-        let target = read.paid + seen.paid + self.settings.gamma * best;
-        let entry = (q as usize * self.states + seen.s) * self.width.get() + seen.action;
+    fn update(&mut self, q: u32, read: Move, transition: &Transition<'_, usize>, alpha: f64) {
+        let Transition { s, action, step, .. } = *transition;
+        let best = if step.terminated { 0.0 } else { largest(self.row(read.to, step.state)) };
+        let target = read.reward + self.gamma * best;
+        let entry = (q as usize * self.states + s) * self.width.get() + action;
         let value = &mut self.values[entry];
         *value += alpha * (target - *value);
     }
@@ -136,46 +165,49 @@ impl<W: Width, const PLAIN: bool> Tabular<'_, W, PLAIN> {
 
 impl<W: Width, const PLAIN: bool> Agent for Tabular<'_, W, PLAIN> {
     type State = usize;
-    type Error = Infallible;
+    type Error = TrainError;
 
     fn start(&mut self, &s: &usize) {
-        if !PLAIN && self.settings.remember {
+        if !PLAIN && self.settings.remembers() {
             self.experience.start(s);
         }
     }
 
     /// ε-greedy.
     #[inline(always)]
-    fn act<R: Rng + ?Sized>(&mut self, &s: &usize, q: u32, steps: u64, rng: &mut R) -> usize {
-        let epsilon = match self.settings.epsilon {
-            Schedule::Constant(epsilon) => epsilon,
-            schedule => schedule.at(steps),
-        };
-        if epsilon >= 1.0 || unit(rng) < epsilon {
-            below(self.width.get(), rng)
-        } else {
-            argmax(self.row(q, s)) as usize
-        }
+    fn act<R: Rng + ?Sized>(
+        &mut self,
+        q: u32,
+        &s: &usize,
+        steps: u64,
+        rng: &mut R,
+    ) -> Result<usize, TrainError> {
+        let explores = self.explores(steps, rng);
+        Ok(if explores { below(self.width.get(), rng) } else { argmax(self.row(q, s)) })
     }
 
     #[inline(always)]
-    fn learn<V: World<State = usize, Error: Into<Self::Error>>, R: Rng + ?Sized>(
+    fn learn<V: Monitored<State = usize, Error: Into<TrainError>>, R: Rng + ?Sized>(
         &mut self,
         world: &V,
-        seen: &Seen<'_, usize>,
+        transition: &Transition<'_, usize>,
         _rng: &mut R,
-    ) -> Result<(), Self::Error> {
-        if !PLAIN && self.settings.remember {
-            self.experience.push(*seen.s, seen.action, *seen.to);
+    ) -> Result<(), TrainError> {
+        let Transition { q, s, action, step, read } = *transition;
+        if !step.reward.is_finite() {
+            return Err(TrainError::Reward(0));
         }
-        let alpha = self.alpha(seen);
-        if PLAIN || !self.settings.counterfactual {
-            self.update(seen.q, seen.read, seen, alpha);
+        if !PLAIN && self.settings.remembers() {
+            self.experience.push(*s, action, step.state);
+        }
+        let alpha = self.alpha(transition);
+        if PLAIN || !self.settings.is_counterfactual() {
+            self.update(q, read, transition, alpha);
             return Ok(());
         }
         for i in 0..self.live.len() {
             let q = self.live[i];
-            self.update(q, world.read(q, seen.to).map_err(Into::into)?, seen, alpha);
+            self.update(q, world.read(q, step).map_err(Into::into)?, transition, alpha);
         }
         Ok(())
     }

@@ -67,15 +67,15 @@ use core::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::Network;
-use crate::augmented::End;
 use crate::policy::States;
 use crate::q::argmax;
+use crate::reward::End;
 
 /// How a network, or a skill that it was composed from, was learned.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct Training {
+pub struct NetworkTraining {
     /// The name of the task that was learned.
     pub task: String,
     /// Environment steps.
@@ -94,7 +94,7 @@ pub struct Training {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct Document {
+pub struct NetworkDocument {
     /// [`NetworkPolicy::FORMAT`].
     #[cfg_attr(feature = "serde", serde(deserialize_with = "early::format"))]
     pub format: String,
@@ -116,7 +116,7 @@ pub struct Document {
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub channels: Vec<String>,
     /// How it was learned; for a composition, how each skill was.
-    pub training: Vec<Training>,
+    pub training: Vec<NetworkTraining>,
     /// What it was seen to be worth.
     #[cfg(feature = "std")]
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
@@ -127,7 +127,7 @@ pub struct Document {
 
 /// Why a document is not a network policy.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Invalid {
+pub enum NetworkPolicyError {
     /// It is something else.
     Format(String),
     /// It is of another version.
@@ -166,7 +166,7 @@ pub enum Invalid {
     },
 }
 
-impl fmt::Display for Invalid {
+impl fmt::Display for NetworkPolicyError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Format(found) => {
@@ -195,39 +195,39 @@ impl fmt::Display for Invalid {
     }
 }
 
-impl core::error::Error for Invalid {}
+impl core::error::Error for NetworkPolicyError {}
 
 /// A policy for a task on a world whose states are features: for each automaton state a network of
 /// action values.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "Document", into = "Document"))]
-pub struct NetworkPolicy(Document);
+#[cfg_attr(feature = "serde", serde(try_from = "NetworkDocument", into = "NetworkDocument"))]
+pub struct NetworkPolicy(NetworkDocument);
 
-impl TryFrom<Document> for NetworkPolicy {
-    type Error = Invalid;
+impl TryFrom<NetworkDocument> for NetworkPolicy {
+    type Error = NetworkPolicyError;
 
-    fn try_from(document: Document) -> Result<Self, Invalid> {
+    fn try_from(document: NetworkDocument) -> Result<Self, NetworkPolicyError> {
         document.check()?;
         Ok(Self(document))
     }
 }
 
-impl From<NetworkPolicy> for Document {
+impl From<NetworkPolicy> for NetworkDocument {
     fn from(policy: NetworkPolicy) -> Self {
         policy.0
     }
 }
 
-impl Document {
-    fn check(&self) -> Result<(), Invalid> {
+impl NetworkDocument {
+    fn check(&self) -> Result<(), NetworkPolicyError> {
         check_format(&self.format)?;
         check_version(&self.version)?;
         self.check_automaton()?;
         let shape = self.network.shape();
         let named = |field, names: &[String], expected| match names.len() {
             found if found == expected => Ok(()),
-            found => Err(Invalid::Names { field, found, expected }),
+            found => Err(NetworkPolicyError::Names { field, found, expected }),
         };
         named("actions", &self.actions, shape.actions)?;
         if !self.inputs.is_empty() {
@@ -242,33 +242,38 @@ impl Document {
     }
 
     #[cfg(feature = "std")]
-    fn check_worth(&self) -> Result<(), Invalid> {
+    fn check_worth(&self) -> Result<(), NetworkPolicyError> {
         let Some(estimate) = &self.estimate else { return Ok(()) };
         let probability = |interval: &crate::estimate::Interval| {
             [interval.low, interval.mean, interval.high].iter().all(|p| (0.0..=1.0).contains(p))
         };
         let steps = estimate.steps.is_none_or(|steps| steps.mean >= 0.0);
-        let sound = |field, sound| if sound { Ok(()) } else { Err(Invalid::Worth { field }) };
+        let sound =
+            |field, sound| if sound { Ok(()) } else { Err(NetworkPolicyError::Worth { field }) };
         sound("estimate.satisfied", probability(&estimate.satisfied))?;
         sound("estimate.lost", probability(&estimate.lost))?;
         sound("estimate.steps", steps)
     }
 
-    fn check_automaton(&self) -> Result<(), Invalid> {
+    fn check_automaton(&self) -> Result<(), NetworkPolicyError> {
         let States { states, initial, accepting, trap } = self.automaton;
         let below = |field, state| match state {
-            Some(found) if found >= states => Err(Invalid::Range { field, found, states }),
+            Some(found) if found >= states => {
+                Err(NetworkPolicyError::Range { field, found, states })
+            }
             _ => Ok(()),
         };
         below("automaton.initial", Some(initial))?;
         below("automaton.accepting", accepting)?;
         below("automaton.trap", trap)?;
         if let (Some(q), true) = (accepting, accepting == trap) {
-            return Err(Invalid::Terminal(q));
+            return Err(NetworkPolicyError::Terminal(q));
         }
         let decided = usize::from(accepting.is_some()) + usize::from(trap.is_some());
         match (self.network.shape().heads, states as usize - decided) {
-            (found, expected) if found != expected => Err(Invalid::Heads { found, expected }),
+            (found, expected) if found != expected => {
+                Err(NetworkPolicyError::Heads { found, expected })
+            }
             _ => Ok(()),
         }
     }
@@ -293,8 +298,8 @@ impl NetworkPolicy {
         automaton: States,
         actions: Vec<String>,
         network: Network,
-    ) -> Result<Self, Invalid> {
-        Self::try_from(Document {
+    ) -> Result<Self, NetworkPolicyError> {
+        Self::try_from(NetworkDocument {
             format: Self::FORMAT.to_string(),
             version: Self::VERSION,
             task: name.to_string(),
@@ -318,14 +323,14 @@ impl NetworkPolicy {
         mut self,
         inputs: Vec<String>,
         channels: Vec<String>,
-    ) -> Result<Self, Invalid> {
+    ) -> Result<Self, NetworkPolicyError> {
         (self.0.inputs, self.0.channels) = (inputs, channels);
         Self::try_from(self.0)
     }
 
     /// The same policy, saying how it was learned; called once for each skill of a composition.
     #[must_use]
-    pub fn trained(mut self, training: Training) -> Self {
+    pub fn trained(mut self, training: NetworkTraining) -> Self {
         self.0.training.push(training);
         self
     }
@@ -340,7 +345,7 @@ impl NetworkPolicy {
 
     /// All that the policy says.
     #[must_use]
-    pub const fn document(&self) -> &Document {
+    pub const fn document(&self) -> &NetworkDocument {
         &self.0
     }
 
@@ -393,18 +398,18 @@ impl NetworkPolicy {
     /// As [`Self::values`].
     #[must_use]
     pub fn act(&self, q: u32, inputs: &[f32], entities: &[f32]) -> usize {
-        argmax(&self.values(q, inputs, entities)) as usize
+        argmax(&self.values(q, inputs, entities))
     }
 }
 
-fn check_format(found: &String) -> Result<(), Invalid> {
+fn check_format(found: &String) -> Result<(), NetworkPolicyError> {
     let known = found == NetworkPolicy::FORMAT;
-    if known { Ok(()) } else { Err(Invalid::Format(found.clone())) }
+    if known { Ok(()) } else { Err(NetworkPolicyError::Format(found.clone())) }
 }
 
-fn check_version(found: &u32) -> Result<(), Invalid> {
+fn check_version(found: &u32) -> Result<(), NetworkPolicyError> {
     let known = *found == NetworkPolicy::VERSION;
-    if known { Ok(()) } else { Err(Invalid::Version(*found)) }
+    if known { Ok(()) } else { Err(NetworkPolicyError::Version(*found)) }
 }
 
 /// What says what a document is, looked at where it stands: before fields that only another format

@@ -8,8 +8,9 @@ use core::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::Policy;
-use crate::learn::{Learner, Settings};
+use crate::learn::Settings;
 use crate::monitor::Acceptor;
+use crate::reward::Ends;
 use crate::shield::Shielded;
 use crate::solve::{Certificate, Start};
 
@@ -29,13 +30,12 @@ pub struct States {
 }
 
 impl States {
-    /// Those of a task.
+    /// Those of a task; the first accepting state and the first trap, if there are several.
     #[must_use]
     pub fn of(task: &(impl Acceptor + ?Sized)) -> Self {
-        let states = task.states();
-        let first = |is: &dyn Fn(u32) -> bool| (0..states).find(|&q| is(q));
-        let accepting = first(&|q| task.is_accepting(q));
-        Self { states, initial: 0, accepting, trap: first(&|q| task.is_trap(q)) }
+        let ends = Ends::of(task);
+        let (accepting, trap) = (ends.accepting(), ends.trap());
+        Self { states: ends.states(), initial: 0, accepting, trap }
     }
 }
 
@@ -56,15 +56,6 @@ pub struct Training {
     pub seed: u64,
 }
 
-impl Training {
-    /// What `learner`, made with `seed`, has done so far for `task`.
-    #[must_use]
-    pub fn of<R: rand::Rng + Clone>(task: &str, learner: &Learner<R>, seed: u64) -> Self {
-        let (steps, episodes) = (learner.steps(), learner.episodes());
-        Self { task: task.into(), settings: *learner.settings(), steps, episodes, seed }
-    }
-}
-
 /// What a policy is worth from each state in which an episode can start, `s_0` read: columns of
 /// the same length.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,7 +63,7 @@ impl Training {
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Starts {
     /// The states' numbers, ascending.
-    pub state: Vec<u32>,
+    pub state: Vec<usize>,
     /// P(satisfied).
     pub satisfied: Vec<f64>,
     /// E\[steps\] given success; `None` where it never succeeds.
@@ -80,12 +71,12 @@ pub struct Starts {
 }
 
 impl Starts {
-    /// The columns of what [`Problem::starts`](crate::solve::Problem::starts) gives.
+    /// The columns of what [`Optimum::starts`](crate::solve::Optimum::starts) gives.
     #[must_use]
     pub fn new(starts: &[Start]) -> Self {
         let mut columns = Self { state: Vec::new(), satisfied: Vec::new(), steps: Vec::new() };
         for start in starts {
-            columns.state.push(start.state as u32);
+            columns.state.push(start.state);
             columns.satisfied.push(start.satisfied);
             columns.steps.push(start.steps);
         }
@@ -121,7 +112,7 @@ pub struct Document {
     /// The next automaton state, `q * classes + class`.
     pub next: Vec<u32>,
     /// The action, `q * states + s`.
-    pub action: Vec<u32>,
+    pub action: Vec<usize>,
     /// For a product: the operands' states at each of its own.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub components: Vec<Vec<u32>>,
@@ -143,7 +134,7 @@ pub struct Document {
 
 /// Why a document is not a policy.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Invalid {
+pub enum PolicyError {
     /// It is something else.
     Format(String),
     /// It is of another version.
@@ -164,7 +155,7 @@ pub enum Invalid {
         /// Where in it.
         at: usize,
         /// What stands there.
-        found: u32,
+        found: usize,
         /// What it must be less than.
         limit: usize,
     },
@@ -181,7 +172,7 @@ pub enum Invalid {
     Order(usize),
 }
 
-impl fmt::Display for Invalid {
+impl fmt::Display for PolicyError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Format(found) => {
@@ -208,10 +199,10 @@ impl fmt::Display for Invalid {
     }
 }
 
-impl core::error::Error for Invalid {}
+impl core::error::Error for PolicyError {}
 
 impl Document {
-    pub(super) fn check(&self) -> Result<(), Invalid> {
+    pub(super) fn check(&self) -> Result<(), PolicyError> {
         check_format(&self.format)?;
         check_version(&self.version)?;
         self.check_sizes()?;
@@ -228,7 +219,7 @@ impl Document {
         self.check_worth()
     }
 
-    fn check_worth(&self) -> Result<(), Invalid> {
+    fn check_worth(&self) -> Result<(), PolicyError> {
         if let Some(certificate) = &self.certificate {
             check_certificate(certificate)?;
         }
@@ -243,10 +234,10 @@ impl Document {
         probabilities("starts.satisfied", satisfied)?;
         durations("starts.steps", steps)?;
         let unsorted = state.windows(2).position(|pair| pair[0] >= pair[1]);
-        unsorted.map_or(Ok(()), |at| Err(Invalid::Order(at + 1)))
+        unsorted.map_or(Ok(()), |at| Err(PolicyError::Order(at + 1)))
     }
 
-    fn check_sizes(&self) -> Result<(), Invalid> {
+    fn check_sizes(&self) -> Result<(), PolicyError> {
         let n = self.automaton.states as usize;
         nonempty("states", self.states)?;
         nonempty("actions", self.actions.len())?;
@@ -259,58 +250,63 @@ impl Document {
         size("components", components, Some(if components == 0 { 0 } else { n }))
     }
 
-    fn check_terminal(&self, end: Option<u32>) -> Result<(), Invalid> {
+    fn check_terminal(&self, end: Option<u32>) -> Result<(), PolicyError> {
         let Some(q) = end else { return Ok(()) };
         let row = &self.next[q as usize * self.classes..][..self.classes];
         let both = self.automaton.accepting == self.automaton.trap;
-        if both || row.iter().any(|&to| to != q) { Err(Invalid::Terminal(q)) } else { Ok(()) }
+        if both || row.iter().any(|&to| to != q) { Err(PolicyError::Terminal(q)) } else { Ok(()) }
     }
 }
 
-fn check_format(found: &String) -> Result<(), Invalid> {
+fn check_format(found: &String) -> Result<(), PolicyError> {
     let known = found == Policy::FORMAT;
-    if known { Ok(()) } else { Err(Invalid::Format(found.clone())) }
+    if known { Ok(()) } else { Err(PolicyError::Format(found.clone())) }
 }
 
-fn check_version(found: &u32) -> Result<(), Invalid> {
+fn check_version(found: &u32) -> Result<(), PolicyError> {
     let known = *found == Policy::VERSION;
-    if known { Ok(()) } else { Err(Invalid::Version(*found)) }
+    if known { Ok(()) } else { Err(PolicyError::Version(*found)) }
 }
 
-fn check_certificate(certificate: &Certificate) -> Result<(), Invalid> {
+fn check_certificate(certificate: &Certificate) -> Result<(), PolicyError> {
     let Certificate { satisfied, optimal_satisfied, steps, .. } = certificate;
     probabilities("certificate.satisfied", &[*satisfied, *optimal_satisfied])?;
     durations("certificate.steps", &[*steps])
 }
 
-fn nonempty(field: &'static str, found: usize) -> Result<(), Invalid> {
-    if found == 0 { Err(Invalid::Size { field, found, expected: 0 }) } else { Ok(()) }
+fn nonempty(field: &'static str, found: usize) -> Result<(), PolicyError> {
+    if found == 0 { Err(PolicyError::Size { field, found, expected: 0 }) } else { Ok(()) }
 }
 
-fn size(field: &'static str, found: usize, expected: Option<usize>) -> Result<(), Invalid> {
+fn size(field: &'static str, found: usize, expected: Option<usize>) -> Result<(), PolicyError> {
     match expected {
         Some(expected) if found == expected => Ok(()),
-        _ => Err(Invalid::Size { field, found, expected: expected.unwrap_or(usize::MAX) }),
+        _ => Err(PolicyError::Size { field, found, expected: expected.unwrap_or(usize::MAX) }),
     }
 }
 
-fn below(field: &'static str, entries: &[u32], limit: usize) -> Result<(), Invalid> {
-    match entries.iter().position(|&entry| entry as usize >= limit) {
-        Some(at) => Err(Invalid::Range { field, at, found: entries[at], limit }),
+fn below<T: Copy + TryInto<usize>>(
+    field: &'static str,
+    entries: &[T],
+    limit: usize,
+) -> Result<(), PolicyError> {
+    let found = |entry: T| entry.try_into().unwrap_or(usize::MAX);
+    match entries.iter().position(|&entry| found(entry) >= limit) {
+        Some(at) => Err(PolicyError::Range { field, at, found: found(entries[at]), limit }),
         None => Ok(()),
     }
 }
 
 /// Within the error of a sum over all starts.
-fn probabilities(field: &'static str, values: &[f64]) -> Result<(), Invalid> {
+fn probabilities(field: &'static str, values: &[f64]) -> Result<(), PolicyError> {
     let bad = values.iter().position(|p| !(-1e-9..=1.0 + 1e-9).contains(p));
-    bad.map_or(Ok(()), |at| Err(Invalid::Worth { field, at }))
+    bad.map_or(Ok(()), |at| Err(PolicyError::Worth { field, at }))
 }
 
-fn durations(field: &'static str, values: &[Option<f64>]) -> Result<(), Invalid> {
+fn durations(field: &'static str, values: &[Option<f64>]) -> Result<(), PolicyError> {
     let bad =
         values.iter().position(|steps| steps.is_some_and(|steps| steps.is_nan() || steps < 0.0));
-    bad.map_or(Ok(()), |at| Err(Invalid::Worth { field, at }))
+    bad.map_or(Ok(()), |at| Err(PolicyError::Worth { field, at }))
 }
 
 /// What says what a document is, looked at where it stands: before fields that only another format

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 /// For each pair (q, s) a set of actions, as bits.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Actions {
+pub(crate) struct Actions {
     bits: Vec<u64>,
     actions: usize,
 }
@@ -22,18 +22,9 @@ impl Actions {
     }
 
     /// Whether action `a` is in the set of `pair`, which is `q * states + s`.
-    ///
-    /// # Panics
-    /// If there is no such pair.
     #[inline]
-    #[must_use]
-    pub fn contains(&self, pair: usize, a: usize) -> bool {
+    pub(crate) fn contains(&self, pair: usize, a: usize) -> bool {
         let at = pair * self.actions + a;
         self.bits[at / 64] >> (at % 64) & 1 == 1
-    }
-
-    /// The actions in the set of `pair`, ascending.
-    pub fn of(&self, pair: usize) -> impl Iterator<Item = usize> {
-        (0..self.actions).filter(move |&a| self.contains(pair, a))
     }
 }

@@ -44,7 +44,7 @@ struct Relaxed<'a> {
 
 /// A component: its members, and the order of its pairs.
 pub(super) struct Block<'a> {
-    pub(super) problem: &'a Problem<'a>,
+    pub(super) problem: &'a Problem,
     pub(super) members: Vec<u32>,
     payment: &'a Payment,
     pub(super) discount: f64,
@@ -58,7 +58,7 @@ pub(super) struct Block<'a> {
 impl<'a> Block<'a> {
     /// The component of `members`, all actions allowed.
     pub(super) fn new(
-        problem: &'a Problem<'a>,
+        problem: &'a Problem,
         members: &[u32],
         payment: &'a Payment,
         discount: f64,
@@ -70,7 +70,7 @@ impl<'a> Block<'a> {
 
     /// The component of `members` under a policy, undiscounted.
     pub(super) fn following(
-        problem: &'a Problem<'a>,
+        problem: &'a Problem,
         members: &[u32],
         payment: &'a Payment,
         policy: &[u32],
@@ -81,12 +81,7 @@ impl<'a> Block<'a> {
     }
 
     /// One automaton state that never moves.
-    pub(super) fn fixed(
-        problem: &'a Problem<'a>,
-        q: u32,
-        payment: &'a Payment,
-        discount: f64,
-    ) -> Self {
+    pub(super) fn fixed(problem: &'a Problem, q: u32, payment: &'a Payment, discount: f64) -> Self {
         Self { fixed: true, ..Self::new(problem, &[q], payment, discount) }
     }
 
@@ -99,7 +94,7 @@ impl<'a> Block<'a> {
     pub(super) fn only(mut self, keep: impl Fn(usize) -> bool) -> Self {
         self.order.pairs.truncate(self.order.reached);
         let (problem, members) = (self.problem, &self.members);
-        let pair = |k: u32, s: u32| problem.labelled.pair(members[k as usize], s as usize);
+        let pair = |k: u32, s: u32| problem.task.pair(members[k as usize], s as usize);
         let seeds = &self.order.pairs[..self.order.seeds];
         self.order.seeds = seeds.iter().filter(|&&(k, s)| keep(pair(k, s))).count();
         self.order.pairs.retain(|&(k, s)| keep(pair(k, s)));
@@ -117,7 +112,7 @@ impl<'a> Block<'a> {
     /// reach an exit, and every exit is worth 1. (Going to a pair nearer an exit then succeeds
     /// sooner or later.) It saves the sweeps, and is exact.
     pub(super) fn succeeds(&self, values: &mut [f64]) -> bool {
-        let labelled = self.problem.labelled;
+        let labelled = &self.problem.task;
         let exits_well = |&q: &u32| {
             (0..self.states()).all(|s| {
                 let to = labelled.next(q, s);
@@ -161,22 +156,22 @@ impl<'a> Block<'a> {
     }
 
     pub(super) fn states(&self) -> usize {
-        self.problem.labelled.states()
+        self.problem.task.states()
     }
 
     #[inline]
     pub(super) fn pair(&self, k: u32, s: u32) -> usize {
-        self.problem.labelled.pair(self.members[k as usize], s as usize)
+        self.problem.task.pair(self.members[k as usize], s as usize)
     }
 
     #[inline]
     pub(super) fn next(&self, q: u32, s: usize) -> u32 {
-        if self.fixed { q } else { self.problem.labelled.next(q, s) }
+        if self.fixed { q } else { self.problem.task.next(q, s) }
     }
 
     /// What arriving in each state is worth to each member: payment plus discounted value.
     pub(super) fn arrivals(&self, values: &[f64]) -> Vec<f64> {
-        let labelled = self.problem.labelled;
+        let labelled = &self.problem.task;
         let mut arrivals = Vec::with_capacity(self.members.len() * self.states());
         for &q in &self.members {
             for s in 0..self.states() {
@@ -274,7 +269,7 @@ impl<'a> Block<'a> {
     /// Marks the pairs that lead to the arrival `at`.
     #[inline]
     fn spread(&self, at: usize, stale: &mut [bool]) {
-        let (first, list) = &self.problem.predecessors;
+        let (first, list) = &*self.problem.predecessors;
         let (layer, s) = (at / self.states() * self.states(), at % self.states());
         for &from in &list[first[s] as usize..first[s + 1] as usize] {
             stale[layer + from as usize] = true;
@@ -291,7 +286,7 @@ impl<'a> Block<'a> {
         gathered: &mut Vec<f64>,
         rule: &Rule<'_>,
     ) -> f64 {
-        let dynamics = self.problem.dynamics;
+        let dynamics = &self.problem.dynamics;
         let layer = &arrivals[k as usize * self.states()..];
         gathered.clear();
         gathered.extend(dynamics.successors(s as usize).iter().map(|&to| layer[to as usize]));

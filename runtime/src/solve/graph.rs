@@ -3,7 +3,8 @@
 use alloc::vec::Vec;
 
 use super::Problem;
-use crate::augmented::{End, Labelled};
+use crate::augmented::{Labelled, Tables};
+use crate::reward::End;
 
 /// The strongly connected components of the live automaton states, those that others lead to
 /// first (Tarjan 1972, without recursion).
@@ -46,8 +47,8 @@ impl Search<'_> {
         let mut path = alloc::vec![(root, 0)];
         self.enter(root);
         while let Some((q, at)) = path.pop() {
-            let classes = self.labelled.classes();
-            let row = &self.labelled.table()[q as usize * classes..][..classes];
+            let Tables { classes, next, .. } = self.labelled.tables();
+            let row = &next[q as usize * classes..][..*classes];
             let Some(&to) = row.get(at) else {
                 self.leave(q, path.last().map(|&(parent, _)| parent));
                 continue;
@@ -100,8 +101,9 @@ pub(super) struct Order {
 
 /// Searches backwards from the exits of `members`: pairs that read a state on which they go to an
 /// automaton state outside, the trap excepted. Under a policy only its actions count.
-pub(super) fn order(problem: &Problem<'_>, members: &[u32], policy: Option<&[u32]>) -> Order {
-    let Problem { dynamics, labelled, predecessors: (first, list), .. } = problem;
+pub(super) fn order(problem: &Problem, members: &[u32], policy: Option<&[u32]>) -> Order {
+    let Problem { dynamics, task: labelled, .. } = problem;
+    let (first, list) = &*problem.predecessors;
     let states = labelled.states();
     let uses = |k: usize, from: usize, to: usize| {
         policy.is_none_or(|policy| {

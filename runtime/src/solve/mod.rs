@@ -1,6 +1,7 @@
 //! Exact solutions for finite models: what is optimal, and what a given policy is worth.
 //!
-//! A [`Problem`] is a world's [`Dynamics`] under a [`Labelled`] task. Automaton states are solved
+//! A [`Problem`] is a world's [`Dynamics`] under a [`Labelled`] task; its [`Optimum`] is what policies
+//! are judged against. Automaton states are solved
 //! one strongly connected component after the other, those that the others lead to first; within
 //! a component, pairs (q, s) are swept Gauss-Seidel fashion, over-relaxed, along the flow of the
 //! optimal policy and in a window that moves away from the exits; the stop is that of plain sweeps.
@@ -18,96 +19,127 @@
 mod actions;
 mod block;
 mod certificate;
+mod evaluation;
 mod graph;
+mod optimum;
 mod rule;
 mod settle;
 
+use alloc::sync::Arc;
 use alloc::vec::Vec;
 
-use crate::augmented::{End, Labelled, Payment, Rewards};
+use crate::augmented::{Labelled, Payment};
+use crate::mismatch::Mismatch;
 use crate::model::Dynamics;
+use crate::policy::Policy;
 use crate::q::QTable;
-pub use actions::Actions;
+use crate::reward::{End, Rewards};
+pub(crate) use actions::Actions;
 use block::Block;
-pub use certificate::{Certificate, Kind, Mistake, Start};
+pub use certificate::{Basis, Certificate, Mistake, Start};
+pub use evaluation::{Evaluation, Values};
+pub use optimum::Optimum;
 use rule::Rule;
 
 /// The largest error of values, relative to them where they exceed 1.
 const TOLERANCE: f64 = 1e-11;
 
-/// A finite world under a task: the augmented MDP that is solved.
+/// A finite world under a task: the augmented MDP that is solved. Cheap to clone: clones share the
+/// tables.
+///
+#[cfg_attr(feature = "macros", doc = "```")]
+#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// use tltl::prelude::*;
+/// # struct Row;
+/// # impl FiniteModel for Row {
+/// #     type State = i32;
+/// #     fn states(&self) -> usize { 5 }
+/// #     fn actions(&self) -> usize { 2 }
+/// #     fn state(&self, s: usize) -> i32 { s as i32 }
+/// #     fn transitions(&self, s: usize, a: usize, mut outcome: impl FnMut(usize, f64)) {
+/// #         outcome([s.saturating_sub(1), (s + 1).min(4)][a], 1.0);
+/// #     }
+/// # }
+///
+/// // `Row` is five cells in a row, where steps never go wrong; reach the last one.
+/// let task = Labelled::of_model(&Row, &tltl! { |x: &i32| F ({ *x } == 4) })?;
+/// let problem = Problem::new(&Dynamics::new(&Row)?, &task)?;
+/// let best = problem.best();
+/// assert_eq!(best.satisfied().at(0, 0), 1.0);
+/// assert_eq!(best.steps(0, 1), Some(3.0));
+/// // Over the starts: 4, 3, 2, 1 and 0 steps.
+/// assert!(best.mean_steps().is_some_and(|steps| (steps - 2.0).abs() < 1e-9));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
-pub struct Problem<'a> {
-    dynamics: &'a Dynamics,
-    labelled: &'a Labelled,
-    predecessors: (Vec<u32>, Vec<u32>),
+pub struct Problem {
+    dynamics: Dynamics,
+    task: Labelled,
+    predecessors: Arc<(Vec<u32>, Vec<u32>)>,
     /// The strongly connected components of live automaton states, those that others lead to first.
-    components: Vec<Vec<u32>>,
+    components: Arc<[Vec<u32>]>,
 }
 
-/// P(satisfied) and E\[steps\] from every pair (q, s) after s was read, indexed `q * states + s`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Outcome {
-    /// The action in each pair.
-    pub policy: Vec<u32>,
-    /// The probability that the task is satisfied.
-    pub satisfied: Vec<f64>,
-    /// The expected steps to satisfaction, given that it comes; NaN where it never does.
-    pub steps: Vec<f64>,
-}
-
-impl<'a> Problem<'a> {
-    /// The world `dynamics` under the task `labelled`.
+impl Problem {
+    /// The world `dynamics` under `task`.
     ///
-    /// # Panics
-    /// If they do not have the same number of states.
-    #[must_use]
-    pub fn new(dynamics: &'a Dynamics, labelled: &'a Labelled) -> Self {
-        assert_eq!(dynamics.states(), labelled.states(), "a task is labelled on its own world");
-        let predecessors = dynamics.predecessors();
-        let components = graph::components(labelled);
-        Self { dynamics, labelled, predecessors, components }
+    /// # Errors
+    /// If they have different numbers of states or actions.
+    pub fn new(dynamics: &Dynamics, task: &Labelled) -> Result<Self, Mismatch> {
+        task.expect_world("dynamics", dynamics.states(), dynamics.actions())?;
+        Ok(Self::of_own_world(dynamics.clone(), task.clone()))
+    }
+
+    /// The same where the sizes are known to fit.
+    pub(crate) fn of_own_world(dynamics: Dynamics, task: Labelled) -> Self {
+        let predecessors = Arc::new(dynamics.predecessors());
+        let components = graph::components(&task).into();
+        Self { dynamics, task, predecessors, components }
     }
 
     /// The world.
     #[must_use]
-    pub const fn dynamics(&self) -> &'a Dynamics {
-        self.dynamics
+    pub const fn dynamics(&self) -> &Dynamics {
+        &self.dynamics
     }
 
     /// The task.
     #[must_use]
-    pub const fn labelled(&self) -> &'a Labelled {
-        self.labelled
+    pub const fn task(&self) -> &Labelled {
+        &self.task
+    }
+
+    /// What policies are judged against: the optimal values for `rewards`, the largest possible
+    /// P(satisfied) and the fewest steps.
+    #[must_use]
+    pub fn optimum(&self, rewards: &Rewards) -> Optimum {
+        Optimum::new(self.clone(), rewards)
     }
 
     /// The optimal flat action values Q* of the augmented MDP, to 1e-10.
     ///
     /// # Panics
-    /// Unless 0 ≤ `gamma` < 1.
+    /// If the rewards need ρ and the task is labelled without it.
     #[must_use]
-    pub fn optimal_q(&self, rewards: &Rewards, gamma: f64) -> QTable {
-        self.optimal_q_of(&self.labelled.payment(rewards, gamma), gamma, None)
+    #[track_caller]
+    pub fn optimal_q(&self, rewards: &Rewards) -> QTable {
+        self.optimal_q_of(&self.task.payment(rewards), rewards.gamma(), None)
     }
 
     /// The same for any payment; `start` saves sweeps if it is near.
-    ///
-    /// # Panics
-    /// As [`Self::optimal_q`].
-    #[must_use]
-    pub fn optimal_q_of(&self, payment: &Payment, gamma: f64, start: Option<&QTable>) -> QTable {
+    pub(crate) fn optimal_q_of(
+        &self,
+        payment: &Payment,
+        gamma: f64,
+        start: Option<&QTable>,
+    ) -> QTable {
         let values = self.discounted(payment, gamma, start, &Rule::Largest);
         self.action_values(&self.arrivals(payment, gamma, &values))
     }
 
-    /// The flat action values Q^π of a policy, indexed `q * states + s`, for any payment.
-    ///
-    /// # Panics
-    /// As [`Self::optimal_q`], or if the policy is not one of this problem.
-    #[must_use]
-    pub fn policy_q(&self, payment: &Payment, gamma: f64, policy: &[u32]) -> QTable {
-        assert_eq!(policy.len(), self.labelled.pairs(), "a policy has an action for each (q, s)");
-        let values = self.discounted(payment, gamma, None, &Rule::Follow(policy));
+    /// The flat action values Q^π of a policy of this problem, for any payment.
+    pub(crate) fn policy_q(&self, payment: &Payment, gamma: f64, policy: &Policy) -> QTable {
+        let values = self.discounted(payment, gamma, None, &Rule::Follow(policy.table()));
         self.action_values(&self.arrivals(payment, gamma, &values))
     }
 
@@ -117,88 +149,78 @@ impl<'a> Problem<'a> {
     /// # Panics
     /// As [`Self::optimal_q`].
     #[must_use]
-    pub fn sub_policy_q(&self, rewards: &Rewards, gamma: f64) -> QTable {
-        let payment = self.labelled.payment(rewards, gamma);
-        let mut values = alloc::vec![0.0; self.labelled.pairs()];
-        for q in self.labelled.live() {
+    #[track_caller]
+    pub fn sub_policy_q(&self, rewards: &Rewards) -> QTable {
+        let (payment, gamma) = (self.task.payment(rewards), rewards.gamma());
+        let mut values = alloc::vec![0.0; self.task.pairs()];
+        for q in self.task.live() {
             Block::fixed(self, q, &payment, gamma).sweep(&mut values, true, &Rule::Largest);
         }
-        self.action_values(&|q, s| {
-            self.paid(&payment, q, s) + gamma * values[self.labelled.pair(q, s)]
-        })
+        self.action_values(&|q, s| self.paid(&payment, q, s) + gamma * values[self.task.pair(q, s)])
     }
 
-    /// The largest possible P(satisfied), and the smallest possible E\[steps\] among the policies
-    /// that reach it (actions within 1e-9 of the largest P count as reaching it).
+    /// The policy of the largest possible P(satisfied), and among those of the smallest possible
+    /// E\[steps\] (actions within 1e-9 of the largest P count as reaching it).
     #[must_use]
-    pub fn best(&self) -> Outcome {
+    pub fn best(&self) -> Evaluation {
         let accept = self.acceptance();
         let satisfied = self.reach(&accept);
         let safe = self.safe(&accept, &satisfied);
         let weighted = self.fewest_steps(&satisfied, &safe);
-        let policy = self.fewest(&weighted, &safe);
-        self.outcome(policy, satisfied, &weighted)
+        let policy = Policy::from_table(&self.task, self.fewest(&weighted, &safe));
+        self.evaluation(policy, satisfied, &weighted)
     }
 
-    /// The actions with which the largest possible P(satisfied) can still be reached, within 1e-9.
+    /// The largest possible P(satisfied), to 1e-10: 1 at the accepting state, 0 at the trap.
     #[must_use]
-    pub fn safe_actions(&self) -> Actions {
-        let accept = self.acceptance();
-        self.safe(&accept, &self.reach(&accept))
-    }
-
-    /// The largest possible P(satisfied) of each pair, to 1e-10, indexed `q * states + s`: 1 at the
-    /// accepting state, 0 at the trap.
-    #[must_use]
-    pub fn largest_p(&self) -> Vec<f64> {
+    pub fn largest_satisfied(&self) -> Values {
         let mut satisfied = self.reach(&self.acceptance());
         self.set_end(End::Accepted, &mut satisfied, 1.0);
-        satisfied
+        Values::new(self, satisfied)
     }
 
-    /// P(satisfied) and E\[steps\] of a policy, indexed `q * states + s`, whatever it does: where
-    /// it never succeeds, P is 0.
+    /// P(satisfied) and E\[steps\] of a policy, whatever it does: where it never succeeds, P is 0.
     ///
-    /// # Panics
-    /// If the policy is not one of this problem.
-    #[must_use]
-    pub fn evaluate(&self, policy: &[u32]) -> Outcome {
-        assert_eq!(policy.len(), self.labelled.pairs(), "a policy has an action for each (q, s)");
+    /// # Errors
+    /// If it is a policy for another task or another world.
+    pub fn evaluate(&self, policy: &Policy) -> Result<Evaluation, Mismatch> {
+        policy.must_be_for(&self.task)?;
+        let actions = policy.table();
         let (mut satisfied, mut weighted) = (self.zeros(), self.zeros());
         let (accept, nothing, none) = (self.acceptance(), self.nothing(), self.zeros());
-        for members in &self.components {
-            let block = Block::following(self, members, &accept, policy);
-            block.solve(&mut satisfied, &none, policy);
-            block.paying(&nothing).solve(&mut weighted, &satisfied, policy);
+        for members in self.components.iter() {
+            let block = Block::following(self, members, &accept, actions);
+            block.solve(&mut satisfied, &none, actions);
+            block.paying(&nothing).solve(&mut weighted, &satisfied, actions);
         }
-        self.outcome(policy.to_vec(), satisfied, &weighted)
+        Ok(self.evaluation(policy.clone(), satisfied, &weighted))
     }
 
-    /// P(the trap is ever entered) under a policy, for each pair; 1 at the trap.
+    /// P(the trap is ever entered) under a policy; 1 at the trap.
     ///
-    /// # Panics
-    /// If the policy is not one of this problem.
-    #[must_use]
-    pub fn lost(&self, policy: &[u32]) -> Vec<f64> {
-        let trapped = self.entering(End::Lost);
-        let mut lost = self.lost_by(&trapped, &Rule::Follow(policy));
+    /// # Errors
+    /// If it is a policy for another task or another world.
+    pub fn lost(&self, policy: &Policy) -> Result<Values, Mismatch> {
+        policy.must_be_for(&self.task)?;
+        let mut lost = self.lost_by(&self.entering(End::Lost), &Rule::Follow(policy.table()));
         self.set_end(End::Lost, &mut lost, 1.0);
-        lost
+        Ok(Values::new(self, lost))
     }
 
-    /// The smallest possible P(the trap is ever entered), for each pair; 1 at the trap.
+    /// The smallest possible P(the trap is ever entered); 1 at the trap.
     #[must_use]
-    pub fn smallest_lost(&self) -> Vec<f64> {
+    pub fn smallest_lost(&self) -> Values {
         let mut lost = self.lost_by(&self.entering(End::Lost), &Rule::Least);
         self.set_end(End::Lost, &mut lost, 1.0);
-        lost
+        Values::new(self, lost)
     }
 
     /// The actions with which P(the trap is ever entered) can stay `lost`, within 1e-9.
-    pub(crate) fn avoiding(&self, lost: &[f64]) -> Actions {
-        let mut avoiding = Actions::none(self.labelled.pairs(), self.dynamics.actions());
+    pub(crate) fn avoiding(&self, lost: &Values) -> Actions {
+        let lost = lost.as_slice();
+        let mut avoiding = Actions::none(self.task.pairs(), self.dynamics.actions());
         self.backups(&self.arrivals(&self.nothing(), 1.0, lost), &mut |q, s, actions| {
-            let pair = self.labelled.pair(q, s);
+            let pair = self.task.pair(q, s);
             for (a, &p) in actions.iter().enumerate() {
                 if p <= lost[pair] + 1e-9 {
                     avoiding.insert(pair, a);
@@ -211,14 +233,14 @@ impl<'a> Problem<'a> {
     /// Sweeps from 0, which is below: the least fixed point.
     fn lost_by(&self, trapped: &Payment, rule: &Rule<'_>) -> Vec<f64> {
         let mut values = self.zeros();
-        for members in &self.components {
+        for members in self.components.iter() {
             Block::new(self, members, trapped, 1.0).sweep(&mut values, true, rule);
         }
         values
     }
 
     fn paid(&self, payment: &Payment, q: u32, s: usize) -> f64 {
-        payment.get(q, s, self.labelled.class()[s])
+        payment.get(q, s, self.task.tables().class[s])
     }
 
     /// Pays 1 for entering the accepting state: its undiscounted value is P(satisfied).
@@ -228,18 +250,18 @@ impl<'a> Problem<'a> {
 
     /// Pays 1 for entering an end.
     fn entering(&self, end: End) -> Payment {
-        let of = |q| self.labelled.end(q);
+        let of = |q| self.task.end(q);
         let pays = |q, to| f64::from(u8::from(of(q).is_none() && of(to) == Some(end)));
-        self.labelled.payment_by(&pays)
+        self.task.payment_by(&pays)
     }
 
     fn nothing(&self) -> Payment {
-        self.labelled.payment_by(&|_, _| 0.0)
+        self.task.payment_by(&|_, _| 0.0)
     }
 
     /// 0 at every pair: at terminal ones, that is their value.
     fn zeros(&self) -> Vec<f64> {
-        alloc::vec![0.0; self.labelled.pairs()]
+        alloc::vec![0.0; self.task.pairs()]
     }
 
     /// Values by sweeps, from `start` or from estimates.
@@ -250,9 +272,8 @@ impl<'a> Problem<'a> {
         start: Option<&QTable>,
         rule: &Rule<'_>,
     ) -> Vec<f64> {
-        assert!((0.0..1.0).contains(&gamma), "a discount factor is at least 0 and less than 1");
         let mut values = self.zeros();
-        for members in &self.components {
+        for members in self.components.iter() {
             let block = Block::new(self, members, payment, gamma).settled(&mut values, rule);
             if let Some(table) = start {
                 block.start(&mut values, table);
@@ -265,7 +286,7 @@ impl<'a> Problem<'a> {
     /// The largest possible P(satisfied).
     fn reach(&self, accept: &Payment) -> Vec<f64> {
         let mut values = self.zeros();
-        for members in &self.components {
+        for members in self.components.iter() {
             let block = Block::new(self, members, accept, 1.0);
             if !block.succeeds(&mut values) {
                 block.sweep(&mut values, false, &Rule::Largest);
@@ -278,7 +299,7 @@ impl<'a> Problem<'a> {
     fn fewest_steps(&self, satisfied: &[f64], safe: &Actions) -> Vec<f64> {
         let (mut values, nothing) = (self.zeros(), self.nothing());
         let rule = &Rule::LeastCost { costs: satisfied, safe };
-        for members in &self.components {
+        for members in self.components.iter() {
             let block = Block::new(self, members, &nothing, 1.0);
             let block = block.only(|pair| satisfied[pair] > 0.0).settled(&mut values, rule);
             block.sweep(&mut values, false, rule);
@@ -288,9 +309,9 @@ impl<'a> Problem<'a> {
 
     /// For each pair the safe action of the least cost.
     fn fewest(&self, cost: &[f64], safe: &Actions) -> Vec<u32> {
-        let mut policy = alloc::vec![0; self.labelled.pairs()];
+        let mut policy = alloc::vec![0; self.task.pairs()];
         self.backups(&self.arrivals(&self.nothing(), 1.0, cost), &mut |q, s, actions| {
-            let pair = self.labelled.pair(q, s);
+            let pair = self.task.pair(q, s);
             let allowed = (0..actions.len()).filter(|&a| safe.contains(pair, a));
             let best = allowed.reduce(|best, a| if actions[a] < actions[best] { a } else { best });
             policy[pair] = best.unwrap_or(0) as u32;
@@ -300,9 +321,9 @@ impl<'a> Problem<'a> {
 
     /// The actions within 1e-9 of the largest P.
     fn safe(&self, accept: &Payment, satisfied: &[f64]) -> Actions {
-        let mut safe = Actions::none(self.labelled.pairs(), self.dynamics.actions());
+        let mut safe = Actions::none(self.task.pairs(), self.dynamics.actions());
         self.backups(&self.arrivals(accept, 1.0, satisfied), &mut |q, s, actions| {
-            let pair = self.labelled.pair(q, s);
+            let pair = self.task.pair(q, s);
             for (a, &p) in actions.iter().enumerate() {
                 if p >= satisfied[pair] - 1e-9 {
                     safe.insert(pair, a);
@@ -320,7 +341,7 @@ impl<'a> Problem<'a> {
         values: &[f64],
     ) -> impl Fn(u32, usize) -> f64 {
         move |q, s| {
-            let to = self.labelled.pair(self.labelled.next(q, s), s);
+            let to = self.task.pair(self.task.next(q, s), s);
             self.paid(payment, q, s) + discount * values[to]
         }
     }
@@ -332,7 +353,7 @@ impl<'a> Problem<'a> {
         visit: &mut dyn FnMut(u32, usize, &[f64]),
     ) {
         let mut actions = alloc::vec![0.0; self.dynamics.actions()];
-        for q in self.labelled.live() {
+        for q in self.task.live() {
             let arrivals: Vec<f64> = (0..self.dynamics.states()).map(|s| arrival(q, s)).collect();
             for s in 0..self.dynamics.states() {
                 let successors = self.dynamics.successors(s);
@@ -348,24 +369,25 @@ impl<'a> Problem<'a> {
 
     /// Q(s, q, a) = E\[arrival(q, s')\].
     fn action_values(&self, arrival: &dyn Fn(u32, usize) -> f64) -> QTable {
-        let mut table = QTable::zeros(self.labelled, self.dynamics.actions());
+        let mut table = QTable::zeros(&self.task);
         self.backups(arrival, &mut |q, s, row| table.row_mut(q, s).copy_from_slice(row));
         table
     }
 
-    fn outcome(&self, policy: Vec<u32>, mut satisfied: Vec<f64>, weighted: &[f64]) -> Outcome {
+    /// `satisfied` times the steps to satisfaction is `weighted`.
+    fn evaluation(&self, policy: Policy, mut satisfied: Vec<f64>, weighted: &[f64]) -> Evaluation {
         let steps = |(&w, &p): (&f64, &f64)| if p > 0.0 { w / p } else { f64::NAN };
         let mut steps: Vec<f64> = weighted.iter().zip(&satisfied).map(steps).collect();
         self.set_end(End::Accepted, &mut satisfied, 1.0);
         self.set_end(End::Accepted, &mut steps, 0.0);
-        Outcome { policy, satisfied, steps }
+        Evaluation::new(policy, Values::new(self, satisfied), steps)
     }
 
     /// Sets the values at an end.
     fn set_end(&self, end: End, values: &mut [f64], value: f64) {
-        for q in 0..self.labelled.automaton_states() {
-            if self.labelled.end(q) == Some(end) {
-                values[self.labelled.pair(q, 0)..self.labelled.pair(q + 1, 0)].fill(value);
+        for q in 0..self.task.automaton_states() {
+            if self.task.end(q) == Some(end) {
+                values[self.task.pair(q, 0)..self.task.pair(q + 1, 0)].fill(value);
             }
         }
     }

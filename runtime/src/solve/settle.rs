@@ -65,54 +65,54 @@ impl Known<'_> {
     }
 
     /// Discounted value of an action: what is not known is worth as much as the state itself.
-    pub(super) fn discounted(&self, action: usize, gamma: f64) -> Estimate {
+    pub(super) fn discounted(&self, action: usize, gamma: f64) -> Guess {
         let blend = self.blend(action);
         if blend.known <= 0.0 {
-            return Estimate::NONE;
+            return Guess::NONE;
         }
         let over = 1.0 / (1.0 - gamma * (1.0 - blend.known));
-        Estimate { value: over * blend.sum, over }
+        Guess { value: over * blend.sum, over }
     }
 
     /// The largest discounted value of the actions.
-    pub(super) fn best(&self, gamma: f64) -> Estimate {
+    pub(super) fn best(&self, gamma: f64) -> Guess {
         let all = (0..self.actions()).map(|a| self.discounted(a, gamma));
-        all.fold(Estimate::NONE, |best, e| if e.value <= best.value { best } else { e.or(best) })
+        all.fold(Guess::NONE, |best, e| if e.value <= best.value { best } else { e.or(best) })
     }
 
     /// Undiscounted cost of an action that pays `cost` now: what is not known costs as much more
     /// than the state itself as the state costs more than its main known successor.
-    pub(super) fn cost(&self, action: usize, cost: f64) -> Estimate {
+    pub(super) fn cost(&self, action: usize, cost: f64) -> Guess {
         let blend = self.blend(action);
         let unknown = 1.0 - blend.known - blend.own;
         let scale = 1.0 - blend.own - 2.0 * unknown;
         let over = 1.0 / blend.known;
         if blend.known <= 0.0 {
-            Estimate::NONE
+            Guess::NONE
         } else if scale > 0.25 {
-            Estimate { value: (cost + blend.sum - unknown * blend.main) / scale, over }
+            Guess { value: (cost + blend.sum - unknown * blend.main) / scale, over }
         } else {
-            Estimate { value: (cost + blend.sum) / blend.known, over }
+            Guess { value: (cost + blend.sum) / blend.known, over }
         }
     }
 
     /// The least cost of the actions that are `allowed`.
-    pub(super) fn least(&self, cost: f64, allowed: impl Fn(usize) -> bool) -> Estimate {
+    pub(super) fn least(&self, cost: f64, allowed: impl Fn(usize) -> bool) -> Guess {
         let all = (0..self.actions()).filter(|&a| allowed(a)).map(|a| self.cost(a, cost));
-        all.fold(Estimate::NONE, |best, e| if e.value >= best.value { best } else { e.or(best) })
+        all.fold(Guess::NONE, |best, e| if e.value >= best.value { best } else { e.or(best) })
     }
 }
 
-/// A first value.
+/// A first value of a pair.
 #[derive(Clone, Copy)]
-pub(super) struct Estimate {
+pub(super) struct Guess {
     /// NaN: nothing is known.
     pub(super) value: f64,
     /// How far to over-relax.
     pub(super) over: f64,
 }
 
-impl Estimate {
+impl Guess {
     pub(super) const NONE: Self = Self { value: f64::NAN, over: 1.0 };
 
     /// This one, if it is one.
@@ -180,7 +180,7 @@ impl Front<'_> {
     /// Renews the estimate of an open pair.
     fn relax(&mut self, (k, s): (u32, u32), values: &mut [f64]) {
         let block = self.block;
-        let dynamics = block.problem.dynamics;
+        let dynamics = &block.problem.dynamics;
         let layer = &self.arrivals[k as usize * block.states()..];
         let successors = dynamics.successors(s as usize);
         self.gathered.clear();
@@ -188,7 +188,7 @@ impl Front<'_> {
         let own = successors.binary_search(&s).unwrap_or(usize::MAX);
         let known = Known { matrix: dynamics.matrix(s as usize), arrivals: &self.gathered, own };
         let pair = block.pair(k, s);
-        let Estimate { value, over } = self.rule.estimate(pair, &known, block.discount);
+        let Guess { value, over } = self.rule.guess(pair, &known, block.discount);
         let key = self.rule.key(pair, value);
         let better = values[pair].is_nan() || key < self.rule.key(pair, values[pair]);
         if !value.is_nan() && better {
@@ -201,7 +201,7 @@ impl Front<'_> {
     /// Makes the value of a pair known to all that lead to it.
     fn settle(&mut self, (k, s): (u32, u32), values: &mut [f64]) {
         let block = self.block;
-        let (first, list) = &block.problem.predecessors;
+        let (first, list) = &*block.problem.predecessors;
         let from = first[s as usize] as usize..first[s as usize + 1] as usize;
         block.arrive(
             block.members[k as usize],

@@ -5,6 +5,7 @@ use tltl::augmented::Labelled;
 use tltl::automaton::{Automaton, Tables, Transitions};
 use tltl::model::{Dynamics, FiniteModel};
 use tltl::robustness::{NotANumber, Op, Predicates};
+use tltl::solve::Problem;
 use tltl::{Formula, Shared, Task};
 
 pub(crate) const GAMMA: f64 = 0.95;
@@ -227,4 +228,9 @@ pub(crate) fn dynamics() -> Dynamics {
 
 pub(crate) fn on_paper(task: &(impl tltl::Monitor<Cell> + ?Sized)) -> Labelled {
     Labelled::of_model(&PAPER, task).unwrap()
+}
+
+/// The paper's grid under a task that is labelled on it.
+pub(crate) fn problem(task: &Labelled) -> Problem {
+    Problem::new(&dynamics(), task).unwrap()
 }

@@ -64,8 +64,8 @@ fn read<T: DeserializeOwned>(json: &str) -> Result<T, String> {
 #[must_use]
 pub fn source(policy: &Policy) -> String {
     let document = policy.document();
-    let Document { states, actions, automaton, classes, .. } = document;
-    let mut text = documentation(document);
+    let Document { states, actions, automaton, classes, .. } = &document;
+    let mut text = documentation(&document);
     let _ = write!(
         text,
         "
@@ -86,9 +86,11 @@ pub const TRAP: Option<usize> = {:?};
         automaton.accepting,
         automaton.trap,
     );
-    table(&mut text, "CLASS", "The class of each state of the world.", &document.class);
+    let wide = |entries: &[u32]| entries.iter().map(|&entry| entry as usize).collect::<Vec<_>>();
+    let about = "The class of each state of the world.";
+    table(&mut text, "CLASS", about, &wide(&document.class));
     let about = "The next automaton state, indexed `q * CLASSES + class`.";
-    table(&mut text, "NEXT", about, &document.next);
+    table(&mut text, "NEXT", about, &wide(&document.next));
     table(&mut text, "ACTION", "The action, indexed `q * STATES + s`.", &document.action);
     if let Some(starts) = document.starts.as_ref().filter(|_| *states <= STARTS) {
         starts_table(&mut text, starts, *states);
@@ -246,7 +248,7 @@ fn starts_table(text: &mut String, starts: &Starts, states: usize) {
     let mut entries = vec!["(f64::NAN, f64::NAN)".to_owned(); states];
     for ((&s, p), steps) in starts.state.iter().zip(&starts.satisfied).zip(&starts.steps) {
         let steps = steps.map_or("f64::NAN".to_owned(), |steps| rounded(steps, 1e4));
-        entries[s as usize] = format!("({}, {steps})", rounded(*p, 1e6));
+        entries[s] = format!("({}, {steps})", rounded(*p, 1e6));
     }
     let _ = write!(
         text,
@@ -271,7 +273,7 @@ fn rounded(value: f64, parts: f64) -> String {
 }
 
 /// A static array of the narrowest type that holds its entries, in rows.
-fn table(text: &mut String, name: &str, about: &str, entries: &[u32]) {
+fn table(text: &mut String, name: &str, about: &str, entries: &[usize]) {
     let most = entries.iter().copied().max().unwrap_or(0);
     let ty = match most {
         0..=0xff => "u8",

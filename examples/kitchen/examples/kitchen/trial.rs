@@ -4,16 +4,14 @@ use std::error::Error;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
-use tltl::Monitor;
-use tltl::augmented::Rewards;
-use tltl::compose::{Combine, Compose};
-use tltl::deep::{Composition, Device, Learned, Learner, Settings, Skill};
-use tltl::env::Env;
+use tltl::OutOfRange;
+use tltl::compose::Compose;
+use tltl::deep::{Composition, Device, Learner, Settings, Skill};
 use tltl::learn::Schedule;
 use tltl::network::Network;
 use tltl::network::policy::NetworkPolicy;
 use tltl::policy::States;
-use tltl::product::Product;
+use tltl::prelude::{Combine, Env, Monitor, Product};
 use tltl::rand::{SeedableRng, rngs::Xoshiro256PlusPlus};
 use tltl_kitchen::features::{FeasibleGoals, View, exploration};
 use tltl_kitchen::show::{self, Episode};
@@ -102,18 +100,16 @@ impl Trials {
         Ok(Kitchen::new(self.layout.clone(), goals, HORIZONS[problem])?)
     }
 
-    fn settings(&self, steps: u64, horizon: u32, starred: bool) -> Settings {
+    fn settings(&self, steps: u64, horizon: u32, starred: bool) -> Result<Settings, OutOfRange> {
         let defaults = Settings::default();
-        let updates = steps / defaults.steps_per_update;
-        let environment = if starred { PENALTY } else { 0.0 };
-        Settings {
-            horizon,
-            rewards: Rewards { environment, ..Rewards::default() },
-            learning_rate: Schedule::Linear { from: 5e-4, to: 1e-5, steps: updates },
-            importance: Schedule::Linear { from: 0.4, to: 1.0, steps: updates },
-            epsilon: Schedule::Linear { from: 1.0, to: 0.05, steps: (steps / 3).min(30_000) },
-            ..defaults
-        }
+        let updates = steps / defaults.steps_per_update();
+        let rewards = defaults.rewards().with_environment(if starred { PENALTY } else { 0.0 })?;
+        defaults
+            .with_horizon(horizon.into())?
+            .with_rewards(rewards)
+            .with_learning_rate(Schedule::linear(5e-4, 1e-5, updates)?)?
+            .with_importance(Schedule::linear(0.4, 1.0, updates)?)?
+            .with_epsilon(Schedule::linear(1.0, 0.05, (steps / 3).min(30_000))?)
     }
 
     /// What `act` does in `episodes` episodes of `kitchen`.
@@ -182,14 +178,13 @@ impl Trials {
         seed: u64,
     ) -> Result<(DeepLearner<'m>, Curve), Failure> {
         let total = self.budget.steps[task];
-        let mut settings = self.settings(total, HORIZONS[task], starred);
+        let mut settings = self.settings(total, HORIZONS[task], starred)?;
         if task == 0 {
-            settings.relabelled = 0.0;
+            settings = settings.with_relabelled(0.0)?;
         }
         let mut kitchen = self.kitchen(task)?;
-        let mut learner =
-            Learner::new(skill, self.layout.actions(), settings, &Device::flex(), seed)
-                .exploring(exploration(&self.layout));
+        let mut learner = Learner::new(skill, &kitchen, settings, &Device::flex(), seed)
+            .exploring(exploration(&self.layout));
         let mut points = Vec::new();
         for i in 1..=self.budget.points {
             learner.train(&mut kitchen, total * i / self.budget.points)?;
@@ -216,23 +211,15 @@ impl Trials {
             curves.push(curve);
         }
         let product = Product::conjunction(&[&*monitors[0], &*monitors[1]]);
-        let networks = trained.iter().map(Learner::network).collect::<Result<Vec<_>, _>>()?;
-        let learned = |i: usize| Learned {
-            network: &networks[i],
-            features: &trained[i].skill().features,
-            task: &*monitors[i],
-            experience: trained[i].replay(),
-        };
-        let skills = [learned(0), learned(1)];
+        let skills = trained.iter().map(Learner::learned).collect::<Result<Vec<_>, _>>()?;
         let updates = self.budget.updates;
-        let composed = |combine| {
-            let mut settings = self.settings(0, HORIZONS[2], true);
-            (settings.relabelled, settings.batch) = (1.0, 64);
-            settings.learning_rate =
-                Schedule::Linear { from: 5e-4, to: 5e-6, steps: updates[0] + updates[1] };
+        let composed = |combine| -> Result<_, Failure> {
+            let rate = Schedule::linear(5e-4, 5e-6, updates[0] + updates[1])?;
+            let settings = self.settings(0, HORIZONS[2], true)?.with_relabelled(1.0)?;
+            let settings = settings.with_batch(64)?.with_learning_rate(rate)?;
             let goals = FeasibleGoals::new(&self.layout, Some(self.apple.object));
             let device = Device::flex();
-            Composition::new(&product, &skills, goals, combine, settings, &device, seed)
+            Ok(Composition::new(&product, &skills, goals, combine, settings, &device, seed)?)
         };
         for (name, combine) in [("c1", Combine::NormalisedSum), ("max", Combine::Max)] {
             let composition = composed(combine)?;
@@ -261,7 +248,7 @@ impl Trials {
         }
         let shown = vec![
             ("_episode.txt".into(), self.episode(|q, s| composition.act(q, s))?),
-            ("_policy.json".into(), self.policy(&*monitors[1], networks[1].clone())?),
+            ("_policy.json".into(), self.policy(&*monitors[1], skills[1].network.clone())?),
         ];
         curves.extend([sum, refined, self.learned_whole(&product, seed)?]);
         Ok(Outcome { curves, shown })
@@ -272,40 +259,27 @@ impl Trials {
         &self,
         mut act: impl FnMut(u32, &Known) -> Result<usize, tltl::deep::Error>,
     ) -> Result<String, Failure> {
-        let mut failure = None;
-        let episode = self.record(|known, q| {
-            let action = act(q, known).unwrap_or_else(|error| {
-                failure = Some(error);
-                0
-            });
-            Action::from_index(action)
-        })?;
-        failure.map_or(Ok(()), Err)?;
+        let episode = self.record(|q, known| Ok(Action::from_index(act(q, known)?)))?;
         Ok(episode.text(&self.layout))
     }
 
     /// The episode of a table.
     pub(crate) fn replay(&self, table: &str) -> Result<Episode, Failure> {
+        const OTHER: &str = "the recorded episode is of another kitchen or task";
         let mut actions = show::actions(table, &self.layout).into_iter();
-        let mut short = false;
-        let episode = self.record(|_, _| {
-            actions.next().unwrap_or_else(|| {
-                short = true;
-                Action::Pick
-            })
-        })?;
-        if short || episode.text(&self.layout) != table {
-            return Err("the recorded episode is of another kitchen or task".into());
-        }
-        Ok(episode)
+        let episode = self.record(|_, _| actions.next().ok_or(Failure::from(OTHER)))?;
+        if episode.text(&self.layout) == table { Ok(episode) } else { Err(OTHER.into()) }
     }
 
-    fn record(&self, policy: impl FnMut(&Known, u32) -> Action) -> Result<Episode, Failure> {
+    fn record(
+        &self,
+        act: impl FnMut(u32, &Known) -> Result<Action, Failure>,
+    ) -> Result<Episode, Failure> {
         let monitors = [specification(0, 2), specification(1, 2)];
         let product = Product::conjunction(&[&*monitors[0], &*monitors[1]]);
         let mut kitchen = self.kitchen(2)?;
         let told = kitchen.reset(&mut Xoshiro256PlusPlus::seed_from_u64(4_000)).goal();
-        Ok(Episode::record(&mut kitchen, &product, &[self.apple, told], policy)?)
+        Episode::record(&mut kitchen, &product, &[self.apple, told], act)
     }
 
     /// The network of task 2 as a policy that `tltlc policy` turns into Rust.
@@ -337,16 +311,16 @@ impl Trials {
     /// environment step each.
     fn learned_whole(&self, product: &Product<'_, Known>, seed: u64) -> Result<Curve, Failure> {
         let total = self.budget.updates[0] + self.budget.updates[1];
-        let mut settings = self.settings(total, HORIZONS[2], true);
-        (settings.steps_per_update, settings.relabelled) = (1, 0.8);
+        let settings = self.settings(total, HORIZONS[2], true)?;
+        let settings = settings.with_steps_per_update(1)?.with_relabelled(0.8)?;
         let views = [View::of(self.layout.clone(), self.apple), View::new(self.layout.clone())];
         let joint = tltl::deep::Joint(vec![&views[0], &views[1]]);
         let goals = FeasibleGoals::new(&self.layout, Some(self.apple.object));
         let skill = Skill::with_goals(product, joint, goals);
         let device = Device::flex();
-        let mut learner = Learner::new(skill, self.layout.actions(), settings, &device, seed)
-            .exploring(exploration(&self.layout));
         let mut kitchen = self.kitchen(2)?;
+        let mut learner = Learner::new(skill, &kitchen, settings, &device, seed)
+            .exploring(exploration(&self.layout));
         let mut curve = Curve {
             name: "from scratch".into(),
             points: Vec::new(),

@@ -1,42 +1,42 @@
 //! Exploring without entering traps that can be avoided.
 
 use alloc::vec::Vec;
-use core::convert::Infallible;
 
 use rand::Rng;
 
-use super::episode::{Agent, Seen, World};
+use super::episode::{Agent, Monitored, Transition};
 use super::table::Tabular;
-use super::{Experience, Schedule};
-use crate::augmented::{End, Labelled};
-use crate::env::{below, unit};
+use super::{Experience, TrainError};
+use crate::augmented::Labelled;
+use crate::env::below;
 use crate::model::FiniteModel;
+use crate::reward::End;
 use crate::shield::Shield;
 
-/// What keeps a learner from actions while it explores.
+/// An action mask: which actions a learner may explore.
 ///
 /// On `!c U a` of the paper's grid, a million random steps: 46 % of the episodes end in the trap
-/// without a guard, 19 % with one that looks one step ahead, and 1.6 % behind the shield of the
+/// without a mask, 19 % with one that looks one step ahead, and 1.6 % behind the shield of the
 /// model, none of them by an action that could have been a safer one (c is one of 80 starts).
 ///
 /// What it costs: actions that are barred are not learned about, so a table is worth its
 /// certificate only under the same shield
-/// ([`Problem::certify_shield`](crate::solve::Problem::certify_shield)). There it is here the
+/// ([`Optimum::certify_shield`](crate::solve::Optimum::certify_shield)). There it is here the
 /// largest possible P(satisfied), 98.4865 %, in the fewest steps that allow it, 11.6584: the
-/// shield costs nothing, and the sampling that tips near ties beside a trap has no say. Where a goal
-/// lies beside a trap it can cost nearly all: see [`shield`](crate::shield).
+/// shield costs nothing, and the sampling that tips near ties beside a trap has no effect. Where a
+/// goal lies beside a trap it can cost nearly all: see [`shield`](crate::shield).
 #[derive(Clone, Copy, Debug)]
-pub enum Guard<'a> {
+pub enum Mask<'a> {
     /// A [`Shield`]: with that of a known model no trap is ever entered that can be avoided.
     Shield(&'a Shield),
     /// One step ahead, in what was seen so far: all but the actions that entered the trap more often
     /// than another one, by twice the standard error. A trap must have been entered a few times by an
     /// action to be known there, and the way to where every action is dangerous is not barred. For
-    /// settings that remember.
+    /// settings that keep the [`Experience`].
     OneStep,
 }
 
-impl Guard<'_> {
+impl Mask<'_> {
     /// Leaves in `allowed` the actions that are allowed in `s` at `q`; all, if there is no choice.
     fn allow(
         &self,
@@ -78,44 +78,46 @@ fn risk((q, s, a): (u32, usize, usize), task: &Labelled, seen: &Experience) -> (
     (p, p * (1.0 - p) / (tried + 2.0))
 }
 
-/// A table learner that acts behind a guard.
-pub(super) struct Guarded<'a> {
+/// A table learner that acts behind a mask.
+pub(super) struct Masked<'a> {
     pub(super) agent: Tabular<'a, usize, false>,
     pub(super) task: &'a Labelled,
-    pub(super) guard: Guard<'a>,
+    pub(super) mask: Mask<'a>,
     pub(super) allowed: Vec<usize>,
 }
 
-impl Agent for Guarded<'_> {
+impl Agent for Masked<'_> {
     type State = usize;
-    type Error = Infallible;
+    type Error = TrainError;
 
     fn start(&mut self, s: &usize) {
         self.agent.start(s);
     }
 
     /// ε-greedy among the actions that are allowed.
-    fn act<R: Rng + ?Sized>(&mut self, &s: &usize, q: u32, steps: u64, rng: &mut R) -> usize {
-        let Self { agent, task, guard, allowed } = self;
-        guard.allow((q, s), task, agent.experience, allowed);
-        let epsilon = match agent.settings.epsilon {
-            Schedule::Constant(epsilon) => epsilon,
-            schedule => schedule.at(steps),
-        };
-        if epsilon >= 1.0 || unit(rng) < epsilon {
-            return allowed[below(allowed.len(), rng)];
+    fn act<R: Rng + ?Sized>(
+        &mut self,
+        q: u32,
+        &s: &usize,
+        steps: u64,
+        rng: &mut R,
+    ) -> Result<usize, TrainError> {
+        let Self { agent, task, mask, allowed } = self;
+        mask.allow((q, s), task, agent.experience, allowed);
+        if agent.explores(steps, rng) {
+            return Ok(allowed[below(allowed.len(), rng)]);
         }
         let row = agent.row(q, s);
         let best = |best, a| if row[a] > row[best] { a } else { best };
-        allowed.iter().copied().reduce(best).unwrap_or_default()
+        Ok(allowed.iter().copied().reduce(best).unwrap_or_default())
     }
 
-    fn learn<W: World<State = usize, Error: Into<Self::Error>>, R: Rng + ?Sized>(
+    fn learn<W: Monitored<State = usize, Error: Into<TrainError>>, R: Rng + ?Sized>(
         &mut self,
         world: &W,
-        seen: &Seen<'_, usize>,
+        transition: &Transition<'_, usize>,
         rng: &mut R,
-    ) -> Result<(), Self::Error> {
-        self.agent.learn(world, seen, rng)
+    ) -> Result<(), TrainError> {
+        self.agent.learn(world, transition, rng)
     }
 }

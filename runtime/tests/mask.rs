@@ -1,14 +1,13 @@
-//! Exploring behind a guard.
+//! Exploring behind a mask.
 
 mod world;
 
-use tltl::augmented::{End, Labelled};
-use tltl::env::{Env, FiniteEnv, ModelEnv, Step};
-use tltl::learn::{Guard, Learner, Settings};
+use tltl::learn::Mask;
+use tltl::prelude::*;
 use tltl::rand::Rng;
+use tltl::reward::End;
 use tltl::shield::Shield;
-use tltl::solve::Problem;
-use world::{A, C, Cell, Grid, PAPER, avoid, dynamics, on_paper};
+use world::{A, C, Cell, Grid, PAPER, avoid, on_paper, problem};
 
 const STEPS: u64 = 1_000_000;
 
@@ -78,41 +77,41 @@ impl FiniteEnv for Counting<'_> {
 /// What is learned behind it is as safe as can be, and as fast as that allows: it costs nothing.
 #[test]
 fn avoidable_traps_are_not_entered() {
-    let (task, dynamics) = (on_paper(&avoid(C, A)), dynamics());
-    let problem = Problem::new(&dynamics, &task);
-    let (best, shield) = (problem.best(), Shield::of_model(&problem));
-    let train = |guard: Option<Guard<'_>>| {
+    let task = on_paper(&avoid(C, A));
+    let problem = problem(&task);
+    let shield = Shield::of_model(&problem);
+    let train = |mask: Option<Mask<'_>>| {
         let mut env = Counting::new(&task, &shield);
-        let mut learner = Learner::new(&task, 5, Settings::safe(), 1);
-        match guard {
-            Some(guard) => learner.train_guarded(&mut env, &task, guard, STEPS),
-            None => learner.train(&mut env, &task, STEPS),
+        let mut learner = Learner::new(&task, Settings::safe(), 1);
+        match mask {
+            Some(mask) => learner.train_masked(&mut env, mask, STEPS).unwrap(),
+            None => learner.train(&mut env, STEPS).unwrap(),
         }
         (learner, env.lost, env.avoidably)
     };
     let (_, lost, avoidably) = train(None);
-    let (learner, guarded, never) = train(Some(Guard::Shield(&shield)));
-    let (_, ahead, seldom) = train(Some(Guard::OneStep));
+    let (learner, guarded, never) = train(Some(Mask::Shield(&shield)));
+    let (_, ahead, seldom) = train(Some(Mask::OneStep));
     assert!(never == 0 && avoidably > 5_000, "{never}, {avoidably}");
     assert!(40 * guarded < lost && 3 * ahead < lost, "{guarded}, {ahead}, {lost}");
     assert!(0 < seldom && 4 * seldom < avoidably, "it must see a trap to know it: {seldom}");
 
-    let policy = shield.policy(learner.q());
-    let certificate = problem.certify_against(&policy, learner.q(), &best);
+    let policy = shield.policy(learner.q()).unwrap();
+    let certificate = problem.optimum(&learner.rewards()).certify(&policy).unwrap();
     assert!(certificate.worst_regret_satisfied < 1e-6, "{certificate:?}");
     assert!(certificate.regret_steps.unwrap() < 1e-6, "{certificate:?}");
 }
 
-/// Slices do not matter behind a guard either.
+/// Slices do not matter behind a mask either.
 #[test]
 fn slices_change_nothing() {
-    let (task, dynamics) = (on_paper(&avoid(C, A)), dynamics());
-    let shield = Shield::of_model(&Problem::new(&dynamics, &task));
+    let task = on_paper(&avoid(C, A));
+    let shield = Shield::of_model(&problem(&task));
     let train = |slices: &[u64]| {
-        let mut learner = Learner::new(&task, 5, Settings::default(), 2);
+        let mut learner = Learner::new(&task, Settings::default(), 2);
         for &total in slices {
             let mut env = ModelEnv::new(PAPER).unwrap();
-            learner.train_guarded(&mut env, &task, Guard::Shield(&shield), total);
+            learner.train_masked(&mut env, Mask::Shield(&shield), total).unwrap();
         }
         learner
     };

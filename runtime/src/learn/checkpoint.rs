@@ -1,0 +1,95 @@
+//! What a saved learner holds.
+
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+
+use rand::rngs::Xoshiro256PlusPlus;
+#[cfg(feature = "serde")]
+use serde::{Deserialize, Serialize};
+
+use super::episode::Elapsed;
+use super::{Experience, Settings};
+use crate::augmented::Labelled;
+use crate::mismatch::Mismatch;
+
+/// All that learning changes, and which task it was for: what is saved of a
+/// [`Learner`](super::Learner) and resumed.
+///
+/// With serde it is saved in any format; serde_json reads floats back exactly only with its feature
+/// `float_roundtrip`.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+pub struct Checkpoint {
+    pub(super) settings: Settings,
+    pub(super) q: Values,
+    pub(super) visits: Vec<u32>,
+    pub(super) experience: Experience,
+    pub(super) rng: Xoshiro256PlusPlus,
+    pub(super) done: Elapsed,
+    /// Not there in files of earlier versions, which are known by their sizes alone.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub(super) task: Option<Identity>,
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub(super) seed: u64,
+}
+
+/// Action values as they are saved.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+pub(super) struct Values {
+    pub(super) values: Vec<f64>,
+    pub(super) states: usize,
+    pub(super) actions: usize,
+}
+
+/// Which task on which world a checkpoint is of.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+pub(super) struct Identity {
+    name: String,
+    formula: String,
+    automaton_states: u32,
+    /// Of the automaton's moves on the states of the world.
+    checksum: String,
+}
+
+impl Identity {
+    pub(super) fn of(task: &Labelled) -> Self {
+        Self {
+            name: task.name().to_string(),
+            formula: task.formula().to_string(),
+            automaton_states: task.automaton_states(),
+            checksum: alloc::format!("{:016x}", task.checksum()),
+        }
+    }
+}
+
+impl Checkpoint {
+    /// `Ok` if it is of `task`, whose updates are counted in so many `entries`.
+    pub(super) fn must_be_of(&self, task: &Labelled, entries: usize) -> Result<(), Mismatch> {
+        let Self { q, visits, experience, .. } = self;
+        let own = Identity::of(task);
+        let same = self.task.as_ref().is_none_or(|found| {
+            (found.automaton_states, &found.checksum) == (own.automaton_states, &own.checksum)
+        });
+        let remembered = if self.settings.remembers() { task.states() } else { 0 };
+        let values = task.pairs() * task.actions();
+        let own_sizes = (q.values.len(), q.states, q.actions, visits.len());
+        let sized = own_sizes == (values, task.states(), task.actions(), entries);
+        if same && sized && experience.is_of(remembered, task.actions()) {
+            return Ok(());
+        }
+        let mismatch = Mismatch::new("a checkpoint", self.describe(), task.describe());
+        let alike = mismatch.found() == mismatch.expected();
+        Err(if alike { mismatch.in_that("the automata move differently".into()) } else { mismatch })
+    }
+
+    fn describe(&self) -> String {
+        let Values { values, states, actions } = &self.q;
+        let (name, automaton) = match &self.task {
+            Some(task) => (alloc::format!("`{}`", task.name), task.automaton_states as usize),
+            None => ("a task".into(), values.len() / states.saturating_mul(*actions).max(1)),
+        };
+        alloc::format!("{name} ({automaton} automaton states, {states} states, {actions} actions)")
+    }
+}

@@ -1,0 +1,304 @@
+//! The tabular Q-learner.
+
+use alloc::vec::Vec;
+
+use rand::SeedableRng;
+use rand::rngs::Xoshiro256PlusPlus;
+
+use super::episode::{self, Agent, Elapsed};
+use super::mask::{Mask, Masked};
+use super::table::{Fixed, Numbered, Tabular, Width};
+use super::{Checkpoint, Experience, Settings, TrainError};
+use crate::augmented::Labelled;
+use crate::env::FiniteEnv;
+use crate::mismatch::Mismatch;
+use crate::model::{Dynamics, ModelError};
+use crate::policy::{Policy, Training};
+use crate::q::QTable;
+use crate::reward::Rewards;
+use crate::solve::{Certificate, Problem};
+
+/// A tabular Q-learner (Watkins 1989) on the augmented MDP of a finite environment.
+///
+/// It holds its task and all that learning changes: the table, the visit counts, the random
+/// generator, the experience. [`Self::train`] runs whole episodes until a total number of steps, so
+/// that training in slices (to show progress, to write a [checkpoint](Self::checkpoint)) gives bit
+/// for bit what training at once gives.
+///
+#[cfg_attr(feature = "macros", doc = "```")]
+#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// use tltl::prelude::*;
+/// # struct Row;
+/// # impl FiniteModel for Row {
+/// #     type State = i32;
+/// #     fn states(&self) -> usize { 5 }
+/// #     fn actions(&self) -> usize { 2 }
+/// #     fn state(&self, s: usize) -> i32 { s as i32 }
+/// #     fn transitions(&self, s: usize, a: usize, mut outcome: impl FnMut(usize, f64)) {
+/// #         outcome([s.saturating_sub(1), (s + 1).min(4)][a], 1.0);
+/// #     }
+/// # }
+///
+/// // `Row` is five cells in a row; visit both ends.
+/// let mut env = ModelEnv::new(Row)?;
+/// let task = Labelled::of_env(&env, &tltl! { |x: &i32| F ({ *x } == 0) && F ({ *x } == 4) })?;
+/// let mut learner = Learner::new(&task, Settings::default(), 1);
+/// learner.train(&mut env, 5_000)?;
+/// let problem = Problem::new(env.dynamics(), &task)?;
+/// assert_eq!(learner.certify(&problem)?.regret_steps, Some(0.0));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Learner {
+    settings: Settings,
+    q: QTable,
+    /// Updates of each entry: (s, a) if all automaton states share them, else (q, s, a).
+    visits: Vec<u32>,
+    experience: Experience,
+    rng: Xoshiro256PlusPlus,
+    elapsed: Elapsed,
+    seed: u64,
+}
+
+impl Learner {
+    /// A learner of `task`; all that is random comes from `seed`.
+    #[must_use]
+    pub fn new(task: &Labelled, settings: Settings, seed: u64) -> Self {
+        let remembered = if settings.remembers() { task.states() } else { 0 };
+        Self {
+            q: QTable::filled(task, settings.initial()),
+            visits: alloc::vec![0; entries(task, &settings)],
+            experience: Experience::new(remembered, task.actions()),
+            rng: Xoshiro256PlusPlus::seed_from_u64(seed),
+            elapsed: Elapsed::default(),
+            settings,
+            seed,
+        }
+    }
+
+    /// Runs whole episodes until `total` environment steps have been taken since the beginning;
+    /// the last episode may exceed it by less than the horizon. Slices do not matter: `train` to
+    /// 1000 and then to 2000 is the same as to 2000.
+    ///
+    /// Gives up early if 100,000 episodes in a row are over at their very first state.
+    ///
+    /// # Errors
+    /// If the environment is of another world, or pays what is not a finite number.
+    pub fn train<E: FiniteEnv>(&mut self, env: &mut E, total: u64) -> Result<(), TrainError> {
+        let plain = !self.settings.is_counterfactual() && !self.settings.remembers();
+        match (self.task().actions(), plain) {
+            (4, true) => self.run::<_, _, true>(env, Fixed::<4>, total),
+            (5, true) => self.run::<_, _, true>(env, Fixed::<5>, total),
+            (4, false) => self.run::<_, _, false>(env, Fixed::<4>, total),
+            (5, false) => self.run::<_, _, false>(env, Fixed::<5>, total),
+            (actions, _) => self.run::<_, _, false>(env, actions, total),
+        }
+    }
+
+    /// Trains in a loop that was made for a number of actions and a recipe: a fifth faster than
+    /// one that asks for them at every step.
+    fn run<E: FiniteEnv, W: Width, const PLAIN: bool>(
+        &mut self,
+        env: &mut E,
+        width: W,
+        total: u64,
+    ) -> Result<(), TrainError> {
+        self.run_as(env, total, width, |agent: Tabular<'_, W, PLAIN>| agent)
+    }
+
+    /// [`Self::train`] behind a mask, which leaves only some actions to explore; the settings say
+    /// how to choose among them. Slower: actions are looked up at every step.
+    ///
+    /// # Errors
+    /// As [`Self::train`], or if the shield is of another task.
+    ///
+    /// # Panics
+    /// If the mask looks one step ahead and the settings keep no experience.
+    #[track_caller]
+    pub fn train_masked<E: FiniteEnv>(
+        &mut self,
+        env: &mut E,
+        mask: Mask<'_>,
+        total: u64,
+    ) -> Result<(), TrainError> {
+        match mask {
+            Mask::Shield(shield) => self.task().expect("a shield", shield.task())?,
+            Mask::OneStep => {
+                let remembers = self.settings.remembers();
+                assert!(remembers, "looking one step ahead needs `Memory::Experience`");
+            }
+        }
+        let task = self.task().clone();
+        let width = task.actions();
+        let masked = |agent| Masked { agent, task: &task, mask, allowed: Vec::new() };
+        self.run_as(env, total, width, masked)
+    }
+
+    /// Runs as the agent that `wrap` makes of the table.
+    #[inline(always)]
+    fn run_as<
+        'a,
+        E: FiniteEnv,
+        W: Width,
+        A: Agent<State = usize, Error = TrainError>,
+        const PLAIN: bool,
+    >(
+        &'a mut self,
+        env: &mut E,
+        total: u64,
+        width: W,
+        wrap: impl FnOnce(Tabular<'a, W, PLAIN>) -> A,
+    ) -> Result<(), TrainError> {
+        let task = self.q.task().clone();
+        task.expect_world("an environment", env.states(), env.actions())?;
+        let mut world = Numbered::new(env, &task, &self.settings.rewards());
+        // Copies of its own stay in registers.
+        let (mut rng, mut elapsed, settings) = (self.rng.clone(), self.elapsed, self.settings);
+        let mut agent = wrap(Tabular {
+            settings,
+            gamma: settings.rewards().gamma(),
+            live: task.live().collect(),
+            states: task.states(),
+            width,
+            values: self.q.values_mut(),
+            visits: &mut self.visits,
+            experience: &mut self.experience,
+        });
+        let horizon = settings.horizon();
+        let result = episode::run(&mut world, &mut agent, &mut elapsed, horizon, total, &mut rng);
+        (self.rng, self.elapsed) = (rng, elapsed);
+        // The agent does not count steps: that would cost a store at each.
+        result.map_err(|error| match error {
+            TrainError::Reward(_) => TrainError::Reward(elapsed.steps),
+            error => error,
+        })
+    }
+
+    /// Replays the remembered experience until nothing changes: the table becomes the optimum of
+    /// the world as it was seen. It gets more out of the same steps than any step size does; costs
+    /// about a millisecond on a small world, and takes no environment step.
+    ///
+    /// # Errors
+    /// If nothing is remembered.
+    pub fn replay(&mut self) -> Result<(), ModelError> {
+        let dynamics = Dynamics::new(&self.experience)?;
+        let rewards = self.settings.rewards();
+        let payment = self.task().payment(&rewards);
+        let problem = Problem::of_own_world(dynamics, self.task().clone());
+        self.q = problem.optimal_q_of(&payment, rewards.gamma(), Some(&self.q));
+        Ok(())
+    }
+
+    /// The task that is learned, on its world.
+    #[must_use]
+    pub const fn task(&self) -> &Labelled {
+        self.q.task()
+    }
+
+    /// The action values so far.
+    #[must_use]
+    pub const fn q(&self) -> &QTable {
+        &self.q
+    }
+
+    /// The greedy policy so far, saying how it was learned.
+    #[must_use]
+    pub fn policy(&self) -> Policy {
+        self.q.policy().trained(self.training())
+    }
+
+    /// What the greedy policy is worth in a world with a model, exactly; it is judged by the rewards
+    /// that it was trained on.
+    ///
+    /// # Errors
+    /// If `problem` is another task, or another world.
+    pub fn certify(&self, problem: &Problem) -> Result<Certificate, Mismatch> {
+        problem.optimum(&self.rewards()).certify(&self.q.policy())
+    }
+
+    /// How the table was learned so far, as policies say it.
+    #[must_use]
+    pub fn training(&self) -> Training {
+        Training {
+            task: self.task().name().into(),
+            settings: self.settings,
+            steps: self.elapsed.steps,
+            episodes: self.elapsed.episodes,
+            seed: self.seed,
+        }
+    }
+
+    /// What was seen, if the settings say to keep it.
+    #[must_use]
+    pub const fn experience(&self) -> &Experience {
+        &self.experience
+    }
+
+    /// The settings.
+    #[must_use]
+    pub const fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// What is optimised: the rewards of the settings.
+    #[must_use]
+    pub const fn rewards(&self) -> Rewards {
+        self.settings.rewards()
+    }
+
+    /// Environment steps so far.
+    #[must_use]
+    pub const fn steps(&self) -> u64 {
+        self.elapsed.steps
+    }
+
+    /// Episodes so far.
+    #[must_use]
+    pub const fn episodes(&self) -> u64 {
+        self.elapsed.episodes
+    }
+
+    /// All that learning has changed, to be saved.
+    #[must_use]
+    pub fn checkpoint(&self) -> Checkpoint {
+        let task = self.task();
+        Checkpoint {
+            settings: self.settings,
+            q: super::checkpoint::Values {
+                values: self.q.values().to_vec(),
+                states: task.states(),
+                actions: task.actions(),
+            },
+            visits: self.visits.clone(),
+            experience: self.experience.clone(),
+            rng: self.rng.clone(),
+            done: self.elapsed,
+            task: Some(super::checkpoint::Identity::of(task)),
+            seed: self.seed,
+        }
+    }
+
+    /// A learner of `task` that goes on where the one was that `checkpoint` is of, with the same
+    /// numbers.
+    ///
+    /// # Errors
+    /// If the checkpoint is of another task or another world.
+    pub fn resume(task: &Labelled, checkpoint: Checkpoint) -> Result<Self, Mismatch> {
+        checkpoint.must_be_of(task, entries(task, &checkpoint.settings))?;
+        Ok(Self {
+            q: QTable::from_values(task, checkpoint.q.values)?,
+            settings: checkpoint.settings,
+            visits: checkpoint.visits,
+            experience: checkpoint.experience,
+            rng: checkpoint.rng,
+            elapsed: checkpoint.done,
+            seed: checkpoint.seed,
+        })
+    }
+}
+
+/// The number of entries whose updates are counted.
+fn entries(task: &Labelled, settings: &Settings) -> usize {
+    let pairs = if settings.is_counterfactual() { task.states() } else { task.pairs() };
+    pairs * task.actions()
+}

@@ -1,0 +1,400 @@
+//! Rewards of the FSA-augmented MDP: what is optimised.
+//!
+//! [`Rewards`] say what a step is worth and how the future is discounted. What a step pays is a pure
+//! function of one move of the automaton, [`Rewards::pay`]: learners, solvers and other languages
+//! all ask it, so no reward is computed anywhere else.
+//!
+//! What is optimal for a reward need not be what the task wants. [`Mode::Progress`], the paper's
+//! reward, pays for every edge, and so prefers longer ways, or a risk. On `!c U a` of the paper's
+//! grid the largest possible P(satisfied) is 98.49 %; the `Progress`-optimal policy has 98.13 %, the
+//! `Literal`-optimal one 50.0 %. [Certificates](crate::solve::Certificate) show the difference.
+
+use alloc::vec::Vec;
+
+#[cfg(feature = "serde")]
+use serde::{Deserialize, Serialize};
+
+use crate::monitor::Acceptor;
+use crate::range::checked;
+
+/// What a move of the automaton pays.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Mode {
+    /// 1 if the move leaves q, neither by a self-loop nor into the trap (the intent of the paper's
+    /// Eq. 3A3).
+    #[default]
+    Progress,
+    /// 1 if the move leaves q, the trap included (Eq. 3A3 to the letter). Unsafe: it pays for
+    /// losing. Kept to reproduce the paper.
+    Literal,
+    /// 1 on entering the accepting state.
+    Acceptance,
+    /// ρ(s', D_φ^q), clamped to ± [`Rewards::bound`].
+    Robustness,
+    /// `Acceptance` plus γΦ(q') − Φ(q). The potential Φ falls evenly from nearly 1 beside the
+    /// accepting state to nearly 0 at the state farthest from it; it is 0 where the episode
+    /// terminates, for the task or for the environment. So the optimal policies are those of
+    /// `Acceptance` (Ng et al. 1999).
+    Shaped,
+}
+
+/// What is optimised: the [`Mode`] of payment, the discount factor, and penalties.
+///
+/// All numbers are finite and in their ranges: a value of this type is valid.
+///
+/// ```
+/// use tltl::reward::Rewards;
+///
+/// let rewards = Rewards::acceptance().with_gamma(0.99)?.with_trap_penalty(1.0)?;
+/// assert_eq!((rewards.gamma(), rewards.step_penalty()), (0.99, 0.0));
+/// assert!(rewards.with_gamma(f64::NAN).is_err());
+/// # Ok::<(), tltl::OutOfRange>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rewards {
+    mode: Mode,
+    gamma: f64,
+    bound: f64,
+    trap_penalty: f64,
+    step_penalty: f64,
+    environment: f64,
+}
+
+impl Default for Rewards {
+    /// [`Rewards::progress`].
+    fn default() -> Self {
+        Self::progress()
+    }
+}
+
+impl Rewards {
+    /// Those of [`Settings::safe`](crate::learn::Settings::safe).
+    pub(crate) const SAFE: Self = Self { gamma: 0.99999, ..Self::acceptance() };
+
+    /// The same with a γ that is known to be in range.
+    #[cfg(feature = "deep")]
+    pub(crate) const fn with_known_gamma(self, gamma: f64) -> Self {
+        Self { gamma, ..self }
+    }
+
+    /// `mode` alone: γ 0.95, bound 1, no penalties, nothing from the environment.
+    #[must_use]
+    pub const fn of(mode: Mode) -> Self {
+        let (trap_penalty, step_penalty, environment) = (0.0, 0.0, 0.0);
+        Self { mode, gamma: 0.95, bound: 1.0, trap_penalty, step_penalty, environment }
+    }
+
+    /// [`Mode::Progress`] alone, the paper's reward.
+    #[must_use]
+    pub const fn progress() -> Self {
+        Self::of(Mode::Progress)
+    }
+
+    /// [`Mode::Acceptance`] alone: what the task wants, if γ is near 1.
+    #[must_use]
+    pub const fn acceptance() -> Self {
+        Self::of(Mode::Acceptance)
+    }
+
+    /// What a move of the automaton pays.
+    #[must_use]
+    pub const fn mode(&self) -> Mode {
+        self.mode
+    }
+
+    /// The reward of one step of the augmented MDP, the environment's own part included.
+    ///
+    /// ```
+    /// use tltl::reward::{Arrival, End, Ends, Rewards};
+    ///
+    /// // `F a`: state 1 accepts, one move from state 0.
+    /// let ends = Ends::new(vec![None, Some(End::Accepted)], vec![Some(1), Some(0)]);
+    /// let arrival = Arrival { reward: -1.0, ..Arrival::at(0, 1) };
+    /// let rewards = Rewards::acceptance().with_environment(0.5)?;
+    /// assert_eq!(rewards.pay(&ends, &arrival), 0.5);
+    /// # Ok::<(), tltl::OutOfRange>(())
+    /// ```
+    ///
+    /// # Panics
+    /// If q or q' is not a state of the automaton.
+    #[inline]
+    #[must_use]
+    #[track_caller]
+    pub fn pay(&self, ends: &Ends, arrival: &Arrival) -> f64 {
+        self.pay_for_move(ends, arrival) + self.environment * arrival.reward
+    }
+
+    /// The same for many steps at once: `out[i]` is the reward of step i.
+    ///
+    /// ```
+    /// use tltl::reward::{Arrivals, End, Ends, Rewards};
+    ///
+    /// let ends = Ends::new(vec![None, Some(End::Accepted)], vec![Some(1), Some(0)]);
+    /// let mut out = [0.0; 3];
+    /// let arrivals = Arrivals { q: &[0, 0, 1], to: &[0, 1, 1], ..Arrivals::default() };
+    /// Rewards::acceptance().pay_all(&ends, &arrivals, &mut out);
+    /// assert_eq!(out, [0.0, 1.0, 0.0]);
+    /// ```
+    ///
+    /// # Panics
+    /// If the columns are not of the length of `out` (those that may be empty, if not empty), or as
+    /// [`Self::pay`].
+    #[track_caller]
+    pub fn pay_all(&self, ends: &Ends, arrivals: &Arrivals<'_>, out: &mut [f64]) {
+        arrivals.check(out.len());
+        for (i, paid) in out.iter_mut().enumerate() {
+            *paid = self.pay(ends, &arrivals.get(i));
+        }
+    }
+
+    /// What the task pays for the move, the environment's own reward left aside.
+    #[track_caller]
+    pub(crate) fn pay_for_move(&self, ends: &Ends, arrival: &Arrival) -> f64 {
+        let Arrival { q, to, robustness, terminated, .. } = *arrival;
+        let entered = |end| ends.end(q).is_none() && ends.end(to) == Some(end);
+        let lost = entered(End::Lost);
+        let accepted = f64::from(u8::from(entered(End::Accepted)));
+        let paid = match self.mode {
+            Mode::Progress => f64::from(u8::from(q != to && !lost)),
+            Mode::Literal => f64::from(u8::from(q != to)),
+            Mode::Acceptance => accepted,
+            Mode::Robustness => robustness.clamp(-self.bound, self.bound),
+            Mode::Shaped => {
+                let left = if terminated { 0.0 } else { ends.potential(to) };
+                accepted + self.gamma * left - ends.potential(q)
+            }
+        };
+        paid - self.step_penalty - if lost { self.trap_penalty } else { 0.0 }
+    }
+
+    /// Whether the reward needs ρ(s', D_φ^q).
+    #[must_use]
+    pub const fn needs_robustness(&self) -> bool {
+        matches!(self.mode, Mode::Robustness)
+    }
+}
+
+checked! { Rewards {
+    /// The discount factor γ.
+    gamma, with_gamma: f64, "in [0, 1)", |gamma| (0.0..1.0).contains(&gamma);
+    /// The largest reward or punishment of one step by [`Mode::Robustness`].
+    bound, with_bound: f64, "a positive number", |bound| bound > 0.0 && bound.is_finite();
+    /// What is subtracted on entering the trap.
+    trap_penalty, with_trap_penalty: f64, "a number from 0 on", |p| p >= 0.0 && p.is_finite();
+    /// What is subtracted at every step.
+    step_penalty, with_step_penalty: f64, "a number from 0 on", |p| p >= 0.0 && p.is_finite();
+    /// The weight of the environment's own reward (a cost of failed actions, say). Solvers leave
+    /// that reward out, for models have none.
+    environment, with_environment: f64, "a finite number", |weight| weight.is_finite();
+}}
+
+/// How an episode ended for the task.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// The task is satisfied.
+    Accepted,
+    /// The task can never be satisfied any more.
+    Lost,
+}
+
+/// Where the task ends, and how far each automaton state is from acceptance: all that rewards need
+/// to know of a task.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Ends {
+    of: Vec<Option<End>>,
+    distance: Vec<Option<u32>>,
+    farthest: u32,
+}
+
+impl Ends {
+    /// An automaton with such an end, or none, at each state, and so many moves from each state to
+    /// acceptance at least, if there is a way.
+    ///
+    /// # Panics
+    /// If there is not one of both for each state.
+    #[must_use]
+    #[track_caller]
+    pub fn new(of: Vec<Option<End>>, distance: Vec<Option<u32>>) -> Self {
+        assert_eq!(of.len(), distance.len(), "an end and a distance for each automaton state");
+        let farthest = distance.iter().copied().flatten().max().unwrap_or(0);
+        Self { of, distance, farthest }
+    }
+
+    /// Those of a task.
+    #[must_use]
+    pub fn of(task: &(impl Acceptor + ?Sized)) -> Self {
+        let end = |q| match (task.is_accepting(q), task.is_trap(q)) {
+            (true, _) => Some(End::Accepted),
+            (_, true) => Some(End::Lost),
+            _ => None,
+        };
+        let states = 0..task.states();
+        let distance = states.clone().map(|q| task.distance(q)).collect();
+        Self::new(states.map(end).collect(), distance)
+    }
+
+    /// The number of automaton states.
+    #[must_use]
+    pub fn states(&self) -> u32 {
+        self.of.len() as u32
+    }
+
+    /// The accepting state; the first, if there are several.
+    #[must_use]
+    pub fn accepting(&self) -> Option<u32> {
+        self.first(End::Accepted)
+    }
+
+    /// The trap; the first, if there are several.
+    #[must_use]
+    pub fn trap(&self) -> Option<u32> {
+        self.first(End::Lost)
+    }
+
+    fn first(&self, end: End) -> Option<u32> {
+        (0..self.states()).find(|&q| self.end(q) == Some(end))
+    }
+
+    /// How the task has ended at `q`, if it has.
+    ///
+    /// # Panics
+    /// If `q` is not a state of the automaton.
+    #[inline]
+    #[must_use]
+    #[track_caller]
+    pub fn end(&self, q: u32) -> Option<End> {
+        self.of[q as usize]
+    }
+
+    /// The automaton states in which the task goes on.
+    pub fn live(&self) -> impl Iterator<Item = u32> + use<> {
+        let of = self.of.clone();
+        (0..of.len() as u32).filter(move |&q| of[q as usize].is_none())
+    }
+
+    /// The potential Φ of [`Mode::Shaped`].
+    #[track_caller]
+    fn potential(&self, q: u32) -> f64 {
+        match (self.end(q), self.distance[q as usize]) {
+            (None, Some(distance)) => 1.0 - f64::from(distance) / f64::from(self.farthest + 1),
+            _ => 0.0,
+        }
+    }
+}
+
+/// One move of the automaton, as rewards see it: q has read s' and moved to q'.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Arrival {
+    /// The automaton state before.
+    pub q: u32,
+    /// The automaton state after, q' = δ(q, s').
+    pub to: u32,
+    /// ρ(s', D_φ^q), where the mode [needs](Rewards::needs_robustness) it.
+    pub robustness: f64,
+    /// What the environment itself pays for the step.
+    pub reward: f64,
+    /// Whether the environment's episode terminates at s'.
+    pub terminated: bool,
+}
+
+impl Arrival {
+    /// A move from `q` to `to` with nothing beside it.
+    #[must_use]
+    pub const fn at(q: u32, to: u32) -> Self {
+        Self { q, to, robustness: 0.0, reward: 0.0, terminated: false }
+    }
+}
+
+/// Many moves, column by column. All columns have the same length; `robustness`, `reward` and
+/// `terminated` may also be empty, which stands for zeros.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Arrivals<'a> {
+    /// The automaton states before.
+    pub q: &'a [u32],
+    /// The automaton states after.
+    pub to: &'a [u32],
+    /// ρ(s', D_φ^q).
+    pub robustness: &'a [f64],
+    /// What the environment itself pays.
+    pub reward: &'a [f64],
+    /// Whether the environment's episode terminates.
+    pub terminated: &'a [bool],
+}
+
+impl Arrivals<'_> {
+    #[track_caller]
+    fn check(&self, length: usize) {
+        assert_eq!(self.q.len(), length, "a state before each move");
+        assert_eq!(self.to.len(), length, "a state after each move");
+        let fits = |n: usize| n == 0 || n == length;
+        assert!(fits(self.robustness.len()), "a robustness for each move, or none");
+        assert!(fits(self.reward.len()), "a reward of the environment for each move, or none");
+        assert!(fits(self.terminated.len()), "an end of the environment for each move, or none");
+    }
+
+    fn get(&self, i: usize) -> Arrival {
+        Arrival {
+            q: self.q[i],
+            to: self.to[i],
+            robustness: self.robustness.get(i).copied().unwrap_or_default(),
+            reward: self.reward.get(i).copied().unwrap_or_default(),
+            terminated: self.terminated.get(i).copied().unwrap_or_default(),
+        }
+    }
+}
+
+/// Rewards as settings save them: γ stands beside, and the bound inside of the mode.
+#[cfg(feature = "serde")]
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Saved {
+    mode: SavedMode,
+    trap_penalty: f64,
+    step_penalty: f64,
+    environment: f64,
+}
+
+#[cfg(feature = "serde")]
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "lowercase", deny_unknown_fields)]
+enum SavedMode {
+    Progress,
+    Literal,
+    Acceptance,
+    Robustness { bound: f64 },
+    Shaped,
+}
+
+#[cfg(feature = "serde")]
+impl From<Rewards> for Saved {
+    fn from(rewards: Rewards) -> Self {
+        let Rewards { mode, bound, trap_penalty, step_penalty, environment, .. } = rewards;
+        let mode = match mode {
+            Mode::Progress => SavedMode::Progress,
+            Mode::Literal => SavedMode::Literal,
+            Mode::Acceptance => SavedMode::Acceptance,
+            Mode::Robustness => SavedMode::Robustness { bound },
+            Mode::Shaped => SavedMode::Shaped,
+        };
+        Self { mode, trap_penalty, step_penalty, environment }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl Saved {
+    /// The rewards that were saved beside `gamma`.
+    pub(crate) fn with_gamma(self, gamma: f64) -> Result<Rewards, crate::OutOfRange> {
+        let rewards = match self.mode {
+            SavedMode::Progress => Rewards::of(Mode::Progress),
+            SavedMode::Literal => Rewards::of(Mode::Literal),
+            SavedMode::Acceptance => Rewards::of(Mode::Acceptance),
+            SavedMode::Robustness { bound } => Rewards::of(Mode::Robustness).with_bound(bound)?,
+            SavedMode::Shaped => Rewards::of(Mode::Shaped),
+        };
+        rewards
+            .with_gamma(gamma)?
+            .with_trap_penalty(self.trap_penalty)?
+            .with_step_penalty(self.step_penalty)?
+            .with_environment(self.environment)
+    }
+}

@@ -1,0 +1,124 @@
+//! What a policy is worth from every pair (q, s).
+
+use alloc::vec::Vec;
+
+use super::Problem;
+use crate::policy::Policy;
+
+/// A number for each automaton state q and world state s, s having been read.
+#[derive(Clone, Debug)]
+pub struct Values {
+    problem: Problem,
+    /// Indexed `q * states + s`.
+    values: Vec<f64>,
+}
+
+impl Values {
+    pub(super) fn new(problem: &Problem, values: Vec<f64>) -> Self {
+        Self { problem: problem.clone(), values }
+    }
+
+    /// The number at (q, s).
+    ///
+    /// # Panics
+    /// If there is no such pair.
+    #[must_use]
+    #[track_caller]
+    pub fn at(&self, q: u32, s: usize) -> f64 {
+        self.values[self.problem.task.pair(q, s)]
+    }
+
+    /// All numbers, indexed `q * states + s`.
+    #[must_use]
+    pub fn as_slice(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// The mean over the starts, `s_0` read.
+    #[must_use]
+    pub fn mean(&self) -> f64 {
+        let starts = self.problem.dynamics.starts();
+        self.problem.start_pairs().map(|(s, pair)| starts[s] * self.values[pair]).sum()
+    }
+}
+
+/// P(satisfied) and E\[steps\] of a policy from every pair (q, s), s having been read.
+#[derive(Clone, Debug)]
+pub struct Evaluation {
+    policy: Policy,
+    satisfied: Values,
+    /// NaN where the task is never satisfied.
+    steps: Vec<f64>,
+}
+
+impl Evaluation {
+    pub(super) const fn new(policy: Policy, satisfied: Values, steps: Vec<f64>) -> Self {
+        Self { policy, satisfied, steps }
+    }
+
+    /// The policy.
+    #[must_use]
+    pub const fn policy(&self) -> &Policy {
+        &self.policy
+    }
+
+    /// The probability that the task is satisfied.
+    #[must_use]
+    pub const fn satisfied(&self) -> &Values {
+        &self.satisfied
+    }
+
+    /// The expected steps to satisfaction from (q, s), given that it comes; `None` where it never
+    /// does.
+    ///
+    /// # Panics
+    /// If there is no such pair.
+    #[must_use]
+    #[track_caller]
+    pub fn steps(&self, q: u32, s: usize) -> Option<f64> {
+        finite(self.steps[self.satisfied.problem.task.pair(q, s)])
+    }
+
+    /// P(satisfied), mean over the starts, `s_0` read.
+    #[must_use]
+    pub fn mean_satisfied(&self) -> f64 {
+        self.means().0
+    }
+
+    /// E\[steps\] given success, mean over the starts, `s_0` read; `None` if success is impossible.
+    #[must_use]
+    pub fn mean_steps(&self) -> Option<f64> {
+        finite(self.means().1)
+    }
+
+    /// Both means; infinite steps if success is impossible.
+    pub(super) fn means(&self) -> (f64, f64) {
+        let problem = &self.satisfied.problem;
+        let (mut satisfied, mut weighted) = (0.0, 0.0);
+        for (s, pair) in problem.start_pairs() {
+            let p = problem.dynamics.starts()[s] * self.satisfied.values[pair];
+            if p > 0.0 {
+                satisfied += p;
+                weighted += p * self.steps[pair];
+            }
+        }
+        (satisfied, if satisfied > 0.0 { weighted / satisfied } else { f64::INFINITY })
+    }
+
+    /// P(satisfied) and E\[steps\] from the pair with a number.
+    pub(super) fn at_pair(&self, pair: usize) -> (f64, Option<f64>) {
+        (self.satisfied.values[pair], finite(self.steps[pair]))
+    }
+}
+
+impl Problem {
+    /// The states in which an episode can start, with their pairs once they are read.
+    pub(super) fn start_pairs(&self) -> impl Iterator<Item = (usize, usize)> {
+        let starts = self.dynamics.starts().iter().enumerate().filter(|&(_, &weight)| weight > 0.0);
+        starts.map(|(s, _)| (s, self.task.pair(self.task.start(s), s)))
+    }
+}
+
+pub(super) fn finite(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value)
+}

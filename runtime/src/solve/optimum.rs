@@ -1,0 +1,174 @@
+//! What policies are judged against.
+
+use alloc::vec::Vec;
+
+use super::evaluation::finite;
+use super::{Basis, Certificate, Evaluation, Mistake, Problem, Start};
+use crate::mismatch::Mismatch;
+use crate::policy::Policy;
+use crate::q::QTable;
+use crate::reward::Rewards;
+
+/// By how much an action may be worse than the best and still counts as optimal.
+const TOLERANCE: f64 = 1e-6;
+
+/// The optimum of a [`Problem`]: the optimal values for some rewards, and the policy that satisfies
+/// the task most probably and then soonest. Policies are judged against it.
+///
+#[cfg_attr(feature = "macros", doc = "```")]
+#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// use tltl::prelude::*;
+/// # struct Row;
+/// # impl FiniteModel for Row {
+/// #     type State = i32;
+/// #     fn states(&self) -> usize { 5 }
+/// #     fn actions(&self) -> usize { 2 }
+/// #     fn state(&self, s: usize) -> i32 { s as i32 }
+/// #     fn transitions(&self, s: usize, a: usize, mut outcome: impl FnMut(usize, f64)) {
+/// #         outcome([s.saturating_sub(1), (s + 1).min(4)][a], 1.0);
+/// #     }
+/// # }
+///
+/// // `Row` is five cells in a row, where steps never go wrong; reach the last one.
+/// let task = Labelled::of_model(&Row, &tltl! { |x: &i32| F ({ *x } == 4) })?;
+/// let optimum = Problem::new(&Dynamics::new(&Row)?, &task)?.optimum(&Rewards::default());
+/// let timid = Policy::from_fn(&task, |_, s| usize::from(s > 1))?; // never leaves the left end
+/// let certificate = optimum.certify(&timid)?;
+/// assert!((certificate.regret_satisfied - 0.4).abs() < 1e-9); // from two starts of five
+/// assert_eq!(optimum.mistakes(&timid)?.len(), 2);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Optimum {
+    problem: Problem,
+    q: QTable,
+    best: Evaluation,
+}
+
+impl Optimum {
+    pub(super) fn new(problem: Problem, rewards: &Rewards) -> Self {
+        Self { q: problem.optimal_q(rewards), best: problem.best(), problem }
+    }
+
+    /// The optimum of the same problem for other rewards. What the task itself wants is not solved
+    /// again.
+    #[must_use]
+    pub fn with_rewards(&self, rewards: &Rewards) -> Self {
+        let (problem, best) = (self.problem.clone(), self.best.clone());
+        Self { q: problem.optimal_q(rewards), best, problem }
+    }
+
+    /// The problem.
+    #[must_use]
+    pub const fn problem(&self) -> &Problem {
+        &self.problem
+    }
+
+    /// The optimal action values Q* for the rewards.
+    #[must_use]
+    pub const fn q(&self) -> &QTable {
+        &self.q
+    }
+
+    /// The best policy for the task itself: see [`Problem::best`].
+    #[must_use]
+    pub const fn best(&self) -> &Evaluation {
+        &self.best
+    }
+
+    /// What `policy` is worth.
+    ///
+    /// # Errors
+    /// If it is a policy for another task or another world.
+    pub fn certify(&self, policy: &Policy) -> Result<Certificate, Mismatch> {
+        let own = self.problem.evaluate(policy)?;
+        let (satisfied, steps) = own.means();
+        let (optimal_satisfied, optimal_steps) = self.best.means();
+        let ratio = if steps > 0.0 { steps / optimal_steps - 1.0 } else { 0.0 };
+        Ok(Certificate {
+            basis: Basis::Exact,
+            satisfied,
+            steps: finite(steps),
+            optimal_satisfied,
+            optimal_steps: finite(optimal_steps),
+            regret_satisfied: optimal_satisfied - satisfied,
+            regret_steps: finite(steps).and(finite(ratio)),
+            worst_regret_satisfied: self.worst_regret(&own),
+            fraction_optimal: self.fraction_optimal(policy)?,
+        })
+    }
+
+    /// What `policy` is worth from each state in which an episode can start.
+    ///
+    /// # Errors
+    /// If it is a policy for another task or another world.
+    pub fn starts(&self, policy: &Policy) -> Result<Vec<Start>, Mismatch> {
+        let own = self.problem.evaluate(policy)?;
+        let start = |(state, pair)| {
+            let ((satisfied, steps), (optimal_satisfied, optimal_steps)) =
+                (own.at_pair(pair), self.best.at_pair(pair));
+            Start { state, satisfied, steps, optimal_satisfied, optimal_steps }
+        };
+        Ok(self.problem.start_pairs().map(start).collect())
+    }
+
+    /// The pairs of a live q and a state in which the action of `policy` is worse for the rewards
+    /// than the best one by more than 1e-6, in the order of q, then s.
+    ///
+    /// # Errors
+    /// If it is a policy for another task or another world.
+    pub fn mistakes(&self, policy: &Policy) -> Result<Vec<Mistake>, Mismatch> {
+        let task = self.problem.task();
+        policy.must_be_for(task)?;
+        let mut mistakes = Vec::new();
+        for q in task.live() {
+            for state in 0..task.states() {
+                let (action, best) = (policy.act(q, state), self.q.greedy(q, state));
+                let row = self.q.row(q, state);
+                let loss = row[best] - row[action];
+                if loss > TOLERANCE {
+                    mistakes.push(Mistake { q, state, action, best, loss });
+                }
+            }
+        }
+        Ok(mistakes)
+    }
+
+    /// The fraction of pairs of a live q and a state in which the action of `policy` is optimal for
+    /// the rewards, within 1e-6.
+    ///
+    /// # Errors
+    /// If it is a policy for another task or another world.
+    pub fn fraction_optimal(&self, policy: &Policy) -> Result<f64, Mismatch> {
+        self.fraction_optimal_at(self.problem.task().live(), policy)
+    }
+
+    /// The same over the automaton states `at`; 1 if there are none.
+    ///
+    /// # Errors
+    /// If it is a policy for another task or another world.
+    pub fn fraction_optimal_at(
+        &self,
+        at: impl IntoIterator<Item = u32>,
+        policy: &Policy,
+    ) -> Result<f64, Mismatch> {
+        policy.must_be_for(self.problem.task())?;
+        let (states, mut pairs, mut optimal) = (self.problem.task().states(), 0, 0);
+        for q in at {
+            for s in 0..states {
+                let chosen = self.q.row(q, s)[policy.act(q, s)];
+                optimal += usize::from(chosen >= self.q.max(q, s) - TOLERANCE);
+            }
+            pairs += states;
+        }
+        Ok(if pairs == 0 { 1.0 } else { optimal as f64 / pairs as f64 })
+    }
+
+    fn worst_regret(&self, own: &Evaluation) -> f64 {
+        let mut worst: f64 = 0.0;
+        for (_, pair) in self.problem.start_pairs() {
+            worst = worst.max(self.best.at_pair(pair).0 - own.at_pair(pair).0);
+        }
+        worst
+    }
+}
