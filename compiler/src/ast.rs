@@ -1,10 +1,26 @@
 //! A source as it was written: items and expressions with their places.
 //!
-//! Expressions are stored in one arena, operands before the operators that use them, so that every
-//! pass is a loop and dropping is flat, however deep the author nested. The nodes of one
-//! expression are neighbours, its root the last of them. Nothing is resolved here: whether a
-//! name is a field or a predicate, and whether an operand is a number or a formula, is for
-//! [`resolve`](crate::resolve) and [`check`](crate::check).
+//! The tree keeps everything that messages and the formatter need: brackets, the author's spelling
+//! of operators, docs, the order of items. It does not say what is meant: whether a name is a field
+//! or a predicate is for [`resolve`](crate::resolve), and whether an operand is a number or a
+//! formula for [`check`](crate::check).
+//!
+//! Expressions are stored in one arena, operands before the operators that use them. So every pass
+//! is a loop and dropping is flat, however deep the author nested. The nodes of one expression are
+//! neighbours, its root the last of them: a pass over an expression is a pass over a range.
+//!
+//! ```
+//! use tltl_compiler::{ast::{ItemKind, Node}, parse, source::Source};
+//!
+//! let ast = parse::formula(&Source::new("formula", "a U  (b&&c)"))?;
+//! let ItemKind::Task(_, root) = ast.items()[0].kind else { panic!() };
+//! let [left, right] = ast.operands(root)[..] else { panic!() };
+//! assert_eq!((ast.text(left), ast.text(right)), ("a", "b&&c"));
+//! assert!(ast.entry(right).is_bracketed());
+//! // Printed with the brackets and blanks that a reader wants.
+//! assert_eq!(ast.display(root).to_string(), "a U (b && c)");
+//! # Ok::<(), tltl_compiler::error::Errors>(())
+//! ```
 
 mod print;
 
@@ -31,7 +47,7 @@ pub enum Prefix {
     Minus,
 }
 
-/// A comparison.
+/// A comparison of two numbers or two values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Comparison {
     /// `<`
@@ -80,7 +96,7 @@ pub enum Infix {
     Calculate(Arithmetic),
 }
 
-/// One expression.
+/// One expression. The text of names and numbers is that of the source; see [`Ast::text`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum Node {
     /// ⊤ or ⊥
@@ -89,13 +105,13 @@ pub enum Node {
     Number(f64),
     /// A name or a path.
     Name,
-    /// A string literal; only inside the calls of Rust expressions.
+    /// A string literal. Only the calls of Rust expressions have them.
     Text,
     /// `{ … }`: a Rust expression, verbatim.
     Verbatim,
     /// `base.field`
     Field {
-        /// What has the field.
+        /// The expression before the dot.
         base: NodeId,
         /// The name of the field.
         field: Span,
@@ -104,7 +120,7 @@ pub enum Node {
     Index {
         /// The array.
         base: NodeId,
-        /// Which of its elements.
+        /// The expression in the brackets.
         index: NodeId,
     },
     /// `callee(arguments)`
@@ -122,51 +138,53 @@ pub enum Node {
     Quantified(Quantifier),
 }
 
-/// `for all name in set: body`, or `for some`
+/// `for all name in set: body`, or `for some`: a finite conjunction or disjunction that resolving
+/// writes out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Quantifier {
-    /// Whether for all.
+    /// Whether it is `for all`.
     pub all: bool,
     /// The bound name.
     pub name: Span,
-    /// What it ranges over.
+    /// The set that it ranges over.
     pub set: Span,
-    /// The elements, if the set lists them, or the ends of a range of numbers: a range of
+    /// The elements of a set that lists them, or the two ends of a range of numbers: a range of
     /// [`Ast::arguments`].
     pub elements: Range<u32>,
-    /// Whether it is a range of numbers, and then whether the last is one of them.
+    /// `None` for a set; for a range of numbers, whether its end is included.
     pub range: Option<bool>,
     /// The formula.
     pub body: NodeId,
 }
 
-/// A node with its places.
+/// A node with its places in the source.
 #[derive(Clone, Debug)]
 pub struct Entry {
     /// The expression.
     pub node: Node,
-    /// All of it, without brackets around it.
+    /// The whole expression, without brackets around it.
     pub span: Span,
-    /// All of it, with the brackets around it if there are any.
+    /// The whole expression, with the brackets around it if there are any.
     pub outer: Span,
-    /// Its operator; the whole of it if it has none.
+    /// Its operator; the whole expression if it has none. Messages underline it.
     pub operator: Span,
 }
 
 impl Entry {
-    /// Whether the author put brackets around it.
+    /// Whether the author put brackets around it. Brackets mean nothing to the formula; the
+    /// formatter keeps some, and a chain of comparisons is broken by them.
     #[must_use]
     pub fn is_bracketed(&self) -> bool {
         self.outer != self.span
     }
 }
 
-/// The type of a field, as written: a name within array brackets, outermost length last.
+/// The type of a field, as written: a name within array brackets.
 #[derive(Clone, Debug)]
 pub struct FieldType {
     /// The name of the element type.
     pub name: Span,
-    /// Whether `?` follows it: there may be no value.
+    /// Whether `?` follows the name: the value may be absent.
     pub optional: bool,
     /// The lengths, innermost first: numbers, or names of constants or enumerations.
     pub lengths: Vec<Span>,
@@ -177,7 +195,7 @@ pub struct FieldType {
 /// A unit, as written: `N*m`, `1/s^2`.
 #[derive(Clone, Debug)]
 pub struct WrittenUnit {
-    /// Its factors, in order; a `1` is none.
+    /// Its factors, in order. A factor `1` is left out.
     pub factors: Vec<UnitFactor>,
     /// All of it.
     pub span: Span,
@@ -190,26 +208,26 @@ pub struct UnitFactor {
     pub name: Span,
     /// Whether a `/` stands before it.
     pub divides: bool,
-    /// The digits of its power, and whether a minus stands before them.
+    /// The digits of its power, and whether a minus stands before them; `None` for the power 1.
     pub power: Option<(Span, bool)>,
     /// All of it.
     pub span: Span,
 }
 
-/// `name: type in unit`
+/// A field of a struct, or a parameter: `name: type in unit`.
 #[derive(Clone, Debug)]
 pub struct Declaration {
-    /// What the author says about it.
+    /// The author's docs, a string a line.
     pub docs: Vec<String>,
     /// Its name.
     pub name: Span,
     /// Its type.
     pub ty: FieldType,
-    /// Its unit, if it has one.
+    /// Its unit, if the source gives one.
     pub unit: Option<WrittenUnit>,
 }
 
-/// What an item declares.
+/// The kind of an item, with the parts that only this kind has.
 #[derive(Clone, Debug)]
 pub enum ItemKind {
     /// `state Name { fields }`
@@ -224,13 +242,14 @@ pub enum ItemKind {
     Constant(Option<WrittenUnit>, NodeId),
     /// `predicate name = condition`
     Predicate(Vec<Declaration>, NodeId),
-    /// `task name = formula`; a bare formula is one whose name is empty
+    /// `task name = formula`; a bare formula is a task whose name is empty.
     Task(Vec<Declaration>, NodeId),
-    /// It could not be parsed; only its name is known, and perhaps what it takes
+    /// An item that could not be parsed. Its name is known, so uses of it are not reported, and
+    /// perhaps its parameters.
     Broken(Vec<Declaration>),
 }
 
-/// `#[name(setting = number, …)]` before an item or a formula.
+/// An attribute before a task or a formula: `#[name(setting = number, …)]`.
 #[derive(Clone, Debug)]
 pub struct Attribute {
     /// Its name.
@@ -242,9 +261,9 @@ pub struct Attribute {
 /// One declaration of a source.
 #[derive(Clone, Debug)]
 pub struct Item {
-    /// What it is compiled with.
+    /// Its attributes, in order. Only tasks may have them, which is checked later.
     pub attributes: Vec<Attribute>,
-    /// What the author says about it, a string a line.
+    /// The author's docs, a string a line.
     pub docs: Vec<String>,
     /// Its name; an empty span for a bare formula.
     pub name: Span,
@@ -255,6 +274,9 @@ pub struct Item {
 }
 
 /// A parsed source.
+///
+/// Invariants: operands stand before the nodes that use them; the nodes of one expression are
+/// neighbours; every range of arguments lies within `arguments`.
 #[derive(Clone, Debug)]
 pub struct Ast {
     source: Source,
@@ -281,7 +303,7 @@ impl Ast {
         &self.source
     }
 
-    /// What the author says about the whole file, a string a line.
+    /// The author's docs of the whole file, a string a line.
     #[must_use]
     pub fn docs(&self) -> &[String] {
         &self.docs
@@ -329,7 +351,7 @@ impl Ast {
         &self.arguments[range.start as usize..range.end as usize]
     }
 
-    /// Whether the name stands in one of the expressions.
+    /// Whether a name stands in one of the expressions, whatever it means there.
     #[must_use]
     pub fn mentions(&self, name: &str) -> bool {
         let is_it = |entry: &Entry| {
@@ -364,16 +386,19 @@ impl Ast {
         id
     }
 
+    /// Adds an expression; its operands must be there already.
     pub(crate) fn push(&mut self, node: Node, span: Span, operator: Span) -> NodeId {
         let id = u32::try_from(self.entries.len()).expect("fewer than 2^32 expressions");
         self.entries.push(Entry { node, span, outer: span, operator });
         NodeId(id)
     }
 
+    /// Notes the brackets around an expression.
     pub(crate) fn bracket(&mut self, id: NodeId, brackets: Span) {
         self.entries[id.0 as usize].outer = brackets;
     }
 
+    /// Adds the arguments of one call, or the elements of one set.
     pub(crate) fn push_arguments(&mut self, arguments: &[NodeId]) -> Range<u32> {
         let end =
             |list: &Vec<NodeId>| u32::try_from(list.len()).expect("fewer than 2^32 arguments");
@@ -382,19 +407,26 @@ impl Ast {
         start..end(&self.arguments)
     }
 
+    /// Adds an item, after the items before it in the source.
     pub(crate) fn push_item(&mut self, item: Item) {
         self.items.push(item);
     }
 
+    /// Sets the docs of the whole file.
     pub(crate) fn set_docs(&mut self, docs: Vec<String>) {
         self.docs = docs;
     }
 }
 
-/// The most characters of the source that a message quotes.
+/// The most characters of the source that a message quotes: more than that and the sentence around
+/// the quotation is lost.
 const QUOTED: usize = 60;
 
-/// A text as messages quote it: on one line, and not too long.
+/// A text as messages quote it: on one line, and cut to a length that a sentence bears.
+///
+/// ```
+/// assert_eq!(tltl_compiler::ast::quoted("F (a\n   && b)"), "F (a && b)");
+/// ```
 #[must_use]
 pub fn quoted(text: &str) -> String {
     let mut short: String = text.chars().take(QUOTED).collect();

@@ -1,12 +1,33 @@
 //! [`Resolved`] to [`Module`]: types, units, negation normal form, co-safety.
 //!
-//! The stages of one item, in this order. `role` goes from the root down and decides what each
-//! operand has to be, a number or a formula, and whether it stands under a negation. From the
-//! leaves up, `lower` makes terms of the numbers, `unit` checks what they are measured in, and
-//! `atom` makes conditions of comparisons, names and applied predicates, or finds that a leaf is a
-//! task. `condition` joins them to a predicate, `spec` to the [`Spec`] of a task.
-//! All are loops over the arena. A mistake is noted once, where it is made, and what depends on it
-//! is left alone.
+//! The stages of one item, in this order:
+//!
+//! | stage | direction | what it makes |
+//! | --- | --- | --- |
+//! | `role` | root to leaves | what each operand must be (a number, a formula) and whether it is negated |
+//! | `lower` | leaves to root | the terms of the numbers |
+//! | `unit` | leaves to root | the unit of each number, checked |
+//! | `atom` | leaves | the conditions of comparisons, names and applied predicates, or other tasks |
+//! | `condition` | leaves to root | the condition of a predicate |
+//! | `spec` | leaves to root | the [`Spec`] of a task |
+//!
+//! All are loops over the arena, so depth costs nothing. A mistake is noted once, where it is made;
+//! whatever depends on it has no term or formula (`None`), and the later stages pass over it in
+//! silence.
+//!
+//! Co-safety is a matter of roles: negation is pushed to the leaves while roles are given, and a
+//! temporal operator that has to be negated is refused there. So the [`Spec`] needs no check of its
+//! own.
+//!
+//! ```
+//! use tltl_compiler::{check, source::Source};
+//!
+//! let module = check::formula(&Source::new("formula", "!(a || b) U c"))?;
+//! assert_eq!(module.tasks[0].spec.to_string(), "(!a && !b) U c");
+//! let errors = check::formula(&Source::new("formula", "!F a")).unwrap_err();
+//! assert_eq!(errors.first().kind().name(), "negated-temporal");
+//! # Ok::<(), tltl_compiler::error::Errors>(())
+//! ```
 
 mod apply;
 mod atom;
@@ -51,7 +72,7 @@ pub fn file(source: &Source) -> Result<Module, Errors> {
     finish(parse::recover_file(source), Names::Declared)
 }
 
-/// Parses and checks what stands inside `tltl!{ … }`.
+/// Parses and checks the input of `tltl!{ … }`.
 ///
 /// # Errors
 /// All mistakes that it has, of form and of meaning.
@@ -59,7 +80,8 @@ pub fn fragment(source: &Source) -> Result<Module, Errors> {
     finish(parse::recover_fragment(source), Names::Host)
 }
 
-/// Resolves and checks what could be parsed, given the mistakes in the rest.
+/// Resolves and checks the items that could be parsed, together with the mistakes of form in the
+/// others. So an author sees mistakes of both kinds at once.
 fn finish((ast, mut mistakes): (Ast, Vec<Error>), names: Names) -> Result<Module, Errors> {
     let broken = !mistakes.is_empty();
     let numbers = mistakes.iter().filter(|mistake| mistake.kind() == Kind::Number);
@@ -73,25 +95,27 @@ fn finish((ast, mut mistakes): (Ast, Vec<Error>), names: Names) -> Result<Module
     }
     let (mut module, found) = checker.finish();
     mistakes.extend(found);
-    // The number in the place of one that could not be read is not its author's.
+    // A number that cannot be represented counts as 1 so that checking can go on; a mistake about
+    // that 1 would not be the author's.
     mistakes.retain(|mistake| mistake.kind() == Kind::Number || !numbers.contains(&mistake.span()));
     module.warnings = Errors::split(mistakes)?;
     Ok(module)
 }
 
-/// A module in the making: what is known of the items so far.
+/// A module under construction.
 struct Checker<'r> {
     resolved: &'r Resolved<'r>,
     lowering: Lowering<'r>,
     propositions: Propositions,
     constants: Vec<Constant>,
-    /// What each constant is measured in, by its item.
+    /// The unit of each constant, by its item.
     measures: Vec<Measure>,
-    /// The tasks that are checked, by their place among the tasks of the source.
+    /// The tasks checked so far, by their number; `None` for one with a mistake.
     tasks: Vec<Option<Task>>,
 }
 
 impl<'r> Checker<'r> {
+    /// An empty module.
     fn new(resolved: &'r Resolved<'r>) -> Self {
         let items = resolved.ast.items().len();
         Self {
@@ -104,7 +128,7 @@ impl<'r> Checker<'r> {
         }
     }
 
-    /// Checks an item, given those that it uses.
+    /// Checks an item. The items that it uses have been checked before.
     fn item(&mut self, item: usize) {
         let resolved = self.resolved;
         let Some((first, root)) = resolved.expressions[item] else { return };
@@ -155,8 +179,8 @@ impl<'r> Checker<'r> {
         self.forget_unclear(item, known);
     }
 
-    /// Drops what was said of parameters without a type, since there were `known` mistakes: it
-    /// follows from that.
+    /// Drops the mistakes of an item about parameters whose types have mistakes: they follow from
+    /// those. `known` is the number of mistakes before the item.
     fn forget_unclear(&mut self, item: usize, known: usize) {
         let unclear = self.resolved.scope.unclear(item);
         let source = self.resolved.ast.source();
@@ -165,6 +189,7 @@ impl<'r> Checker<'r> {
         self.lowering.mistakes.extend(found.into_iter().filter(is_own));
     }
 
+    /// Adds a constant. Its value was computed while names were resolved.
     fn constant(&mut self, item: usize, root: ExpressionId, measure: Measure) {
         let Some(value) = self.resolved.constant(item) else {
             let message = "a constant is made of numbers and other constants only";
@@ -181,6 +206,7 @@ impl<'r> Checker<'r> {
         self.constants.push(Constant { name, docs, value, unit });
     }
 
+    /// Adds a declared predicate.
     fn predicate(&mut self, item: usize, condition: ConditionId) {
         let entry = self.resolved.item(item);
         let id = self.propositions.add(Predicate {
@@ -194,6 +220,7 @@ impl<'r> Checker<'r> {
         self.propositions.declared[item] = Some(id);
     }
 
+    /// Adds a task.
     fn task(&mut self, item: usize, root: ExpressionId, spec: Spec, predicates: Vec<PredicateId>) {
         let (resolved, ast) = (self.resolved, self.resolved.ast);
         let (entry, name) = (resolved.item(item), resolved.item_name(item));
@@ -216,7 +243,8 @@ impl<'r> Checker<'r> {
         }
     }
 
-    /// Warns of predicates and constants that nothing uses.
+    /// Warns of predicates and constants that nothing uses. Not in a source without tasks, which
+    /// may be a library, and not if something could not be parsed, which may be the use.
     fn warn_unused(&mut self) {
         let (ast, scope) = (self.resolved.ast, &self.resolved.scope);
         if !ast.items().iter().any(|item| matches!(item.kind, ItemKind::Task(..))) {
@@ -241,7 +269,7 @@ impl<'r> Checker<'r> {
         }
     }
 
-    /// What was declared, and the mistakes.
+    /// The module, and the mistakes.
     fn finish(self) -> (Module, Vec<Error>) {
         let (ast, scope) = (self.resolved.ast, &self.resolved.scope);
         let module = Module {

@@ -14,16 +14,29 @@
 //!
 //! [`compile`] runs it from end to end. A stage is a module, a function and a type; a later stage
 //! never asks whether an earlier one did its work: a [`spec::Spec`] *is* typed, in negation normal
-//! form and co-safe, a minimal [`dfa::Dfa`] *is* canonical. All of it is a function of the source:
+//! form and co-safe, a minimal [`dfa::Dfa`] *is* canonical. Everything depends on the source alone:
 //! no clock, no randomness, no order of hashes. Expressions, formulas and diagrams live in arenas
 //! of ids, operands first, so no pass recurses on what an author nests.
 //!
-//! Beside the pipeline stand [`factor`] (a conjunction taken apart), [`judge`] (what can hardly be
-//! meant) and `hoa` (automata of other tools, with the feature of that name). Every user of the macros builds this crate, so what only
-//! the command line needs (pictures, other formats, explanations) is in the package `tltlc`.
+//! Beside the pipeline stand [`factor`] (a conjunction taken apart), [`judge`] (predicates and
+//! tasks that can hardly be meant) and `hoa` (automata of other tools, with the feature of that
+//! name). Every user of the macros builds this crate, so the parts that only the command line needs
+//! (pictures, other formats, explanations) are in the package `tltlc`.
 //!
 //! The compiler never learns, and does not know the runtime: the Rust that it writes is their only
 //! contract.
+//!
+//! # Where to change what
+//!
+//! | to change | start at |
+//! | --- | --- |
+//! | the syntax | `grammar.pest`, [`parse`], [`ast`] |
+//! | what names mean | [`resolve`] |
+//! | types, units, co-safety | [`check`] |
+//! | a law of the logic | [`spec`], and [`translate`] for a new operator |
+//! | what is known about numbers | [`arithmetic`], [`linear`] |
+//! | generated code | [`tables`], [`emit`] |
+//! | a message | the module that finds the mistake; [`error`] for the layout |
 //!
 //! ```
 //! use tltl_compiler::{compile, source::Source, translate::Budget};

@@ -1,8 +1,25 @@
-//! What a source declares: the state, the predicates over one state, and the tasks.
+//! The meaning of a source: the state, the predicates over one state, and the tasks.
 //!
-//! A [`Module`] is typed: a [`Condition`] is true or false, a [`Term`] is a number, and constants
-//! are folded. Both live in arenas, operands before the operators that use them, hash-consed,
-//! so that equal comparisons are equal ids.
+//! A [`Module`] is typed: a [`Condition`] is true or false, a [`Term`] is a number or a value,
+//! constants are folded, names are gone. It is the input of three later stages:
+//! [`arithmetic`](crate::arithmetic) asks how its comparisons are related, [`emit`](crate::emit)
+//! writes its conditions as Rust, and [`translate`](crate::translate) takes the [`Spec`] of each
+//! task, in which predicates are nothing but numbers.
+//!
+//! Conditions and terms live in an [`Arena`], operands before the operators that use them, and
+//! hash-consed: equal comparisons are equal ids. This is what makes `x < 3` in two tasks one
+//! proposition.
+//!
+//! ```
+//! use tltl_compiler::{check, source::Source};
+//!
+//! let text = "state Cell { x: i32 }\nconst far = 2 * 5\npredicate out = x > far\ntask leave = F out\n";
+//! let module = check::file(&Source::new("cell.tltl", text))?;
+//! let out = &module.predicates[0];
+//! assert_eq!(module.display(out.condition).to_string(), "x > 10");
+//! assert_eq!(module.tasks[0].spec.propositions(), ["out"]);
+//! # Ok::<(), tltl_compiler::error::Errors>(())
+//! ```
 
 mod build;
 mod print;
@@ -18,27 +35,30 @@ use crate::source::Span;
 use crate::spec::Spec;
 use crate::unit::{Unit, Units};
 
-/// A predicate of a [`Module`]: an index.
+/// A predicate of a [`Module`]: an index of [`Module::predicates`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct PredicateId(pub u32);
 
 arena::id! { PredicateId }
 
-/// A condition of a [`Module`]: an index.
+/// A condition of a [`Module`]: an index of its [`Arena`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct ConditionId(pub u32);
 
 arena::id! { ConditionId }
 
-/// A term of a [`Module`]: an index.
+/// A term of a [`Module`]: an index of its [`Arena`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct TermId(pub u32);
 
-/// A task of a [`Module`]: an index.
+/// A task of a [`Module`]: an index of [`Module::tasks`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct TaskId(pub u32);
 
-/// A number type of Rust.
+/// A number type of Rust that a state or a parameter may have.
+///
+/// `i128`, `u128`, `isize` and `usize` are not among them: the exact arithmetic of the analysis
+/// needs room above the largest value, and a task must mean the same on every machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[allow(missing_docs, reason = "each is the type of its name")]
 pub enum Numeric {
@@ -55,7 +75,7 @@ pub enum Numeric {
 }
 
 impl Numeric {
-    /// All of them, with their names.
+    /// All of them, with their names, in the order of the variants.
     const ALL: [(&str, Self); 10] = [
         ("f64", Self::F64),
         ("f32", Self::F32),
@@ -69,13 +89,20 @@ impl Numeric {
         ("u64", Self::U64),
     ];
 
-    /// What Rust calls it.
+    /// Its name in Rust.
     #[must_use]
     pub const fn name(self) -> &'static str {
         Self::ALL[self as usize].0
     }
 
-    /// The least and the greatest of its values if they are whole numbers.
+    /// The least and the greatest value of an integer type; `None` for floating point.
+    ///
+    /// ```
+    /// use tltl_compiler::predicate::Numeric;
+    ///
+    /// assert_eq!(Numeric::I8.whole(), Some((-128, 127)));
+    /// assert_eq!(Numeric::F32.whole(), None);
+    /// ```
     #[must_use]
     pub const fn whole(self) -> Option<(i128, i128)> {
         let bits = match self {
@@ -94,7 +121,7 @@ impl Numeric {
     }
 }
 
-/// A scalar type of a field.
+/// A scalar type of a field or a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Scalar {
     /// A number.
@@ -103,9 +130,9 @@ pub enum Scalar {
     Bool,
     /// A value of an enumeration.
     Enum {
-        /// Which: an index of [`Module::enums`].
+        /// The enumeration: an index of [`Module::enums`].
         of: u32,
-        /// Whether there may be no value.
+        /// Whether the value may be absent.
         optional: bool,
     },
 }
@@ -121,8 +148,8 @@ impl Scalar {
         Some(Self::Number(found.1))
     }
 
-    /// The least and the greatest of its values if they are whole numbers. The values of an
-    /// enumeration are not numbers here.
+    /// The least and the greatest value of an integer type; `None` for other types. The values of
+    /// an enumeration are not numbers here.
     #[must_use]
     pub const fn whole(self) -> Option<(i128, i128)> {
         match self {
@@ -131,7 +158,7 @@ impl Scalar {
         }
     }
 
-    /// What Rust calls it; a value of an enumeration is called by what the source calls that.
+    /// Its name in Rust; `enum` for a value of an enumeration, whose name the source gives.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -149,7 +176,7 @@ pub enum Type {
     Scalar(Scalar),
     /// A struct: an index of [`Module::structs`].
     Struct(u32),
-    /// An array of so many elements.
+    /// An array of this many elements.
     Array(Box<Type>, u32),
     /// An array with an element for each value of an enumeration: an index of [`Module::enums`].
     Table(Box<Type>, u32),
@@ -160,20 +187,20 @@ pub enum Type {
 pub struct Field {
     /// Its name.
     pub name: String,
-    /// What the author says about it.
+    /// The author's docs.
     pub docs: Vec<String>,
     /// Its type.
     pub ty: Type,
-    /// What its numbers are measured in, if the source says so.
+    /// The unit of its numbers, if the source gives one.
     pub unit: Option<Unit>,
 }
 
-/// A struct that the source declares; the state is one too.
+/// A struct that the source declares. The declared state is one too.
 #[derive(Clone, Debug)]
 pub struct Struct {
     /// Its name.
     pub name: String,
-    /// What the author says about it.
+    /// The author's docs.
     pub docs: Vec<String>,
     /// Its fields.
     pub fields: Vec<Field>,
@@ -184,13 +211,13 @@ pub struct Struct {
 pub struct Enum {
     /// Its name.
     pub name: String,
-    /// What the author says about it.
+    /// The author's docs.
     pub docs: Vec<String>,
     /// The names of its values.
     pub variants: Vec<String>,
 }
 
-/// What predicates are about.
+/// The state that predicates read.
 #[derive(Clone, Debug)]
 pub enum State {
     /// Nothing is declared: propositions are free.
@@ -206,24 +233,24 @@ pub enum State {
         /// Where the source has the name.
         span: Span,
     },
-    /// The macro without a header: the type is the one that the predicates take.
+    /// The input of the macro without a header: the type is the one that the predicates take.
     Inferred,
 }
 
-/// A named constant.
+/// A named constant. Its value is already folded into the terms that use it.
 #[derive(Clone, Debug)]
 pub struct Constant {
     /// Its name.
     pub name: String,
-    /// What the author says about it.
+    /// The author's docs.
     pub docs: Vec<String>,
     /// Its value.
     pub value: f64,
-    /// What it is measured in, if the source says so.
+    /// Its unit, if the source gives one.
     pub unit: Option<Unit>,
 }
 
-/// A part of a place within the state: `.pose`, `[2]`.
+/// A step of the path to a place within the state: `.pose`, `[2]`.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Step {
     /// A field.
@@ -232,11 +259,11 @@ pub enum Step {
     Index(u32),
     /// The element of a table for a value of its enumeration.
     Element(TermId),
-    /// The element of an array at a number that is not known.
+    /// The element of an array at a number that is known only when the program runs.
     At {
-        /// The number: a parameter, or a place.
+        /// The number: a parameter, or a place of an integer type.
         index: TermId,
-        /// How many elements there are.
+        /// The number of elements.
         length: u32,
     },
 }
@@ -251,7 +278,7 @@ pub enum ParameterType {
 }
 
 impl ParameterType {
-    /// The type of the source's own that it is.
+    /// The type, if it is one of the source's own.
     #[must_use]
     pub const fn scalar(self) -> Option<Scalar> {
         match self {
@@ -261,34 +288,34 @@ impl ParameterType {
     }
 }
 
-/// What a predicate or a task takes when it is used.
+/// A parameter of a predicate or a task.
 #[derive(Clone, Debug)]
 pub struct Parameter {
     /// Its name.
     pub name: String,
     /// Its type.
     pub ty: ParameterType,
-    /// What it is measured in, if the source says so.
+    /// Its unit, if the source gives one.
     pub unit: Option<Unit>,
-    /// Where the source has its name.
+    /// The place of its name in the source.
     pub span: Span,
 }
 
-/// What the names of parameters stand for.
+/// Arguments: the name of each parameter with the term that takes its place.
 pub type Arguments = Vec<(String, TermId)>;
 
-/// What a name in a Rust expression stands for.
+/// The meaning of a name in a Rust expression: a parameter, or a name that a quantifier binds.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Binding {
     /// The name.
     pub name: String,
     /// Its type, if it is a parameter with a type of the source's own.
     pub scalar: Option<Scalar>,
-    /// What it stands for.
+    /// The term that the name stands for.
     pub term: TermId,
 }
 
-/// A function of numbers.
+/// A function of numbers, computed in `f64` like Rust's of the same name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[allow(missing_docs, reason = "each is the function of its name")]
 pub enum Function {
@@ -312,7 +339,7 @@ pub enum Function {
 }
 
 impl Function {
-    /// All functions with their names and numbers of arguments; `min` and `max` take more too.
+    /// All functions with their names and numbers of arguments; `min` and `max` also take more.
     pub const ALL: [(&'static str, Self, usize); 17] = [
         ("abs", Self::Abs, 1),
         ("min", Self::Min, 2),
@@ -333,19 +360,26 @@ impl Function {
         ("ceil", Self::Ceil, 1),
     ];
 
-    /// The function called `name`.
+    /// The function of this name.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|(known, ..)| *known == name).map(|found| found.1)
     }
 
-    /// How many arguments it takes.
+    /// The number of arguments that it takes; the least one for `min` and `max`.
     #[must_use]
     pub fn arity(self) -> usize {
         Self::ALL.into_iter().find(|(_, function, _)| *function == self).map_or(0, |found| found.2)
     }
 
-    /// Whether it takes so many arguments.
+    /// Whether it takes this many arguments.
+    ///
+    /// ```
+    /// use tltl_compiler::predicate::Function;
+    ///
+    /// assert!(Function::Min.takes(3) && !Function::Hypot.takes(3));
+    /// assert_eq!(Function::named("hypot").unwrap().value(3.0, 4.0), 5.0);
+    /// ```
     #[must_use]
     pub fn takes(self, count: usize) -> bool {
         count == self.arity() || matches!(self, Self::Min | Self::Max) && count > 2
@@ -357,7 +391,8 @@ impl Function {
         Self::ALL.into_iter().find(|(_, function, _)| *function == self).map_or("", |found| found.0)
     }
 
-    /// Its value at `x`, and at `y` if it takes two numbers.
+    /// Its value at `x`, and at `y` if it takes two numbers. A function of more arguments is a
+    /// chain of itself.
     #[must_use]
     pub fn value(self, x: f64, y: f64) -> f64 {
         match self {
@@ -382,7 +417,8 @@ impl Function {
     }
 }
 
-/// A literal number, equal to another one if the bits are.
+/// A constant number. Equal to another if their bits are, so that it can be a key; there is one
+/// zero, because folding leaves no negative one.
 #[derive(Clone, Copy, Debug)]
 pub struct Number(pub f64);
 
@@ -407,38 +443,38 @@ pub enum Term {
     Number(Number),
     /// A place within the declared state.
     Place {
-        /// The way to it.
+        /// The path to it, from the state.
         steps: Vec<Step>,
-        /// What stands there.
+        /// The type of the value there.
         scalar: Scalar,
     },
     /// A free real variable of a bare formula.
     Variable(String),
-    /// A Rust expression.
+    /// A Rust expression of the author's, which the compiler does not read.
     Host {
-        /// Its text without blanks; the same text is the same term.
+        /// Its text without superfluous blanks. Terms of the same text and bindings are one.
         text: String,
         /// Where it stands first.
         span: Span,
         /// What the names of parameters in it stand for.
         bindings: Vec<Binding>,
-        /// Whether it is a value that is no number.
+        /// Whether it is a value rather than a number.
         value: bool,
     },
     /// A value of an enumeration.
     Variant {
-        /// Which enumeration: an index of [`Module::enums`].
+        /// The enumeration: an index of [`Module::enums`].
         of: u32,
-        /// Which of its values.
+        /// Which of its values, counted from 0.
         number: u32,
         /// What that is called.
         name: String,
     },
     /// A truth value, as an argument.
     Truth(bool),
-    /// `none`: what an optional place holds if it holds no value.
+    /// `none`: the value of an optional place that has none.
     Absent,
-    /// A parameter of the predicate or task around it; a number, a truth value, or a value.
+    /// A parameter of the predicate or task around it: a number, a truth value, or a value.
     Parameter {
         /// Its name.
         name: String,
@@ -476,7 +512,8 @@ pub enum Condition {
         predicate: PredicateId,
         /// What its parameters stand for, in order.
         arguments: Vec<TermId>,
-        /// Its condition with the arguments in place of the parameters.
+        /// Its condition with the arguments in place of the parameters. Analysis reads this;
+        /// emission calls the predicate.
         meaning: ConditionId,
     },
     /// A Rust value in scope that is itself a predicate over the state.
@@ -488,11 +525,15 @@ pub enum Condition {
         /// What the names of parameters in it stand for.
         bindings: Vec<Binding>,
     },
-    /// A free proposition of a bare formula: nothing is known of it but the predicate's name.
+    /// A free proposition of a bare formula: nothing is known about it but its name.
     Free(String),
 }
 
-/// The arenas of conditions and terms.
+/// The conditions and terms of a module.
+///
+/// Invariants: operands stand before the entries that use them; equal entries have equal ids. A
+/// Rust expression is equal to another of the same text, wherever the two stand, so its place is
+/// not part of its identity (`hosts`).
 #[derive(Clone, Debug, Default)]
 pub struct Arena {
     conditions: Vec<Condition>,
@@ -527,7 +568,7 @@ impl Arena {
         &self.terms
     }
 
-    /// The value of a term that does not depend on the state.
+    /// The value of a term that is a number; `None` if it depends on the state.
     #[must_use]
     pub fn constant(&self, id: TermId) -> Option<f64> {
         match self.term(id) {
@@ -536,7 +577,8 @@ impl Arena {
         }
     }
 
-    /// A condition, shared with an equal one.
+    /// Adds a condition as it is, and returns its id; an equal one has the same id.
+    /// [`not`](Self::not), [`and`](Self::and) and [`or`](Self::or) simplify first.
     pub fn add_condition(&mut self, condition: Condition) -> ConditionId {
         if let Some(id) = self.known_conditions.get(&condition) {
             return *id;
@@ -547,7 +589,7 @@ impl Arena {
         id
     }
 
-    /// A term, shared with an equal one.
+    /// Adds a term as it is, and returns its id; an equal one has the same id.
     pub fn add_term(&mut self, term: Term) -> TermId {
         if let Some(id) = self.find_term(&term) {
             return id;
@@ -561,6 +603,7 @@ impl Arena {
         id
     }
 
+    /// The id of an equal term.
     fn find_term(&self, term: &Term) -> Option<TermId> {
         match term {
             Term::Host { text, bindings, value, .. } => {
@@ -571,24 +614,27 @@ impl Arena {
     }
 }
 
+/// A length as an index.
 fn index(length: usize) -> u32 {
     u32::try_from(length).expect("fewer than 2^32 of a kind")
 }
 
 /// A predicate over one state.
+///
+/// A comparison in a formula is a predicate too, with its normalized text as its name.
 #[derive(Clone, Debug)]
 pub struct Predicate {
-    /// The name that the author gave it; its normalised text if none.
+    /// The name that the author gave it, or the text of its condition.
     pub name: String,
     /// Whether an item of the source declares it.
     pub declared: bool,
-    /// What it takes.
+    /// Its parameters.
     pub parameters: Vec<Parameter>,
-    /// What the author says about it.
+    /// The author's docs.
     pub docs: Vec<String>,
     /// Where the source has it first.
     pub span: Span,
-    /// When it holds.
+    /// The condition under which it holds.
     pub condition: ConditionId,
 }
 
@@ -602,29 +648,33 @@ pub enum Connective {
 }
 
 /// A formula to satisfy.
+///
+/// Invariant: `predicates` has one entry for each proposition of `spec`, in order.
 #[derive(Clone, Debug)]
 pub struct Task {
     /// Its name; `None` for a bare formula.
     pub name: Option<String>,
-    /// What the author says about it.
+    /// The author's docs.
     pub docs: Vec<String>,
-    /// Where the source has its name; its formula if it has none.
+    /// The place of its name in the source; of its formula if it has none.
     pub span: Span,
-    /// What it takes when it is run.
+    /// Its parameters, which are given when it is run.
     pub parameters: Vec<Parameter>,
     /// The formula, printed with the brackets that a reader wants.
     pub text: String,
-    /// What it means.
+    /// The formula, over the propositions that `predicates` lists.
     pub spec: Spec,
     /// The predicate of each proposition of the spec.
     pub predicates: Vec<PredicateId>,
-    /// The tasks that it is the plain conjunction or disjunction of.
+    /// The tasks of which it is a plain conjunction or disjunction: their automata can be compared
+    /// with its own.
     pub parts: Option<(Connective, Vec<TaskId>)>,
-    /// How it is compiled.
+    /// The settings of its attributes.
     pub options: Options,
 }
 
-/// How a task is compiled: what its attributes say.
+/// How a task is compiled: the settings of its attributes. `None` leaves a bound to the caller's
+/// budget.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Options {
     /// `#[factored]`: the conjuncts run side by side.
@@ -639,14 +689,16 @@ pub struct Options {
     pub products: Option<usize>,
 }
 
-/// A checked source.
+/// A checked source: everything that it means.
+///
+/// Invariant: all ids in it are indices of its own vectors and of `arena`.
 #[derive(Clone, Debug)]
 pub struct Module {
-    /// What the author says about the whole.
+    /// The author's docs of the whole source.
     pub docs: Vec<String>,
-    /// What the predicates are about.
+    /// The state that predicates read.
     pub state: State,
-    /// The structs that the state is made of.
+    /// The structs that the state is made of; each after those that it holds.
     pub structs: Vec<Struct>,
     /// The enumerations.
     pub enums: Vec<Enum>,
@@ -654,16 +706,16 @@ pub struct Module {
     pub units: Units,
     /// The constants.
     pub constants: Vec<Constant>,
-    /// The predicates; one that another one uses stands before it.
+    /// The predicates; each after those that it uses.
     pub predicates: Vec<Predicate>,
-    /// Their conditions and terms.
+    /// The conditions and terms of the predicates.
     pub arena: Arena,
-    /// Where the source has comparisons and applied predicates, in the order in which they are
-    /// checked; one may stand at several places.
+    /// The places of comparisons and applied predicates in the source, in the order in which they
+    /// were checked. One condition may stand at several places.
     pub places: Vec<(ConditionId, Span)>,
     /// The tasks, in source order.
     pub tasks: Vec<Task>,
-    /// What the author should look at.
+    /// The warnings, in source order.
     pub warnings: Vec<Error>,
 }
 
@@ -681,7 +733,8 @@ impl Comparison {
         }
     }
 
-    /// The comparison that holds iff this one does not.
+    /// The comparison that holds iff this one does not. NaN is an error before it is compared, so
+    /// `!(a < b)` is `a >= b`.
     #[must_use]
     pub const fn negated(self) -> Self {
         match self {
@@ -694,7 +747,7 @@ impl Comparison {
         }
     }
 
-    /// The comparison that says the same of the operands the other way round.
+    /// The comparison with the same meaning when its operands are swapped.
     #[must_use]
     pub const fn mirrored(self) -> Self {
         match self {
@@ -706,7 +759,7 @@ impl Comparison {
         }
     }
 
-    /// Whether it holds of two numbers.
+    /// Whether it holds between two numbers.
     #[must_use]
     pub fn holds(self, left: f64, right: f64) -> bool {
         match self {

@@ -1,14 +1,28 @@
 //! Names: an [`Ast`] to [`Resolved`], in which every name stands for something.
 //!
-//! Three steps, in this order. `declare` reads what the items declare, names, types, parameters and
-//! units, into a `scope`. `expand` goes through the expressions, writes quantifiers out and answers each name once:
-//! what a quantifier binds, then the parameters and items, then the state (`place`) and the values
-//! of enumerations, or else what [`Names`] allow. `order` sorts the items by their uses and refuses
-//! circles.
+//! Three steps, in this order. `declare` reads the declarations of the items (names, types,
+//! parameters and units) into a `scope`. `expand` goes through the expressions, writes quantifiers
+//! out and answers each name once: a name that a quantifier binds, then parameters and items, then
+//! the state (`place`) and the values of enumerations, or else whatever [`Names`] allow. `order`
+//! sorts the items by their uses and refuses circles.
 //!
 //! A name that stands for nothing is an answer too, `Name::Unknown`, which holds its error. The
-//! stage that reads the name reports it: where something else is wrong around the name, nobody
-//! does, and one mistake is reported once.
+//! stage that reads the name reports it. If something else is wrong around the name, that stage
+//! never reads it, so one mistake is reported once.
+//!
+//! Nothing here asks for types beyond the path of a place: whether a name may stand where it does
+//! is for [`check`](crate::check). Cost: linear in the source with its quantifiers written out,
+//! which is bounded.
+//!
+//! ```
+//! use tltl_compiler::{parse, resolve::{Names, resolve}, source::Source};
+//!
+//! let ast = parse::file(&Source::new("loop.tltl", "const a = b\nconst b = a\n"))?;
+//! let mut mistakes = Vec::new();
+//! resolve(&ast, Names::Declared, &mut mistakes);
+//! assert_eq!(mistakes[0].kind().name(), "cycle");
+//! # Ok::<(), tltl_compiler::error::Errors>(())
+//! ```
 
 mod declare;
 mod expand;
@@ -31,7 +45,7 @@ pub(crate) use expand::{Bound, MOST_NODES};
 pub(crate) use place::{a_type, elements};
 pub(crate) use scope::Scope;
 
-/// What a name may be that the source does not declare.
+/// What a name may stand for if the source does not declare it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Names {
     /// A bare formula: any name is a proposition, or a real variable inside a comparison.
@@ -55,9 +69,9 @@ pub(crate) enum Expression {
     Number(f64),
     /// A string literal.
     Text,
-    /// A name, a path, or anything else that only Rust can read.
+    /// A name, a path, or an expression that only Rust can read.
     Name(Name),
-    /// A function or an item with arguments; whether it takes these is not checked yet.
+    /// A function or an item with arguments. Whether it takes these is not checked yet.
     Call(Callee, Vec<ExpressionId>),
     /// `op operand`
     Prefix(Prefix, ExpressionId),
@@ -65,72 +79,78 @@ pub(crate) enum Expression {
     Infix(Infix, ExpressionId, ExpressionId),
 }
 
-/// What a call calls: an item where a formula stands, a function of numbers where a number does.
+/// The target of a call: an item where a formula stands, a function of numbers where a number does.
+/// A name may be both; its position decides, which is known later.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Callee {
+    /// The item of this name.
     pub(crate) item: Option<usize>,
+    /// The function of this name.
     pub(crate) function: Option<Function>,
 }
 
-/// What a name stands for.
+/// The meaning of a name.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Name {
     /// A parameter of the item around it.
     Parameter {
-        /// Which of them.
+        /// Its position among the parameters of the item.
         number: u32,
         /// Its type.
         ty: ParameterType,
-        /// An item that is called the same, which is an error already: a formula means that.
+        /// An item with the same name, which has been reported as an error; a formula then means
+        /// the item.
         item: Option<usize>,
     },
-    /// A constant, a predicate or a task, or an item that could not be parsed: its place among the
-    /// items. A value of an enumeration may be called the same; it is meant where that is expected.
+    /// A constant, a predicate or a task, or an item that could not be parsed, by its position
+    /// among the items. A value of an enumeration may have the same name; it is meant where one is
+    /// expected.
     Item(usize, Vec<Value>),
-    /// A place within the declared state; values may be called the same here too.
+    /// A place within the declared state, with the values of the same name.
     Place(Box<Place>, Vec<Value>),
-    /// One of the values that are called so, by what is expected.
+    /// One of the values with this name; the expected enumeration decides which.
     Values(Vec<Value>),
     /// The value that a quantifier binds to the name.
     Value(Value),
     /// `none`
     Absent,
-    /// A function of numbers, which stands for nothing by itself.
+    /// A function of numbers, which means nothing by itself.
     Function,
     /// A proposition or a variable of a bare formula.
     Free,
-    /// A Rust expression; and the place that reads the same, if a state is declared beside it.
+    /// A Rust expression; with the place of the same text if a state is declared beside it, for its
+    /// unit.
     Rust(Option<Box<Place>>),
-    /// Nothing, and why.
+    /// Nothing, with the error that says so. Shared: a path hands the error of its base on.
     Unknown(Rc<Error>),
 }
 
 /// A value of an enumeration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Value {
-    /// Which enumeration, counted in source order.
+    /// The enumeration, counted in source order.
     pub(crate) of: u32,
-    /// Which of its values.
+    /// Its position among the values.
     pub(crate) number: u32,
 }
 
 /// A place within the declared state.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Place {
-    /// The way to it.
+    /// The path to it, from the state.
     pub(crate) segments: Vec<Segment>,
-    /// What stands there.
+    /// The type at the place.
     pub(crate) ty: Type,
-    /// What its numbers are measured in, if the source says so.
+    /// The unit of its numbers, if the source gives one.
     pub(crate) unit: Option<Unit>,
-    /// How deep indices that are places themselves nest in it.
+    /// How deep places nest as indices in its path.
     depth: usize,
 }
 
-/// A part of the way to a [`Place`].
+/// A step of the path to a [`Place`].
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Segment {
-    /// A field: where its name stands.
+    /// A field, by the place of its name in the source.
     Field(Span),
     /// An element of an array.
     Index(u32),
@@ -138,37 +158,37 @@ pub(crate) enum Segment {
     Element {
         /// The index.
         index: ExpressionId,
-        /// The enumeration whose value it has to be.
+        /// The enumeration that the index must be a value of.
         of: u32,
     },
-    /// The element of an array at a number that is known when the program runs.
+    /// The element of an array at a number that is known only when the program runs.
     At {
         /// The number: a parameter, or a place.
         index: ExpressionId,
-        /// How many elements there are.
+        /// The number of elements.
         length: u32,
     },
 }
 
-/// What sort of value an expression is that is no number and no truth value.
+/// The sort of an expression that is a value, neither a number nor a truth value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Sort {
-    /// Of an enumeration, if it is not absent.
+    /// A value of an enumeration, unless it is absent.
     Enum {
         /// Which enumeration.
         of: u32,
-        /// Whether there may be no value.
+        /// Whether it may be absent.
         optional: bool,
     },
-    /// The name of a value; what stands beside it may have to tell of which enumeration.
+    /// The name of a value; its neighbour may have to say of which enumeration.
     Variant,
     /// `none`
     Absent,
-    /// Of a Rust type of the user's.
+    /// A value of a Rust type of the user's.
     Host,
 }
 
-/// The sort of the values of a type.
+/// The sort of the values of a type; `None` for numbers and truth values.
 pub(crate) fn sort_of(scalar: Scalar) -> Option<Sort> {
     match scalar {
         Scalar::Enum { of, optional } => Some(Sort::Enum { of, optional }),
@@ -176,39 +196,43 @@ pub(crate) fn sort_of(scalar: Scalar) -> Option<Sort> {
     }
 }
 
-/// An expression with where it stands.
+/// An expression with its places.
 #[derive(Debug)]
 pub(crate) struct Entry {
     pub(crate) expression: Expression,
-    /// What was written there.
+    /// The node that was written there.
     pub(crate) node: NodeId,
-    /// All of it, with the brackets around it if there are any.
+    /// The whole expression, with the brackets around it if there are any.
     pub(crate) outer: Span,
-    /// The first of the expressions that are parts of it; they are neighbours.
+    /// The first of the expressions that are parts of it, which are neighbours.
     pub(crate) first: ExpressionId,
-    /// Its value, if it is a number that is made of numbers and constants only.
+    /// Its value, if it is a number made of numbers and constants alone.
     pub(crate) value: Option<f64>,
+    /// The names that quantifiers bind around it.
     pub(crate) environment: Environment,
 }
 
 /// A source whose names are resolved and whose quantifiers are written out.
 ///
-/// Invariant: operands stand before the expressions that use them, and the expressions of one item
+/// Invariants: operands stand before the expressions that use them, and the expressions of one item
 /// are neighbours, its root the last of them.
 pub struct Resolved<'a> {
     pub(crate) ast: &'a Ast,
     pub(crate) names: Names,
     pub(crate) scope: Scope<'a>,
     entries: Vec<Entry>,
+    /// The bound names, once for each value that one takes.
     binders: Vec<Binder>,
-    /// The first expression of each item that has some, and its root.
+    /// For each item with an expression, its first expression and its root.
     pub(crate) expressions: Vec<Option<(ExpressionId, ExpressionId)>>,
-    /// The items, each after the ones that it uses.
+    /// The items, each after those that it uses.
     pub(crate) order: Vec<usize>,
 }
 
-/// Resolves the names of a source. Mistakes in declarations, quantifiers and circles of items are
-/// reported here; those in names, by who reads them.
+/// Resolves the names of a source.
+///
+/// Mistakes in declarations and quantifiers, and circles of items, are added to `mistakes`.
+/// Mistakes in names stay in the result, for the stage that reads them.
 pub fn resolve<'a>(ast: &'a Ast, names: Names, mistakes: &mut Vec<Error>) -> Resolved<'a> {
     let mut scope = declare::declare(ast, names);
     mistakes.append(&mut scope.mistakes);
@@ -231,18 +255,20 @@ impl Index<ExpressionId> for Resolved<'_> {
 }
 
 impl Resolved<'_> {
-    /// The value of an item, if it is a constant and has one.
+    /// The value of an item; `None` if it is not a constant or has a mistake.
     pub(crate) fn constant(&self, item: usize) -> Option<f64> {
         self.expressions[item]
             .filter(|_| self.is_constant(item))
             .and_then(|(_, root)| self[root].value)
     }
 
+    /// Whether an item is a constant.
     pub(crate) fn is_constant(&self, item: usize) -> bool {
         matches!(self.item(item).kind, ItemKind::Constant(..))
     }
 
-    /// The value of an expression of known numbers, if it is finite.
+    /// The value of an expression of known numbers, if it is finite. Arrays are indexed and ranges
+    /// ended by such values, so they are needed before any type is checked.
     fn calculated(&self, expression: &Expression) -> Option<f64> {
         let of = |id: &ExpressionId| self[*id].value;
         let value = match expression {
@@ -271,17 +297,17 @@ impl Resolved<'_> {
         matches!(node, Node::Name | Node::Field { .. } | Node::Index { .. })
     }
 
-    /// Where an expression stands.
+    /// The place of an expression, without brackets around it.
     pub(crate) fn span(&self, id: ExpressionId) -> Span {
         self.ast.span(self[id].node)
     }
 
-    /// The operator of an expression; the whole of it if it has none.
+    /// The place of the operator of an expression; the whole of it if it has none.
     pub(crate) fn operator(&self, id: ExpressionId) -> Span {
         self.ast.entry(self[id].node).operator
     }
 
-    /// The operator of an expression as it was written.
+    /// The operator of an expression, as it was written.
     pub(crate) fn symbol(&self, id: ExpressionId) -> &str {
         self.ast.source().slice(self.operator(id))
     }
@@ -291,7 +317,7 @@ impl Resolved<'_> {
         self[id].outer != self.span(id)
     }
 
-    /// The text of an expression.
+    /// The text of an expression, as it was written.
     pub(crate) fn text(&self, id: ExpressionId) -> &str {
         self.ast.text(self[id].node)
     }
@@ -301,12 +327,12 @@ impl Resolved<'_> {
         self.ast.quote(self[id].node)
     }
 
-    /// The error for an expression that is not what it has to be.
+    /// The error for an expression of the wrong type.
     pub(crate) fn type_error(&self, id: ExpressionId, message: impl Into<String>) -> Error {
         Error::new(Kind::Type, message, self.span(id))
     }
 
-    /// What sort of value an expression is; `None` if it is a number, a formula, or nothing.
+    /// The sort of a value; `None` if the expression is a number, a formula, or unknown.
     pub(crate) fn sort(&self, id: ExpressionId) -> Option<Sort> {
         let Expression::Name(name) = &self[id].expression else { return None };
         match name {
@@ -319,7 +345,7 @@ impl Resolved<'_> {
         }
     }
 
-    /// The operands of an expression, left to right; none of a name, whatever it is made of.
+    /// The operands of an expression, left to right; none of a name, whatever its path is made of.
     pub(crate) fn operands(&self, id: ExpressionId) -> Vec<ExpressionId> {
         match &self[id].expression {
             Expression::Call(_, arguments) => arguments.clone(),
@@ -329,7 +355,7 @@ impl Resolved<'_> {
         }
     }
 
-    /// Whether the left operand of a comparison is the part of a chain before it.
+    /// Whether the left operand of a comparison is the chain before it, as `a < b` in `a < b < c`.
     pub(crate) fn is_chained(&self, left: ExpressionId) -> bool {
         matches!(&self[left].expression, Expression::Infix(Infix::Compare(_), ..))
             && !self.is_bracketed(left)
@@ -340,7 +366,7 @@ impl Resolved<'_> {
         &self.ast.items()[item]
     }
 
-    /// What an item is called.
+    /// The name of an item.
     pub(crate) fn item_name(&self, item: usize) -> &str {
         self.ast.source().slice(self.item(item).name)
     }

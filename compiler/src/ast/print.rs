@@ -1,5 +1,8 @@
-//! Expressions as text, with the brackets that a reader wants: `U` and `T` are never mixed
-//! without them, and what an operator before a comparison reaches is shown.
+//! Expressions as text, with the brackets that a reader wants: `U` and `T` are never mixed without
+//! them, and the reach of an operator before a comparison is shown.
+//!
+//! Parsing the text gives the same expression (a property that is tested over random formulas). A
+//! stack of pieces takes the place of recursion, so any depth prints.
 
 use std::fmt;
 
@@ -12,7 +15,7 @@ pub struct Printed<'a> {
     root: NodeId,
 }
 
-/// What is still to be printed.
+/// A piece of the text that is still to be printed.
 enum Piece {
     Node(NodeId),
     Text(&'static str),
@@ -25,7 +28,7 @@ impl Ast {
         Printed { ast: self, root }
     }
 
-    /// What stands for the operand `id` of `parent` in print.
+    /// An operand of `parent`, in brackets if it needs them.
     fn operand(&self, parent: &Node, id: NodeId, left: bool) -> [Piece; 3] {
         if wants_brackets(parent, self, id, left) {
             [Piece::Text("("), Piece::Node(id), Piece::Text(")")]
@@ -34,7 +37,7 @@ impl Ast {
         }
     }
 
-    /// What stands for `id` before its field, its index or its arguments in print.
+    /// The base of a field, an index or a call, in brackets if it needs them.
     fn base(&self, id: NodeId) -> [Piece; 3] {
         let apart = matches!(
             self.node(id),
@@ -77,7 +80,7 @@ impl Ast {
         pieces
     }
 
-    /// Writes what an expression has of its own, if it is not all operands.
+    /// Writes the text of an expression without operands.
     fn leaf(&self, id: NodeId, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.node(id) {
             Node::Truth(value) => write!(f, "{value}"),
@@ -122,12 +125,14 @@ impl fmt::Display for Printed<'_> {
     }
 }
 
+/// A step of printing.
 enum Step {
     Piece(Piece),
     /// The name of a field, after its base.
     Field(NodeId),
 }
 
+/// How tightly an expression binds; the same levels as in the parser.
 fn level(node: &Node) -> u8 {
     match node {
         Node::Quantified(_) => 0,
@@ -144,7 +149,8 @@ fn level(node: &Node) -> u8 {
     }
 }
 
-/// Whether the operand `id` of `parent` is printed in brackets.
+/// Whether the operand `id` of `parent` is printed in brackets: where the parser needs them, and
+/// where a reader would otherwise have to know the precedence of temporal operators.
 fn wants_brackets(parent: &Node, ast: &Ast, id: NodeId, left: bool) -> bool {
     let child = ast.node(id);
     let (outer, inner) = (level(parent), level(child));

@@ -1,4 +1,9 @@
 //! Predicates and tasks with arguments.
+//!
+//! An argument takes the place of a parameter before the analysis: `near(2)` becomes the condition
+//! of `near` with 2 in it, so arithmetic relates `near(2)` to `x < 1`. The call itself is kept for
+//! emission and for messages. The substituted condition is checked again for what an argument can
+//! break: a division by zero, a number out of range, an element outside an array.
 
 use super::atom::{Atom, Atoms};
 use crate::ast::{Arithmetic, ItemKind, quoted};
@@ -7,7 +12,7 @@ use crate::predicate::{Arguments, Number, Numeric, ParameterType, Scalar, Step, 
 use crate::resolve::{Callee, Expression, ExpressionId, Name, Names, Resolved, a_type, elements};
 
 impl Atoms<'_, '_> {
-    /// What the predicate or the task `item` means with these arguments.
+    /// The meaning of the predicate or the task `item` with these arguments.
     pub(super) fn application(
         &mut self,
         id: ExpressionId,
@@ -32,6 +37,7 @@ impl Atoms<'_, '_> {
         self.instance(id, item, arguments, &given)
     }
 
+    /// The term of an argument for a parameter of type `ty`.
     fn argument(&mut self, id: ExpressionId, ty: ParameterType) -> Option<TermId> {
         match ty {
             ParameterType::Scalar(scalar @ Scalar::Number(_)) => {
@@ -46,8 +52,9 @@ impl Atoms<'_, '_> {
         }
     }
 
-    /// The number `term` as an argument of this type: for a type of whole numbers a constant that
-    /// it has, or what is always one of its values.
+    /// The number `term` as an argument of type `ty`. For an integer type it must be a constant of
+    /// that type, or a place or parameter whose type fits into it: nothing is rounded or wrapped. A
+    /// Rust expression is left to rustc.
     fn number_argument(&mut self, id: ExpressionId, term: TermId, ty: Scalar) -> Option<TermId> {
         let Some((least, most)) = ty.whole() else { return Some(term) };
         let within = |(low, high): (i128, i128)| least <= low && high <= most;
@@ -77,7 +84,8 @@ impl Atoms<'_, '_> {
         )
     }
 
-    /// The truth value `id` as an argument.
+    /// The truth value `id` as an argument. A formula is not one: an argument is evaluated to a
+    /// term.
     fn truth_argument(&mut self, id: ExpressionId) -> Option<TermId> {
         let resolved = self.resolved;
         match (&resolved[id].expression, resolved.names) {
@@ -113,6 +121,7 @@ impl Atoms<'_, '_> {
         )
     }
 
+    /// The predicate or the task `item` with the terms `given` in place of its parameters.
     fn instance(
         &mut self,
         id: ExpressionId,
@@ -149,8 +158,7 @@ impl Atoms<'_, '_> {
         }
     }
 
-    /// The error if one of the terms since `known`, made by putting arguments in the place of
-    /// parameters, divides by zero or is no number.
+    /// The error if one of the terms added since `known` divides by zero or is not a number.
     fn not_finite(&self, id: ExpressionId, known: usize) -> Option<Error> {
         let arena = &self.lowering.arena;
         let bad = |term: &Term| match term {
@@ -164,8 +172,8 @@ impl Atoms<'_, '_> {
         Some(Error::new(Kind::Number, message, self.resolved.span(id)))
     }
 
-    /// The error if one of the terms since `known` is an element of an array that there is not, or
-    /// may not be.
+    /// The error if one of the terms added since `known` is, or may be, an element outside its
+    /// array.
     fn no_element(
         &self,
         known: usize,
@@ -198,7 +206,7 @@ impl Atoms<'_, '_> {
         None
     }
 
-    /// The error for the use of `item` without the arguments that it takes.
+    /// The error for a use of `item` without the arguments that it takes.
     pub(super) fn without_arguments(&self, id: ExpressionId, item: usize) -> Error {
         let resolved = self.resolved;
         let text = resolved.quote(id);
@@ -212,7 +220,7 @@ impl Atoms<'_, '_> {
     }
 }
 
-/// The error for an item that takes another number of arguments, or none.
+/// The error for an item with the wrong number of arguments.
 pub(super) fn miscounted(
     resolved: &Resolved<'_>,
     id: ExpressionId,
@@ -235,7 +243,7 @@ pub(super) fn miscounted(
     Some(error.related(entry.name, "declared here"))
 }
 
-/// How many arguments an item takes, and of which types.
+/// The number of arguments that an item takes, with their types.
 fn takes(resolved: &Resolved<'_>, item: usize) -> String {
     let parameters = resolved.scope.parameters(item);
     let types: Vec<_> = parameters.iter().map(|known| type_name(resolved, known.ty)).collect();
@@ -243,6 +251,7 @@ fn takes(resolved: &Resolved<'_>, item: usize) -> String {
     format!("{} argument{s} ({})", types.len(), types.join(", "))
 }
 
+/// A parameter's type as messages mention it.
 fn type_name(resolved: &Resolved<'_>, ty: ParameterType) -> String {
     match ty {
         ParameterType::Scalar(Scalar::Enum { of, optional }) => {

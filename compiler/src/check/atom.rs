@@ -1,4 +1,8 @@
-//! Atoms: the leaves of formulas and conditions, which are true or false of one state, or tasks.
+//! Atoms: the leaves of formulas and conditions. Each is true or false of one state, or is another
+//! task.
+//!
+//! A chain of comparisons `a < b < c` is one leaf with several conditions. Its negation is a
+//! disjunction, so the conditions stay apart until the polarity of the leaf is applied.
 
 use super::lower::Lowering;
 use super::proposition::Propositions;
@@ -12,28 +16,30 @@ use crate::resolve::{Callee, Expression, ExpressionId, Name, Names, Resolved};
 use crate::source::Span;
 use crate::token::mentions;
 
-/// What a leaf of a formula is.
+/// A leaf of a formula.
 #[derive(Clone, Debug)]
 pub(super) enum Atom {
-    /// All of these; none of them is a constant, unless it is the only one.
+    /// The conjunction of these. None of them is a constant, unless it is the only one.
     Conditions(Vec<ConditionId>),
-    /// The formula of another task, with what its parameters stand for.
+    /// The formula of another task, with its arguments.
     Task(TaskId, Arguments),
 }
 
-/// What the leaves of one item are made of.
+/// The inputs for the leaves of one item.
 pub(super) struct Atoms<'c, 'r> {
     pub(super) resolved: &'r Resolved<'r>,
     pub(super) lowering: &'c mut Lowering<'r>,
     pub(super) propositions: &'c mut Propositions,
+    /// The tasks checked so far.
     pub(super) tasks: &'c [Option<Task>],
+    /// What each expression must be.
     pub(super) roles: &'c Roles,
-    /// The terms of the expressions that are numbers.
+    /// The terms of the expressions that are numbers, by their position in the item.
     pub(super) terms: &'c [Option<TermId>],
 }
 
 impl Atoms<'_, '_> {
-    /// The leaf `id`; `None` if it is not one, or if there is a mistake in it.
+    /// The leaf `id`; `None` if it is an operator, or if there is a mistake in it.
     pub(super) fn atom(&mut self, id: ExpressionId) -> Option<Atom> {
         let resolved = self.resolved;
         let condition = match &resolved[id].expression {
@@ -54,7 +60,7 @@ impl Atoms<'_, '_> {
         Some(Atom::Conditions(vec![self.lowering.placed(condition, resolved.span(id))]))
     }
 
-    /// A name that no item has: a parameter, a field, a free proposition, a Rust expression.
+    /// A name that is not an item: a parameter, a field, a free proposition, a Rust expression.
     fn name(&mut self, id: ExpressionId, name: &Name) -> Option<Condition> {
         let resolved = self.resolved;
         if let Name::Parameter { ty: ty @ ParameterType::Scalar(scalar), .. } = name
@@ -77,7 +83,8 @@ impl Atoms<'_, '_> {
         Some(Condition::Bool(term))
     }
 
-    /// A Rust expression over the state, or a Rust value that is itself a predicate.
+    /// A Rust expression over the state, or a Rust value that is itself a predicate. It is the
+    /// former iff it mentions the name of the state.
     fn rust(&mut self, id: ExpressionId) -> Option<Condition> {
         let (text, bindings) = self.lowering.rust_text(id)?;
         let span = self.resolved.span(id);
@@ -105,6 +112,7 @@ impl Atoms<'_, '_> {
         )
     }
 
+    /// Another predicate or task, without arguments.
     fn item(&mut self, id: ExpressionId, item: usize) -> Option<Atom> {
         let resolved = self.resolved;
         self.lowering.used[item] = true;
@@ -135,7 +143,8 @@ impl Atoms<'_, '_> {
         }
     }
 
-    /// A comparison of two values, or the comparisons of a chain of numbers, left to right.
+    /// The condition of a comparison of two values, or the conditions of a chain of numbers, left
+    /// to right.
     fn comparison(
         &mut self,
         id: ExpressionId,
@@ -180,7 +189,8 @@ impl Atoms<'_, '_> {
         links
     }
 
-    /// Drops what is always true from a conjunction; what is never true is all of it.
+    /// Drops conditions that are always true from a conjunction; one that is never true is all of
+    /// it.
     fn without_constants(&mut self, mut conditions: Vec<ConditionId>) -> Vec<ConditionId> {
         let never = self.lowering.arena.add_condition(Condition::Truth(false));
         let always = self.lowering.arena.add_condition(Condition::Truth(true));
@@ -199,7 +209,8 @@ struct Link {
     operator: Span,
 }
 
-/// The error for a chain that points both ways.
+/// The error for a chain that points both ways. `a < b > c` would be read as `a < c`, which it does
+/// not say.
 fn mixed(links: &[Link]) -> Option<Error> {
     if links.len() < 2 {
         return None;

@@ -1,11 +1,11 @@
-//! Attributes: how a task is compiled.
+//! Attributes of tasks: `#[factored]` and `#[budget(…)]`.
 
 use crate::ast::{Ast, Attribute, ItemKind};
 use crate::error::{Error, Kind};
 use crate::predicate::Options;
 use crate::source::Span;
 
-/// What the attributes of a task say.
+/// The settings of a task's attributes; a later one overrides an earlier one.
 pub(super) fn options(ast: &Ast, attributes: &[Attribute], mistakes: &mut Vec<Error>) -> Options {
     let mut options = Options::default();
     for attribute in attributes {
@@ -21,6 +21,7 @@ pub(super) fn options(ast: &Ast, attributes: &[Attribute], mistakes: &mut Vec<Er
     options
 }
 
+/// Reads one setting of a budget.
 fn budget(ast: &Ast, (name, value): (Span, Span), options: &mut Options) -> Result<(), Error> {
     let setting = match ast.source().slice(name) {
         "states" => &mut options.states,
@@ -35,6 +36,7 @@ fn budget(ast: &Ast, (name, value): (Span, Span), options: &mut Options) -> Resu
     Ok(())
 }
 
+/// The error for an attribute or a setting that does not exist.
 fn unknown(ast: &Ast, span: Span) -> Error {
     let message = format!("`{}` is not an attribute of a task", ast.source().slice(span));
     Error::new(Kind::UnknownName, message, span).help(
@@ -42,7 +44,7 @@ fn unknown(ast: &Ast, span: Span) -> Error {
     )
 }
 
-/// The errors for attributes of what is not a task.
+/// The errors for attributes of items that are not tasks.
 pub(super) fn misplaced(ast: &Ast) -> impl Iterator<Item = Error> {
     let items = ast.items().iter().filter(|item| !matches!(item.kind, ItemKind::Task(..)));
     items

@@ -1,4 +1,5 @@
-//! Predicates: an expression as a condition of one state.
+//! Predicates: an expression as a condition of one state. Conditions have no negation normal form:
+//! `!` stays where robustness negates exactly, and a comparison absorbs it.
 
 use super::atom::{Atom, Atoms};
 use super::role::Role;
@@ -7,7 +8,7 @@ use crate::predicate::ConditionId;
 use crate::resolve::{Expression, ExpressionId};
 
 impl Atoms<'_, '_> {
-    /// The condition of one state that the expression is.
+    /// The condition of the whole expression; `None` if there is a mistake in it.
     pub(super) fn condition(&mut self) -> Option<ConditionId> {
         let mut built: Vec<Option<ConditionId>> = Vec::new();
         let roles = self.roles;
@@ -21,6 +22,7 @@ impl Atoms<'_, '_> {
         built.pop().flatten()
     }
 
+    /// The condition of one expression, given those of its operands.
     fn build(
         &mut self,
         id: ExpressionId,

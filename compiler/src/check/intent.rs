@@ -1,4 +1,10 @@
-//! Temporal operators that cannot stand where they do, or hardly mean what they say.
+//! Temporal operators that cannot stand where they do, or that hardly mean what they seem to say.
+//!
+//! The logic is co-safe: a finite trajectory must be able to establish a formula for good. A
+//! negated temporal operator is a safety property, which none can. The errors here say so in terms
+//! of the author's own formula, and offer the `U` that is usually meant. The warnings are about the
+//! two formulas that authors of sequences get wrong: `F a T b` and `(a T b) T c` order less than
+//! they seem to.
 
 use crate::ast::{Infix, Prefix};
 use crate::error::{Error, Kind};
@@ -27,7 +33,7 @@ pub(super) fn negated(resolved: &Resolved<'_>, id: ExpressionId, by: ExpressionI
     advice(resolved, id, error)
 }
 
-/// What a temporal operator says, for a label.
+/// The reading of a temporal operator, for a label.
 fn what(expression: &Expression) -> &'static str {
     match expression {
         Expression::Prefix(Prefix::Eventually, _) => "\"eventually\"",
@@ -37,7 +43,7 @@ fn what(expression: &Expression) -> &'static str {
     }
 }
 
-/// Why the negation is outside the language, and what to write instead.
+/// Adds the reason why the negation is outside the language, and what to write instead.
 fn advice(resolved: &Resolved<'_>, id: ExpressionId, error: Error) -> Error {
     let (reason, goal) = match resolved[id].expression {
         Expression::Prefix(Prefix::Next, operand) => {

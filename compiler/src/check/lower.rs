@@ -1,5 +1,9 @@
-//! Terms: the numbers of an expression in the arena of the module, constants folded, from the leaves
-//! up.
+//! Terms: the numbers of an expression in the arena of the module, constants folded, from the
+//! leaves up.
+//!
+//! Folding shows mistakes that no run should meet: a division by a constant zero, a constant that
+//! is infinite or not a number. They are refused here, so a term of the module that is constant is
+//! finite.
 
 use rustc_hash::FxHashMap;
 
@@ -11,23 +15,26 @@ use crate::predicate::{Arena, ConditionId, Function, ParameterType, Scalar, Term
 use crate::resolve::{Callee, Expression, ExpressionId, Name, Names, Resolved};
 use crate::source::Span;
 
-/// The terms of a module in the making.
+/// The terms of a module under construction.
 pub(super) struct Lowering<'r> {
     pub(super) resolved: &'r Resolved<'r>,
-    /// The item whose expression this is.
+    /// The item whose expression is being read.
     pub(super) item: usize,
+    /// The terms and conditions so far.
     pub(super) arena: Arena,
-    /// Where the source has comparisons and applied predicates.
+    /// The places of comparisons and applied predicates in the source.
     pub(super) places: Vec<(ConditionId, Span)>,
+    /// The mistakes so far, in the order in which they were found.
     pub(super) mistakes: Vec<Error>,
-    /// Whether something uses an item.
+    /// Whether something uses each item.
     pub(super) used: Vec<bool>,
-    /// Where each name that is declared outside of the source stands first, and whether as a
-    /// formula there.
+    /// For each name that is declared outside of the source, whether its first use is a formula,
+    /// and the place of that use.
     pub(super) free: FxHashMap<String, (bool, Span)>,
 }
 
 impl<'r> Lowering<'r> {
+    /// An empty arena.
     pub(super) fn new(resolved: &'r Resolved<'r>) -> Self {
         Self {
             resolved,
@@ -40,19 +47,21 @@ impl<'r> Lowering<'r> {
         }
     }
 
-    /// Notes a mistake; there is nothing more to say of what has it.
+    /// Notes a mistake. Returns `None`, so that nothing more is said about the expression that has
+    /// it.
     pub(super) fn refuse<T>(&mut self, error: Error) -> Option<T> {
         self.mistakes.push(error);
         None
     }
 
-    /// Notes where a condition stands.
+    /// Notes a place of a condition, and returns the condition.
     pub(super) fn placed(&mut self, condition: ConditionId, span: Span) -> ConditionId {
         self.places.push((condition, span));
         condition
     }
 
-    /// The term of each expression that is a number, by its position in the item.
+    /// The term of each expression that is a number, by its position in the item; `None` for other
+    /// expressions and for mistakes.
     pub(super) fn terms(&mut self, roles: &Roles) -> Vec<Option<TermId>> {
         let mut terms = Vec::new();
         for (id, role) in roles.iter() {
@@ -65,6 +74,7 @@ impl<'r> Lowering<'r> {
         terms
     }
 
+    /// The term of one number, given those of its operands.
     fn term(
         &mut self,
         id: ExpressionId,
@@ -91,6 +101,7 @@ impl<'r> Lowering<'r> {
         }
     }
 
+    /// A call of a function of numbers. One with more arguments than two is a chain of calls.
     fn call(
         &mut self,
         id: ExpressionId,
@@ -115,7 +126,7 @@ impl<'r> Lowering<'r> {
         })
     }
 
-    /// A calculation; if all of it is known, its value, which has to be a number.
+    /// A calculation. If all of it is known it becomes its value, which must be finite.
     fn calculated(&mut self, id: ExpressionId, term: Term) -> Option<TermId> {
         match self.arena.value(&term) {
             Some(value) if value.is_nan() => self.no_number(id, "is not a number"),
@@ -124,6 +135,7 @@ impl<'r> Lowering<'r> {
         }
     }
 
+    /// Refuses a calculation without a finite value.
     fn no_number(&mut self, id: ExpressionId, what: &str) -> Option<TermId> {
         let message = format!("`{}` {what}", self.resolved.quote(id));
         self.refuse(Error::new(Kind::Number, message, self.resolved.span(id)))
@@ -176,6 +188,7 @@ impl<'r> Lowering<'r> {
         )
     }
 
+    /// An item where a number should stand: a constant, or a mistake.
     fn number_item(&mut self, id: ExpressionId, item: usize) -> Option<TermId> {
         self.used[item] = true;
         let entry = self.resolved.item(item);
@@ -192,7 +205,8 @@ impl<'r> Lowering<'r> {
         self.refuse(self.resolved.type_error(id, message).related(entry.name, "declared here"))
     }
 
-    /// The name of a free proposition or variable; a name is one or the other throughout.
+    /// The name of a free proposition or variable. A name must be the same of the two throughout,
+    /// and the first use decides.
     pub(super) fn free_name(&mut self, id: ExpressionId, formula: bool) -> Option<String> {
         let (text, span) = (crate::token::compact(self.resolved.text(id)), self.resolved.span(id));
         let (first, place) = *self.free.entry(text.clone()).or_insert((formula, span));

@@ -1,4 +1,9 @@
-//! Propositions: the predicates of a module, declared or not, and what they are with arguments.
+//! Propositions: the predicates of a module, declared or not, and their instances with arguments.
+//!
+//! Every condition in a formula becomes a predicate, and equal conditions the same one. A
+//! comparison is known in four ways (either side first, negated or not), so `x < 3` and `3 <= x`
+//! are one proposition and its negation: this saves a proposition, and with it up to half of the
+//! automaton's letters.
 
 use rustc_hash::FxHashMap;
 
@@ -8,29 +13,31 @@ use crate::predicate::{Arguments, Condition, ConditionId, Predicate, PredicateId
 use crate::resolve::{ExpressionId, MOST_NODES};
 use crate::source::Span;
 
-/// The predicates of a module in the making.
+/// The predicates of a module under construction.
 pub(super) struct Propositions {
     pub(super) predicates: Vec<Predicate>,
-    /// The predicate that each item declares.
+    /// The predicate that each item declares, if it does.
     pub(super) declared: Vec<Option<PredicateId>>,
-    /// What conditions are known to be.
+    /// The literals of conditions that have been met.
     known: FxHashMap<ConditionId, Literal>,
-    /// What conditions with parameters are with arguments.
+    /// The conditions that have been instantiated, so that equal uses are one.
     instances: FxHashMap<(ConditionId, Arguments), ConditionId>,
-    /// How many more operators and operands these may have, written out.
+    /// The number of operators and operands that further instances may have, written out; `None`
+    /// once it is exceeded.
     room: Option<usize>,
 }
 
-/// What a condition is as a part of a formula.
+/// A condition as a part of a formula.
 #[derive(Clone, Copy)]
 pub(super) enum Literal {
     /// A constant.
     Truth(bool),
-    /// A predicate, or its negation.
+    /// A predicate, and whether it is negated.
     Proposition(PredicateId, bool),
 }
 
 impl Propositions {
+    /// No predicates, for a source of this many items.
     pub(super) fn new(items: usize) -> Self {
         Self {
             predicates: Vec::new(),
@@ -41,17 +48,20 @@ impl Propositions {
         }
     }
 
+    /// Adds a predicate.
     pub(super) fn add(&mut self, predicate: Predicate) -> PredicateId {
         let id = u32::try_from(self.predicates.len()).expect("fewer than 2^32 predicates");
         self.predicates.push(predicate);
         PredicateId(id)
     }
 
+    /// One predicate.
     pub(super) fn predicate(&self, id: PredicateId) -> &Predicate {
         &self.predicates[id.0 as usize]
     }
 
-    /// What a condition is: a predicate without a name of its own, if it is new.
+    /// The literal of a condition, which becomes a predicate without a name of its own if it is
+    /// new.
     pub(super) fn literal(
         &mut self,
         lowering: &mut Lowering<'_>,
@@ -80,7 +90,7 @@ impl Propositions {
         }
     }
 
-    /// Notes all the ways to say that `condition` is the predicate `id` or its negation.
+    /// Notes all the ways to write the predicate `id` and its negation.
     fn remember(&mut self, lowering: &mut Lowering<'_>, condition: ConditionId, id: PredicateId) {
         self.known.insert(condition, Literal::Proposition(id, false));
         let Condition::Compare(op, left, right) = *lowering.arena.condition(condition) else {
@@ -94,8 +104,8 @@ impl Propositions {
         }
     }
 
-    /// A condition with arguments in the place of parameters; `None` where that is too large to be
-    /// written out, which is reported once.
+    /// A condition with arguments in place of parameters; `None` if the conditions with arguments
+    /// become too large when written out, which is reported once.
     pub(super) fn substituted(
         &mut self,
         lowering: &mut Lowering<'_>,
@@ -124,7 +134,7 @@ impl Propositions {
         Some(condition)
     }
 
-    /// What the predicates of a task are with the arguments that `id` gives.
+    /// The literals of the predicates of a task with the arguments that `id` gives.
     pub(super) fn literals(
         &mut self,
         lowering: &mut Lowering<'_>,

@@ -1,4 +1,9 @@
-//! Roles: what each expression has to be where it stands, and what negates it. From the root down.
+//! Roles: what each expression must be where it stands, and what negates it. From the root down.
+//!
+//! The position decides the type: the operands of `<` are numbers, those of `&&` are whatever the
+//! whole must be. So types need no inference, and a mistake is reported at the operand that does
+//! not fit. The same descent pushes negation inward, which makes the formula's negation normal form
+//! a matter of reading roles.
 
 use super::intent;
 use crate::ast::{Comparison, Infix, Prefix};
@@ -6,20 +11,21 @@ use crate::error::{Error, Kind};
 use crate::predicate::{ParameterType, Scalar};
 use crate::resolve::{Callee, Expression, ExpressionId, Resolved};
 
-/// What an expression has to be where it stands.
+/// What an expression must be where it stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Role {
-    /// A formula of a task, under the negation `negated`: the `!`, or the `=>` whose left side it is.
+    /// A formula of a task, under the negation `negated`: the `!`, or the `=>` whose left side it
+    /// is. Two negations cancel.
     Formula { negated: Option<ExpressionId> },
-    /// A condition of one state.
+    /// A condition of one state: a formula without temporal operators.
     Condition,
     /// A number.
     Number,
-    /// The left part of a comparison chain.
+    /// The left part of a chain of comparisons, which is read with the last comparison.
     Chain,
-    /// A value, an argument or an index; whoever stands above reads it.
+    /// A value, an argument or an index; the expression above reads it.
     Part,
-    /// There is a mistake here, already reported.
+    /// An expression with a mistake that has been reported.
     Broken,
 }
 
@@ -30,11 +36,12 @@ pub(super) struct Roles {
 }
 
 impl Roles {
+    /// The role of an expression.
     pub(super) fn of(&self, id: ExpressionId) -> Role {
         self.roles[self.position(id)]
     }
 
-    /// Where `id` stands among the expressions of the item.
+    /// The position of `id` among the expressions of the item.
     pub(super) fn position(&self, id: ExpressionId) -> usize {
         (id.0 - self.first) as usize
     }
@@ -45,7 +52,8 @@ impl Roles {
     }
 }
 
-/// The roles of the expressions from `first` to `root`, which itself has to be a `role`.
+/// The roles of the expressions from `first` to `root`, where the root must be a `role`. Parents
+/// stand after their operands, so the pass goes backwards.
 pub(super) fn roles(
     resolved: &Resolved<'_>,
     (first, root): (ExpressionId, ExpressionId),
@@ -62,6 +70,7 @@ pub(super) fn roles(
     descent.roles
 }
 
+/// The state of the descent.
 struct Descent<'r> {
     resolved: &'r Resolved<'r>,
     roles: Roles,
@@ -69,11 +78,13 @@ struct Descent<'r> {
 }
 
 impl Descent<'_> {
+    /// Gives an expression a role.
     fn set(&mut self, id: ExpressionId, role: Role) {
         let position = self.roles.position(id);
         self.roles.roles[position] = role;
     }
 
+    /// Gives the operands of an expression their roles.
     fn descend(&mut self, id: ExpressionId) {
         match self.roles.of(id) {
             Role::Part => {}
@@ -89,12 +100,14 @@ impl Descent<'_> {
         self.resolved.operands(id).into_iter().for_each(|operand| self.set(operand, role));
     }
 
+    /// Notes a mistake, and silences everything below it.
     fn refuse(&mut self, id: ExpressionId, error: Error) {
         self.mistakes.push(error);
         self.set(id, Role::Broken);
         self.give(id, Role::Broken);
     }
 
+    /// The operands of a formula or a condition.
     fn formula(&mut self, id: ExpressionId, role: Role) {
         let flipped = match role {
             Role::Formula { negated } => Role::Formula { negated: negated.xor(Some(id)) },
@@ -122,6 +135,7 @@ impl Descent<'_> {
         }
     }
 
+    /// The operands of a temporal operator; refused in a condition and under a negation.
     fn temporal(&mut self, id: ExpressionId, role: Role) {
         let Role::Formula { negated } = role else {
             return self.refuse(id, self.temporal_predicate(id));
@@ -132,6 +146,7 @@ impl Descent<'_> {
         self.give(id, Role::Formula { negated: None });
     }
 
+    /// The sides of a comparison: numbers, or two values.
     fn comparison(&mut self, id: ExpressionId) {
         let Expression::Infix(Infix::Compare(op), left, right) = self.resolved[id].expression
         else {
@@ -154,7 +169,8 @@ impl Descent<'_> {
         }
     }
 
-    /// A number is an operand of its own; a value is read with the predicate or task.
+    /// The arguments of a predicate or a task. A number is an expression of its own; a value is
+    /// read with the call.
     fn application(&mut self, item: usize, arguments: &[ExpressionId]) {
         for (argument, parameter) in arguments.iter().zip(self.resolved.scope.parameters(item)) {
             if let ParameterType::Scalar(Scalar::Number(_)) = parameter.ty {
@@ -163,6 +179,7 @@ impl Descent<'_> {
         }
     }
 
+    /// The operands of a number.
     fn number(&mut self, id: ExpressionId) {
         match &self.resolved[id].expression {
             Expression::Prefix(Prefix::Minus, _)
@@ -191,6 +208,7 @@ impl Descent<'_> {
             .help("values are compared with `==` and `!=` only")
     }
 
+    /// The error for `p == true`.
     fn compared_truth(&self, truth: ExpressionId) -> Error {
         let message = "truth values are not compared";
         self.resolved
@@ -198,6 +216,7 @@ impl Descent<'_> {
             .help("for `p == true` write `p`, for `p == false` write `!p`")
     }
 
+    /// The error for a number where a formula must stand.
     fn not_a_formula(&self, id: ExpressionId) -> Error {
         let text = self.resolved.quote(id);
         let message = format!("`{text}` is a number, but a formula is needed here");
@@ -205,6 +224,7 @@ impl Descent<'_> {
             .help(format!("compare it with something, such as `{text} < 1`"))
     }
 
+    /// The error for a formula where a number must stand.
     fn not_a_number(&self, id: ExpressionId) -> Error {
         let text = self.resolved.quote(id);
         let message = format!("`{text}` is true or false, but a number is needed here");
@@ -212,6 +232,7 @@ impl Descent<'_> {
             .help("comparisons and arithmetic take numbers; `!`, `&&` and `F` give none")
     }
 
+    /// The error for a temporal operator in a predicate.
     fn temporal_predicate(&self, id: ExpressionId) -> Error {
         let symbol = self.resolved.symbol(id);
         let message = format!("a predicate speaks of one state, so `{symbol}` cannot stand in it");

@@ -1,4 +1,9 @@
 //! Tasks: an expression as a [`Spec`] in negation normal form.
+//!
+//! Propositions are numbered in the order of their first appearance, which becomes the order of the
+//! decision diagrams' levels. Therefore the leaves are all read first, and the formula is built in
+//! a second pass. A task that another one uses is copied into it, its propositions mapped: an
+//! automaton is built for each task as a whole.
 
 use super::atom::{Atom, Atoms};
 use super::lower::Lowering;
@@ -12,14 +17,14 @@ use crate::resolve::{Expression, ExpressionId, Name, Resolved};
 use crate::source::Span;
 use crate::spec::{Formula, FormulaId, Spec};
 
-/// What a leaf is, its conditions or the predicates of its task one by one.
+/// A leaf with its literals: those of its conditions, or those of the predicates of another task.
 enum Leaf<'c> {
     Conditions(Vec<Literal>),
     Task(&'c Task, Vec<Literal>),
 }
 
-/// The formula of a task, and the predicate of each of its propositions: in order of first
-/// appearance.
+/// The formula of a task, and the predicate of each of its propositions; `None` if there is a
+/// mistake in it.
 pub(super) fn spec(mut atoms: Atoms<'_, '_>) -> Option<(Spec, Vec<PredicateId>)> {
     let roles = atoms.roles;
     let mut found = Vec::new();
@@ -59,6 +64,7 @@ pub(super) fn spec(mut atoms: Atoms<'_, '_>) -> Option<(Spec, Vec<PredicateId>)>
     Some((builder.spec, predicates))
 }
 
+/// A leaf with its literals.
 fn leaf<'c>(atoms: &mut Atoms<'c, '_>, id: ExpressionId, atom: Option<Atom>) -> Option<Leaf<'c>> {
     let span = atoms.lowering.resolved.span(id);
     match atom? {
@@ -74,17 +80,19 @@ fn leaf<'c>(atoms: &mut Atoms<'c, '_>, id: ExpressionId, atom: Option<Atom>) -> 
     }
 }
 
-/// A spec in the making, with the formula of each expression.
+/// A spec under construction.
 struct Builder<'c, 'r> {
     lowering: &'c mut Lowering<'r>,
     roles: &'c Roles,
     spec: Spec,
-    /// The place of each predicate among the propositions.
+    /// The proposition of each predicate.
     positions: Memo<PredicateId, u32>,
+    /// The formula of each expression so far, by its position in the item.
     built: Vec<Option<FormulaId>>,
 }
 
 impl Builder<'_, '_> {
+    /// The formula of an expression, given those of its operands.
     fn formula(
         &mut self,
         id: ExpressionId,
@@ -106,6 +114,8 @@ impl Builder<'_, '_> {
         }
     }
 
+    /// The formula of an operator. Under a negation `&&` and `||` are exchanged; temporal operators
+    /// are never negated here.
     fn operator(&mut self, id: ExpressionId, negated: bool, span: Span) -> Option<FormulaId> {
         let of = |id| self.built[self.roles.position(id)];
         let spec = &mut self.spec;
@@ -152,8 +162,8 @@ impl Builder<'_, '_> {
         joined
     }
 
-    /// The formula of another spec; its negation, if `negated`, in which case it has no temporal
-    /// operator.
+    /// The formula of another task in this one. If it is negated it has no temporal operator, which
+    /// was checked.
     fn import(
         &mut self,
         other: &Spec,
@@ -177,6 +187,7 @@ impl Builder<'_, '_> {
     }
 }
 
+/// A literal as a formula, negated or not.
 fn literal(
     spec: &mut Spec,
     positions: &Memo<PredicateId, u32>,
@@ -202,6 +213,7 @@ fn temporal(spec: &Spec) -> Option<FormulaId> {
     formulas.find(|(_, formula)| is_temporal(*formula)).map(|(id, _)| id)
 }
 
+/// The error for a negated task with a temporal operator.
 fn negated_task(
     resolved: &Resolved<'_>,
     id: ExpressionId,
@@ -216,7 +228,8 @@ fn negated_task(
         .help("only formulas without F, X, U and T can be negated")
 }
 
-/// The tasks that `root` is the plain conjunction or disjunction of.
+/// The tasks of which `root` is a plain conjunction or disjunction; `None` if anything else is in
+/// it.
 pub(super) fn parts(
     resolved: &Resolved<'_>,
     root: ExpressionId,

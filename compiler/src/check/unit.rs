@@ -1,9 +1,12 @@
-//! Units: what each number of an expression is measured in, from the leaves up.
+//! Units: the unit of each number of an expression, from the leaves up.
 //!
-//! A pass of its own, and only in sources that declare a unit. What has no declared unit may be in
-//! any, so that a mistake is reported only where two declared units meet. What has a mistake in it
-//! goes with everything, and so does what is made of it. Terms are shared by their values, which
-//! have no units, so this goes over the expressions as they were written.
+//! This is a pass of its own, and it runs only in sources that declare a unit. A number without a
+//! declared unit may be in any, so a mistake is reported only where two declared units meet: units
+//! can be added to a source one field at a time. A number with a mistake fits everything, and so
+//! does whatever is made of it.
+//!
+//! Terms are shared by their values, which have no units, so this pass goes over the expressions as
+//! they were written.
 
 use super::role::{Role, Roles};
 use crate::ast::{Arithmetic, Infix, Prefix, quoted};
@@ -12,16 +15,17 @@ use crate::predicate::{Function, TermId};
 use crate::resolve::{Callee, Expression, ExpressionId, Name, Resolved, large_unit};
 use crate::unit::Unit;
 
-/// What a number is measured in.
+/// What is known about the unit of a number.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Measure {
-    /// Nobody says.
+    /// Nothing: it is not declared.
     Free,
-    /// There is a mistake in it, already reported.
+    /// There is a mistake in it, which has been reported.
     Broken,
-    /// Whatever is needed: it is made of written numbers. A factor of nothing else is plain.
+    /// It is made of written numbers alone and fits any unit, as 1 does in `x < 1`. As a factor
+    /// beside a unit it is plain.
     Written,
-    /// This.
+    /// It is this unit.
     In(Unit),
 }
 
@@ -31,22 +35,22 @@ impl From<Option<Unit>> for Measure {
     }
 }
 
-/// What the numbers of one item are measured in.
+/// The state of the pass over one item.
 pub(super) struct Measuring<'r> {
     pub(super) resolved: &'r Resolved<'r>,
     pub(super) item: usize,
-    /// What each constant is measured in, by its item.
+    /// The units of the constants, by item.
     pub(super) constants: &'r [Measure],
     pub(super) roles: &'r Roles,
-    /// The terms of the expressions that are numbers; those without have mistakes.
+    /// The terms of the expressions that are numbers. One without a term has a mistake.
     pub(super) terms: &'r [Option<TermId>],
-    /// The measures of the expressions so far.
+    /// The units of the expressions so far, by their position in the item.
     pub(super) known: Vec<Measure>,
     pub(super) mistakes: &'r mut Vec<Error>,
 }
 
 impl Measuring<'_> {
-    /// Checks the units in the expression, and answers what its `root` is measured in.
+    /// Checks the units in the expression, and returns that of its `root`.
     pub(super) fn measure(mut self, root: ExpressionId) -> Measure {
         if !self.resolved.scope.has_units() {
             return Measure::Free;
@@ -66,10 +70,12 @@ impl Measuring<'_> {
         }
     }
 
+    /// The unit of an expression that has been measured.
     fn of(&self, id: ExpressionId) -> Measure {
         self.known[self.roles.position(id)].clone()
     }
 
+    /// Notes a mistake; what is made of the number is not checked any more.
     fn refuse(&mut self, error: Error) -> Measure {
         self.mistakes.push(error);
         Measure::Broken
@@ -80,7 +86,7 @@ impl Measuring<'_> {
         Error::new(Kind::Unit, message, self.resolved[id].outer)
     }
 
-    /// Checks a comparison, or what a predicate or task is applied to; neither has a unit.
+    /// Checks a comparison, or the arguments of a predicate or task. Neither has a unit itself.
     fn atom(&mut self, id: ExpressionId) -> Measure {
         match &self.resolved[id].expression {
             Expression::Infix(Infix::Compare(_), ..) => {
@@ -111,6 +117,7 @@ impl Measuring<'_> {
         operands
     }
 
+    /// Checks arguments against the units of the parameters.
     fn arguments(&mut self, item: usize, arguments: &[ExpressionId]) {
         let resolved = self.resolved;
         let parameters = resolved.scope.parameters(item);
@@ -133,7 +140,8 @@ impl Measuring<'_> {
         }
     }
 
-    /// What the constant of this item is measured in, whose value is measured in `found`.
+    /// The unit of the constant of this item, whose expression has the unit `found`. The declared
+    /// one counts.
     fn constant(&mut self, root: ExpressionId, found: Measure) -> Measure {
         let resolved = self.resolved;
         let Some((wanted, place)) = resolved.scope.constant_unit(self.item) else { return found };
@@ -149,6 +157,7 @@ impl Measuring<'_> {
         Measure::In(wanted.clone())
     }
 
+    /// The unit of one number, from those of its operands.
     fn number(&mut self, id: ExpressionId) -> Measure {
         if self.terms[self.roles.position(id)].is_none() {
             return Measure::Broken;
@@ -173,6 +182,7 @@ impl Measuring<'_> {
         }
     }
 
+    /// The unit of a calculation.
     fn calculated(
         &mut self,
         id: ExpressionId,
@@ -186,7 +196,7 @@ impl Measuring<'_> {
         }
     }
 
-    /// What numbers are measured in that must all be in one unit; `purpose` says what for.
+    /// The unit of numbers that must all be in one; `purpose` ends the sentence if they are not.
     fn agree(&mut self, operands: &[ExpressionId], purpose: &str) -> Measure {
         let mut common: Option<(ExpressionId, Unit)> = None;
         let (mut written, mut broken) = (true, false);
@@ -212,6 +222,7 @@ impl Measuring<'_> {
         }
     }
 
+    /// The error for two numbers of different units.
     fn unequal(
         &self,
         (a, first): &(ExpressionId, Unit),
@@ -228,6 +239,7 @@ impl Measuring<'_> {
         self.converted(error, *b, second, first)
     }
 
+    /// The unit of a product or a quotient.
     fn product(&mut self, id: ExpressionId, op: Arithmetic, sides: [ExpressionId; 2]) -> Measure {
         let unit = |measure| match measure {
             Measure::In(unit) => unit,
@@ -243,7 +255,7 @@ impl Measuring<'_> {
         self.bounded(id, if divides { left.over(&right) } else { left.times(&right) })
     }
 
-    /// What a unit is, if it is within the bounds.
+    /// The unit, or the error that it is beyond the bounds.
     fn bounded(&mut self, id: ExpressionId, unit: Option<Unit>) -> Measure {
         if let Some(unit) = unit {
             return Measure::In(unit);
@@ -252,6 +264,7 @@ impl Measuring<'_> {
         self.refuse(large_unit(message, self.resolved[id].outer))
     }
 
+    /// The unit of a function's value.
     fn called(
         &mut self,
         id: ExpressionId,
@@ -278,6 +291,7 @@ impl Measuring<'_> {
         }
     }
 
+    /// The unit of a square root.
     fn root(&mut self, id: ExpressionId, operand: ExpressionId, unit: &Unit) -> Measure {
         if let Some(root) = unit.root() {
             return Measure::In(root);
@@ -288,7 +302,8 @@ impl Measuring<'_> {
         self.refuse(error.help("a square root halves each power of a unit, so it must be even"))
     }
 
-    /// What a function is measured in that takes an angle, or else a plain number.
+    /// The unit of a function that takes an angle or a plain number. `rad` is the one name with a
+    /// meaning here: it is plain to `sin`, `cos` and `tan`.
     fn plain_argument(&mut self, id: ExpressionId, function: Function, unit: &Unit) -> Measure {
         let turns = matches!(function, Function::Sin | Function::Cos | Function::Tan);
         let angle = matches!(function, Function::Asin | Function::Acos | Function::Atan);
@@ -311,6 +326,7 @@ impl Measuring<'_> {
         })
     }
 
+    /// The unit of a power.
     fn power(
         &mut self,
         id: ExpressionId,
@@ -333,7 +349,8 @@ impl Measuring<'_> {
         }
     }
 
-    /// What a power is measured in whose base is in `unit`.
+    /// The unit of a power whose base is in `unit`. The exponent must be a known integer, for the
+    /// unit depends on its value.
     fn power_of(
         &mut self,
         id: ExpressionId,
@@ -357,8 +374,8 @@ impl Measuring<'_> {
         )
     }
 
-    /// Adds how to write `id`, which is in the unit `found`, in the unit `wanted`, if that is a
-    /// matter of one name.
+    /// Adds a help on how to write `id`, which is in the unit `found`, in the unit `wanted`, if the
+    /// two differ by one name.
     fn converted(&self, error: Error, id: ExpressionId, found: &Unit, wanted: &Unit) -> Error {
         let Some((to, from)) = wanted.over(found).and_then(|factor| factor.ratio()) else {
             return error;
@@ -381,6 +398,7 @@ impl Measuring<'_> {
         }
     }
 
+    /// A unit as a label has it.
     fn label(&self, unit: &Unit) -> String {
         match unit.is_plain() {
             true => "a plain number".to_owned(),
@@ -388,10 +406,12 @@ impl Measuring<'_> {
         }
     }
 
+    /// A unit as the predicate of a sentence.
     fn is_in(&self, unit: &Unit) -> String {
         format!("is {}", self.label(unit))
     }
 
+    /// A unit after "takes" or "declared".
     fn within(&self, unit: &Unit) -> String {
         format!("{}{}", if unit.is_plain() { "as " } else { "" }, self.label(unit))
     }

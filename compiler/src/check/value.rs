@@ -1,5 +1,9 @@
-//! Values of enumerations, which can only be equal to another or not and be an index; places; and
-//! Rust expressions.
+//! Values of enumerations, places of the state, and Rust expressions: the leaves that are not
+//! simple numbers.
+//!
+//! The name of a value does not say its enumeration, because several may share the name. The
+//! neighbour does: the other side of a comparison, the index of a table, the type of a parameter.
+//! Only if none of them does is the name ambiguous.
 
 use std::rc::Rc;
 
@@ -13,7 +17,7 @@ use crate::resolve::{
 use crate::token::{compact, mentions};
 
 impl Lowering<'_> {
-    /// The parameter that the name `id` is.
+    /// The parameter that the name `id` stands for.
     pub(super) fn parameter(&mut self, id: ExpressionId, ty: ParameterType) -> TermId {
         let name = self.resolved.text(id).to_owned();
         self.arena.add_term(Term::Parameter { name, ty })
@@ -46,6 +50,7 @@ impl Lowering<'_> {
         }
     }
 
+    /// The place `id`, which must hold a value.
     fn place_of_value(&mut self, id: ExpressionId) -> Option<TermId> {
         let (term, scalar) = self.place(id)?;
         let what = match scalar {
@@ -58,11 +63,13 @@ impl Lowering<'_> {
         self.refuse(self.resolved.type_error(id, message))
     }
 
+    /// A value as a term.
     fn variant(&mut self, Value { of, number }: Value) -> TermId {
         let name = self.resolved.scope.enums[of as usize].variants[number as usize].clone();
         self.arena.add_term(Term::Variant { of, number, name })
     }
 
+    /// The error for a name that several enumerations have.
     fn ambiguous(&self, id: ExpressionId, first: Value, second: Value) -> Error {
         let text = self.resolved.text(id);
         let (one, two) = (self.enum_name(first.of), self.enum_name(second.of));
@@ -70,6 +77,7 @@ impl Lowering<'_> {
         self.resolved.type_error(id, message).help(format!("say which: `{one}::{text}`"))
     }
 
+    /// The error for a name that the expected enumeration does not have.
     fn not_a_value(&self, id: ExpressionId, of: u32) -> Error {
         let known = &self.resolved.scope.enums[of as usize];
         let text = self.resolved.quote(id);
@@ -79,11 +87,12 @@ impl Lowering<'_> {
         error.help(near.unwrap_or_else(|| format!("its values are {}", listed(&known.variants))))
     }
 
+    /// The name of an enumeration.
     pub(super) fn enum_name(&self, of: u32) -> &str {
         &self.resolved.scope.enums[of as usize].name
     }
 
-    /// Whether two values are equal, or different.
+    /// The condition that two values are equal, or different.
     pub(super) fn compare_values(
         &mut self,
         id: ExpressionId,
@@ -102,7 +111,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// The error for values that can never be equal because of what they are.
+    /// The error for two values that can never be equal because of their types.
     fn unlike(
         &self,
         id: ExpressionId,
@@ -131,6 +140,7 @@ impl Lowering<'_> {
         }
     }
 
+    /// The sort of a term that is a value.
     fn term_sort(&self, term: TermId) -> Option<Sort> {
         match self.arena.term(term) {
             Term::Variant { of, .. } => Some(Sort::Enum { of: *of, optional: false }),
@@ -141,8 +151,8 @@ impl Lowering<'_> {
         }
     }
 
-    /// The value `id` where one of the enumeration `of` must stand, or `none` if that may be: an
-    /// index or an argument.
+    /// The value `id` as an index or an argument: it must be one of the enumeration `of`, or `none`
+    /// where that is allowed.
     pub(super) fn value_of(&mut self, id: ExpressionId, of: u32, or_none: bool) -> Option<TermId> {
         let term = self.value(id, Some(of))?;
         let sort = self.term_sort(term);
@@ -155,6 +165,7 @@ impl Lowering<'_> {
         if fits { Some(term) } else { self.refuse(self.not_this_value(id, of, sort)) }
     }
 
+    /// The error for a value of another enumeration.
     fn not_this_value(&self, id: ExpressionId, of: u32, sort: Option<Sort>) -> Error {
         let (text, wanted) = (self.resolved.quote(id), self.enum_name(of));
         let what = match sort {
@@ -187,7 +198,7 @@ impl Lowering<'_> {
             .help(format!("compare it with another, such as {example}"))
     }
 
-    /// The place `id`, and what stands there.
+    /// The place `id` as a term, and the type there.
     pub(super) fn place(&mut self, id: ExpressionId) -> Option<(TermId, Scalar)> {
         let found = self.find_place(id).map_err(|error| self.mistakes.extend(error));
         let (place, scalar) = found.ok()?;
@@ -196,6 +207,7 @@ impl Lowering<'_> {
         Some((self.arena.add_term(Term::Place { steps, scalar }), scalar))
     }
 
+    /// One step of a path. Recurses into places as indices, whose nesting is bounded.
     fn step(&mut self, segment: &Segment) -> Option<Step> {
         Some(match *segment {
             Segment::Field(name) => Step::Field(self.resolved.ast.source().slice(name).to_owned()),
@@ -211,7 +223,7 @@ impl Lowering<'_> {
         })
     }
 
-    /// The place `id` and what stands there; or why it is none, unless that follows from a mistake
+    /// The place `id` and the type there, or its error; `Err(None)` if that follows from a mistake
     /// in a declaration.
     fn find_place(&self, id: ExpressionId) -> Result<(Place, Scalar), Option<Error>> {
         let resolved = self.resolved;
@@ -227,14 +239,14 @@ impl Lowering<'_> {
         Err((!follows).then_some(error))
     }
 
-    /// A Rust expression, with what the names of parameters in it stand for; a value, or a number.
+    /// A Rust expression as a term: a value, or a number.
     pub(super) fn rust(&mut self, id: ExpressionId, value: bool) -> Option<TermId> {
         let (text, bindings) = self.rust_text(id)?;
         let span = self.resolved.span(id);
         Some(self.arena.add_term(Term::Host { text, span, bindings, value }))
     }
 
-    /// The text of a Rust expression, and what the parameters and the bound names in it stand for.
+    /// The text of a Rust expression, and the meaning of the parameters and bound names in it.
     pub(super) fn rust_text(&mut self, id: ExpressionId) -> Option<(String, Vec<Binding>)> {
         if let Some(error) = self.unlike_rust(id) {
             return self.refuse(error);
@@ -257,7 +269,7 @@ impl Lowering<'_> {
         Some((text, bindings))
     }
 
-    /// What a bound name stands for in a Rust expression.
+    /// The term of a bound name in a Rust expression.
     fn bound(&mut self, bound: Bound) -> TermId {
         match bound {
             Bound::Value(value) => self.variant(value),
@@ -270,8 +282,8 @@ impl Lowering<'_> {
         }
     }
 
-    /// The error for what is no Rust in an expression: a word that Rust has for itself, a part of a
-    /// number, which may be written as Rust does not.
+    /// The error for something in an expression that Rust would not read so: a keyword as a name,
+    /// an unknown part of a path.
     fn unlike_rust(&self, id: ExpressionId) -> Option<Error> {
         let resolved = self.resolved;
         for at in (resolved[id].first.0..=id.0).map(ExpressionId) {
@@ -295,7 +307,7 @@ impl Lowering<'_> {
     }
 }
 
-/// Names as a message lists them: not too many.
+/// Names as a message lists them: at most twelve.
 fn listed(names: &[String]) -> String {
     const MOST: usize = 12;
     let shown = names.iter().take(MOST).map(|name| format!("`{name}`")).collect::<Vec<_>>();

@@ -1,5 +1,9 @@
-//! Conditions made of others, with what is constant folded, and arguments in the place of
-//! parameters.
+//! Conditions and terms made of others: constants folded, arguments in place of parameters.
+//!
+//! Folding uses the operations that generated code uses, in `f64`, so a folded constant is the
+//! number that the program would compute. Substitution is a pass over the needed part of the arena,
+//! operands first, with a memo by place: a shared subterm is substituted once, and nothing
+//! recurses.
 
 use super::{
     Arena, Arguments, Binding, Condition, ConditionId, Number, Scalar, Step, Term, TermId,
@@ -9,7 +13,7 @@ use crate::arena;
 use crate::ast::Comparison;
 
 impl Arena {
-    /// ¬φ
+    /// ¬φ. The negation of a comparison is the opposite comparison: robustness is exact either way.
     pub fn not(&mut self, a: ConditionId) -> ConditionId {
         let condition = match *self.condition(a) {
             Condition::Truth(value) => Condition::Truth(!value),
@@ -40,7 +44,8 @@ impl Arena {
         }
     }
 
-    /// One comparison, what varies on the left.
+    /// One comparison. What varies stands on the left, so that `x < 3` and `3 > x` are one
+    /// condition; two constants are compared at once.
     pub fn compare(&mut self, op: Comparison, left: TermId, right: TermId) -> ConditionId {
         let condition = match (self.fixed(left), self.fixed(right)) {
             (Some(x), Some(y)) => Condition::Truth(op.holds(x, y)),
@@ -50,7 +55,8 @@ impl Arena {
         self.add_condition(condition)
     }
 
-    /// A predicate with arguments, whose condition with these arguments is `meaning`.
+    /// A predicate with arguments; `meaning` is its condition with these arguments. If that is a
+    /// constant, the predicate is not called at all.
     pub fn apply(
         &mut self,
         predicate: PredicateId,
@@ -63,8 +69,9 @@ impl Arena {
         }
     }
 
-    /// The number that stands for a term that depends on nothing: its value, or its place in its
-    /// enumeration.
+    /// The number of a term that depends on nothing: its value, or its index in its enumeration,
+    /// with -1 for `none`. Values of different enumerations never meet here; the types are checked
+    /// before.
     fn fixed(&self, id: TermId) -> Option<f64> {
         match self.term(id) {
             Term::Number(Number(value)) => Some(*value),
@@ -74,7 +81,7 @@ impl Arena {
         }
     }
 
-    /// Whether a term is a value that can only be equal to another or not, rather than a number.
+    /// Whether a term is a value, which can only be equal to another or not, rather than a number.
     #[must_use]
     pub fn is_value(&self, id: TermId) -> bool {
         match self.term(id) {
@@ -87,7 +94,7 @@ impl Arena {
         }
     }
 
-    /// The condition `root` with `arguments` in the place of the parameters of these names.
+    /// The condition `root` with `arguments` in place of the parameters of these names.
     pub fn substitute(&mut self, root: ConditionId, arguments: &Arguments) -> ConditionId {
         let needed = self.conditions_of(root);
         let mut done: Vec<ConditionId> = Vec::with_capacity(needed.len());
@@ -99,8 +106,9 @@ impl Arena {
         done[place(&needed, root.0)]
     }
 
-    /// How many operators and operands a condition has when it is written out, each as often as it
-    /// stands there; predicates without parameters are operands.
+    /// The number of operators and operands of a condition that is written out, shared ones counted
+    /// wherever they stand; predicates without parameters count as one. Saturating: sharing can
+    /// make it exponential.
     #[must_use]
     pub fn written_size(&self, root: ConditionId) -> usize {
         let conditions = self.conditions_of(root);
@@ -122,14 +130,15 @@ impl Arena {
         sizes[place(&conditions, root.0)]
     }
 
-    /// The numbers of all conditions that `root` is made of, operands first; those of predicates
-    /// are not among them.
+    /// The numbers of all conditions that `root` is made of, operands first, without those of other
+    /// predicates.
     fn conditions_of(&self, root: ConditionId) -> Vec<u32> {
         arena::needed(vec![root.0], &mut |id, open| {
             open.extend(self.condition(ConditionId(id)).operands().iter().map(|a| a.0));
         })
     }
 
+    /// One condition with arguments, given its operands with arguments.
     fn substituted(
         &mut self,
         id: ConditionId,
@@ -166,7 +175,7 @@ impl Arena {
         }
     }
 
-    /// The term `root` with `arguments` in the place of the parameters of these names.
+    /// The term `root` with `arguments` in place of the parameters of these names.
     pub fn replace(&mut self, root: TermId, arguments: &Arguments) -> TermId {
         let needed = self.terms_of(vec![root]);
         let mut done: Vec<TermId> = Vec::with_capacity(needed.len());
@@ -185,6 +194,7 @@ impl Arena {
         })
     }
 
+    /// One term with arguments, given its operands with arguments.
     fn replaced(
         &mut self,
         id: TermId,
@@ -223,7 +233,8 @@ impl Arena {
         self.add_term(term)
     }
 
-    /// The value of a calculation with known numbers; it may be infinite, or no number.
+    /// The value of a calculation whose operands are constants; it may be infinite or NaN. `None`
+    /// if an operand is not constant.
     pub(crate) fn value(&self, term: &Term) -> Option<f64> {
         match *term {
             Term::Negate(a) => self.constant(a).map(|value| -value),
@@ -246,13 +257,14 @@ impl Arena {
         }
     }
 
-    /// A number. There is one zero: its sign is no part of any meaning here.
+    /// A number. There is one zero: its sign is not part of any meaning here.
     pub(crate) fn number(&mut self, value: f64) -> TermId {
         self.add_term(Term::Number(Number(value + 0.0)))
     }
 
-    /// The step to the element of an array of `length` at a number; it stays unknown if there is
-    /// no such element.
+    /// The step to the element of an array of `length` at a number. It stays [`Step::At`] if the
+    /// number is not known, or if there is no such element, which is reported where the argument
+    /// stands.
     pub fn at(&self, index: TermId, length: u32) -> Step {
         let fits = |value: &f64| value.fract() == 0.0 && 0.0 <= *value && *value < length.into();
         match self.constant(index).filter(fits) {
@@ -264,8 +276,8 @@ impl Arena {
 }
 
 impl Module {
-    /// The least length of an array that a parameter of a task is an index of, and the place that
-    /// it is part of.
+    /// The least length of an array that a parameter of a task indexes, and the place that it is
+    /// part of. The generated function asserts that the argument is below it.
     #[must_use]
     pub fn shortest_array(&self, task: &Task, parameter: &str) -> Option<(u32, TermId)> {
         let is_it = |index: TermId| matches!(self.arena.term(index), Term::Parameter { name, .. } if name == parameter);
@@ -284,7 +296,8 @@ impl Module {
         shortest
     }
 
-    /// An element of an array, of this length, that the predicates of a task read and there is not.
+    /// An element that the predicates of a task read although the array is too short for it: the
+    /// place, and the length.
     #[must_use]
     pub fn missing_element(&self, task: &Task) -> Option<(TermId, u32)> {
         self.needed_terms(task).into_iter().find_map(|place| {
@@ -302,7 +315,8 @@ impl Module {
         self.terms_of(&self.conditions_of(roots.collect()))
     }
 
-    /// All terms that some conditions compare, and what these are made of, operands first.
+    /// All terms that some conditions compare, and the terms that these are made of, operands
+    /// first.
     #[must_use]
     pub fn terms_of(&self, conditions: &[ConditionId]) -> Vec<TermId> {
         let mut terms = Vec::new();
@@ -316,7 +330,7 @@ impl Module {
         self.arena.terms_of(terms).into_iter().map(TermId).collect()
     }
 
-    /// All conditions that `roots` are made of, those of predicates among them.
+    /// All conditions that `roots` are made of, those of other predicates included.
     #[must_use]
     pub fn conditions_of(&self, roots: Vec<ConditionId>) -> Vec<ConditionId> {
         let roots = roots.into_iter().map(|root| root.0).collect();
@@ -326,7 +340,7 @@ impl Module {
         needed.into_iter().map(ConditionId).collect()
     }
 
-    /// What a condition is made of; a predicate, of its condition.
+    /// The conditions that a condition is made of; for another predicate, its condition.
     pub(crate) fn operands(&self, condition: &Condition) -> Vec<ConditionId> {
         match condition {
             Condition::Is(predicate) => vec![self.predicates[predicate.0 as usize].condition],
@@ -346,7 +360,7 @@ impl Condition {
         }
     }
 
-    /// The terms that it names, not those of its operands.
+    /// The terms that it names, without those of its operands.
     #[must_use]
     pub fn terms(&self) -> Vec<TermId> {
         match self {
@@ -359,7 +373,7 @@ impl Condition {
     }
 }
 
-/// Where a part stands among all of them.
+/// The place of an id among the needed ones.
 fn place(needed: &[u32], id: u32) -> usize {
     needed.binary_search(&id).expect("operands are needed")
 }

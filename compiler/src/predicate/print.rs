@@ -1,4 +1,8 @@
-//! Conditions and terms as text: the names of predicates that have none.
+//! Conditions and terms as text. This is the name of a predicate that the author did not name, so
+//! equal conditions must print alike and different ones differently.
+//!
+//! Brackets are as few as Rust's precedence allows; numbers are printed so that they read as the
+//! same number.
 
 use std::fmt;
 
@@ -13,7 +17,8 @@ pub struct Printed<'a> {
     root: Piece,
 }
 
-/// What is still to be printed; the number is how tightly the surroundings bind.
+/// A piece of the text that is still to be printed. The number is how tightly its surroundings
+/// bind: a looser piece gets brackets.
 #[derive(Clone)]
 enum Piece {
     Condition(ConditionId, u8),
@@ -43,7 +48,7 @@ impl Arena {
         Printed { arena: self, predicates: &[], root: Piece::Term(root, 0) }
     }
 
-    /// The condition `root`, which may be made of `predicates`, as text.
+    /// The condition `root` as text; `predicates` gives the names of other predicates in it.
     #[must_use]
     pub fn display_condition<'a>(
         &'a self,
@@ -82,6 +87,7 @@ impl fmt::Display for Printed<'_> {
     }
 }
 
+/// The pieces, in brackets or not.
 fn bracketed(brackets: bool, mut pieces: Vec<Piece>) -> Vec<Piece> {
     if brackets {
         pieces.insert(0, Piece::Text("("));
@@ -91,6 +97,7 @@ fn bracketed(brackets: bool, mut pieces: Vec<Piece>) -> Vec<Piece> {
 }
 
 impl Printed<'_> {
+    /// How tightly a condition binds, and its pieces.
     fn condition(&self, condition: &Condition) -> (u8, Vec<Piece>) {
         use Piece::{Text, Word};
         let between = |a, symbol, b, level| {
@@ -122,10 +129,12 @@ impl Printed<'_> {
         }
     }
 
+    /// The name of another predicate.
     fn name(&self, predicate: PredicateId) -> Piece {
         Piece::Word(self.predicates[predicate.0 as usize].name.clone())
     }
 
+    /// How tightly a term binds, and its pieces.
     fn term(&self, term: &Term) -> (u8, Vec<Piece>) {
         use Piece::{Term as Inner, Text, Word};
         match term {
@@ -153,7 +162,7 @@ impl Printed<'_> {
         }
     }
 
-    /// A Rust expression with what its parameters stand for.
+    /// A Rust expression with its parameters replaced by what they stand for.
     fn host(&self, text: &str, bindings: &[Binding]) -> Piece {
         let print = |root| {
             let root = Piece::Term(root, 0);
@@ -165,13 +174,15 @@ impl Printed<'_> {
     }
 }
 
-/// A number in its shorter form, which reads as the same number.
+/// A number in the shorter of its two forms; both read as the same number. 17 digits identify a
+/// double.
 fn number(value: f64) -> String {
     let plain = value.to_string();
     let short = format!("{value:e}");
     if plain.len() > 17 && short.len() < plain.len() { short } else { plain }
 }
 
+/// The path of a place.
 fn place(steps: &[Step]) -> Vec<Piece> {
     let mut pieces = Vec::new();
     for (i, step) in steps.iter().enumerate() {

@@ -1,5 +1,9 @@
-//! Declarations: the items of a source to its [`Scope`], names first, then types, the state, what
-//! predicates and tasks take, and units.
+//! Declarations: from the items of a source to its [`Scope`].
+//!
+//! Names come first, because types and units mention them; then types, enumerations before the
+//! structs that use them; then the state, the parameters of predicates and tasks, and the units of
+//! constants. A declaration with a mistake is left out, and its name is remembered as broken, so
+//! that its uses are not reported as well.
 
 use rustc_hash::FxHashMap;
 
@@ -14,7 +18,7 @@ use crate::predicate::{
 use crate::source::Span;
 use crate::unit::{MOST_NAMES, MOST_POWER, Unit, Units};
 
-/// Reads all declarations.
+/// Reads all declarations. Mistakes are in [`Scope::mistakes`].
 pub(super) fn declare(ast: &Ast, names: Names) -> Scope<'_> {
     let mut scope = Scope {
         ast,
@@ -42,6 +46,8 @@ pub(super) fn declare(ast: &Ast, names: Names) -> Scope<'_> {
 }
 
 impl<'a> Scope<'a> {
+    /// Collects the names of the items, and refuses names that are declared twice. The first
+    /// declaration counts.
     fn declare_names(&mut self) {
         let mut first: FxHashMap<&str, Span> = FxHashMap::default();
         for (index, item) in self.ast.items().iter().enumerate() {
@@ -66,6 +72,8 @@ impl<'a> Scope<'a> {
         }
     }
 
+    /// Reads the enumerations, then the structs. A struct may use any enumeration, and structs
+    /// above it.
     fn declare_types(&mut self) {
         for item in self.ast.items() {
             if let ItemKind::Enum(variants) = &item.kind {
@@ -83,6 +91,7 @@ impl<'a> Scope<'a> {
         }
     }
 
+    /// Reads the values of one enumeration.
     fn declare_variants(&mut self, of: Span, names: &[Span]) {
         if names.is_empty() {
             let message = format!("the enumeration `{}` has no values", self.text(of));
@@ -101,6 +110,7 @@ impl<'a> Scope<'a> {
         }
     }
 
+    /// Reads the state; a second one is a mistake.
     fn declare_state(&mut self) {
         let mut first: Option<&Item> = None;
         for item in self.ast.items() {
@@ -129,6 +139,7 @@ impl<'a> Scope<'a> {
         }
     }
 
+    /// Reads the fields of a struct or of the state.
     fn declare_struct(&mut self, item: &Item, declarations: &[Declaration]) -> Struct {
         let mut first: FxHashMap<&str, Span> = FxHashMap::default();
         let mut fields = Vec::new();
@@ -147,13 +158,16 @@ impl<'a> Scope<'a> {
         Struct { name: self.text(item.name).to_owned(), docs: item.docs.clone(), fields }
     }
 
-    /// Whether the name at `span` is not among the ones before, which it joins.
+    /// Whether the name at `span` is new among `names`, to which it is added; reports it if it is
+    /// not.
     fn is_new(&mut self, names: &mut FxHashMap<&'a str, Span>, span: Span) -> bool {
         let before = names.insert(self.text(span), span);
         self.mistakes.extend(before.map(|before| duplicate(self.text(span), span, before)));
         before.is_none()
     }
 
+    /// Reads the parameters of predicates and tasks. One whose type has a mistake is unclear:
+    /// messages about it would follow from that mistake.
     fn declare_parameters(&mut self) {
         for (item, entry) in self.ast.items().iter().enumerate() {
             let (ItemKind::Predicate(declared, _)
@@ -189,6 +203,8 @@ impl<'a> Scope<'a> {
         }
     }
 
+    /// The type of a parameter. `f32` is left out: its robustness would be computed in `f64`
+    /// anyway, and an argument would be converted silently.
     fn parameter_type(&self, written: &FieldType) -> Result<ParameterType, Error> {
         let text = self.text(written.name);
         let known = Scalar::named(text).is_some() || self.enumeration(text).is_some();
@@ -235,6 +251,7 @@ impl<'a> Scope<'a> {
         Ok(ty)
     }
 
+    /// The length of an array.
     fn length(&self, span: Span) -> Result<u32, Error> {
         let text = self.text(span).replace('_', "");
         text.parse().map_err(|_| {
@@ -244,6 +261,7 @@ impl<'a> Scope<'a> {
         })
     }
 
+    /// The error for a type that does not exist.
     fn unknown_type(&self, span: Span) -> Error {
         let text = self.text(span);
         let scalars = ["f64", "f32", "i32", "i64", "u32", "u64", "i8", "i16", "u8", "u16", "bool"];
@@ -256,6 +274,7 @@ impl<'a> Scope<'a> {
         error.help(near.unwrap_or_else(|| types.to_owned()))
     }
 
+    /// Reads the units of constants; their values are expressions and come later.
     fn declare_constants(&mut self) {
         for (item, entry) in self.ast.items().iter().enumerate() {
             if let ItemKind::Constant(Some(written), _) = &entry.kind {
@@ -265,7 +284,7 @@ impl<'a> Scope<'a> {
         }
     }
 
-    /// The unit of a field or a parameter; what is not a number has none.
+    /// The unit of a field or a parameter. Anything that is not a number has none.
     fn declared_unit(&mut self, declaration: &Declaration, is_number: bool) -> Option<Unit> {
         let written = declaration.unit.as_ref()?;
         if is_number {
@@ -278,12 +297,13 @@ impl<'a> Scope<'a> {
         None
     }
 
+    /// The unit that an author wrote, or its mistake.
     fn unit(&mut self, written: &WrittenUnit) -> Option<Unit> {
         self.measured = true;
         self.written_unit(written).map_err(|error| self.mistakes.push(error)).ok()
     }
 
-    /// The unit that an author wrote.
+    /// The product of the factors of a unit.
     fn written_unit(&mut self, written: &WrittenUnit) -> Result<Unit, Error> {
         let mut powers = Vec::with_capacity(written.factors.len());
         for factor in &written.factors {
@@ -310,11 +330,12 @@ pub(crate) fn large_unit(message: String, span: Span) -> Error {
     ))
 }
 
+/// A position as an index.
 fn index(at: usize) -> u32 {
     u32::try_from(at).expect("fewer than 2^32 of a kind")
 }
 
-/// Whether a type is that of numbers, or of an array of them.
+/// Whether a type is a number type, or an array of one.
 fn has_numbers(mut ty: &Type) -> bool {
     while let Type::Array(element, _) | Type::Table(element, _) = ty {
         ty = element;
@@ -322,12 +343,15 @@ fn has_numbers(mut ty: &Type) -> bool {
     matches!(ty, Type::Scalar(Scalar::Number(_)))
 }
 
+/// Whether an item that could not be parsed may have declared a type: any type may then be unknown
+/// only because of it.
 fn is_broken_type(ast: &Ast, item: &Item) -> bool {
     let text = ast.source().slice(item.span);
     matches!(item.kind, ItemKind::Broken(_))
         && (["state", "struct", "enum"].iter().any(|word| text.contains(word)))
 }
 
+/// Whether an item's name can stand in an expression.
 fn is_value(kind: &ItemKind) -> bool {
     matches!(
         kind,

@@ -1,9 +1,14 @@
 //! Expressions: `for all` and `for some` written out as finite conjunctions and disjunctions, and
 //! each name answered.
 //!
-//! Copies keep their places in the source, so a mistake in one is reported where its author made
-//! it. A bound name becomes the value or the listed element that it stands for. Rust expressions
-//! stay as they are; the environment of an expression tells what the bound names in it stand for.
+//! Writing out is exact because every set is finite and known: an enumeration, a list, a range of
+//! integers. Copies keep their places in the source, so a mistake in one is reported where its
+//! author made it. A bound name becomes the value or the listed element that it stands for. Rust
+//! expressions stay as they are; the environment of an expression says what the bound names in it
+//! stand for.
+//!
+//! The size is the product of the sets of nested quantifiers, so it is bounded by [`MOST_NODES`]
+//! and the nesting by [`DEEPEST`].
 
 use super::name::suggestion;
 use super::order::{self, Use};
@@ -13,34 +18,41 @@ use crate::ast::{Ast, Infix, Item, ItemKind, Node, NodeId, Quantifier, quoted};
 use crate::error::{Error, Kind};
 use crate::source::Span;
 
-/// The most operators and operands that all quantifiers of a source may have, written out; and all
-/// conditions with arguments.
+/// The most operators and operands that all quantifiers of a source may have, written out; the same
+/// bound holds for all conditions with arguments. With a hundred rooms times a hundred objects, a
+/// body of twenty operators and operands stays within it.
 pub(crate) const MOST_NODES: usize = 200_000;
 
-/// The deepest nesting of `for`.
+/// The deepest nesting of `for`. The expansion recurses once a quantifier in a quantifier, and
+/// nowhere else.
 const DEEPEST: usize = 32;
 
-/// What a name stands for that a quantifier may bind.
+/// The meaning of a name that a quantifier may bind.
 #[derive(Clone, Copy)]
 pub(crate) enum Bound {
     /// A value of an enumeration.
     Value(Value),
-    /// An element of a listed set, a name or a number of the source; a free name, itself.
+    /// An element of a listed set, which is a name or a number of the source. A free name stands
+    /// for itself.
     Node(NodeId),
     /// A number of a range.
     Number(f64),
 }
 
-/// A name bound by a quantifier, within others.
+/// A name bound by a quantifier, inside other bound names.
 pub(super) struct Binder {
-    /// Where the name stands; nowhere if it is called like something else and binds nothing.
+    /// The place of the name; an empty span if the name is refused and binds nothing.
     name: Span,
+    /// The value that it stands for in this copy.
     bound: Bound,
+    /// The names bound around it.
     outer: Environment,
+    /// The number of names bound around it.
     depth: usize,
 }
 
-/// The innermost of the names that are bound around an expression.
+/// The innermost bound name around an expression; `None` outside of quantifiers. Environments share
+/// their outer parts, so there is one binder for each copy of a body, however large that is.
 pub(crate) type Environment = Option<u32>;
 
 impl Resolved<'_> {
@@ -51,7 +63,7 @@ impl Resolved<'_> {
             .map(|binder| (self.ast.source().slice(binder.name), binder.bound))
     }
 
-    /// What `node` stands for if it is a name that a quantifier binds, else itself.
+    /// The meaning of `node` if it is a bound name, else `node` itself.
     fn bound(&self, node: NodeId, environment: Environment) -> Bound {
         let text = self.ast.text(node);
         let is_name = matches!(self.ast.node(node), Node::Name);
@@ -60,7 +72,8 @@ impl Resolved<'_> {
     }
 }
 
-/// Writes the expressions of all items down in `resolved`, and answers which items each of them uses.
+/// Writes the expressions of all items into `resolved`, and returns the items that each of them
+/// uses.
 pub(super) fn expand(resolved: &mut Resolved<'_>, mistakes: &mut Vec<Error>) -> Vec<Vec<Use>> {
     let ast = resolved.ast;
     let (constants, others) = constants_first(resolved);
@@ -77,6 +90,7 @@ pub(super) fn expand(resolved: &mut Resolved<'_>, mistakes: &mut Vec<Error>) -> 
     expansion.uses
 }
 
+/// The root of the expression of an item.
 fn root(item: &Item) -> Option<NodeId> {
     match item.kind {
         ItemKind::Constant(_, root) | ItemKind::Predicate(_, root) | ItemKind::Task(_, root) => {
@@ -86,8 +100,8 @@ fn root(item: &Item) -> Option<NodeId> {
     }
 }
 
-/// The constants, each after those that it is made of, for arrays are indexed by their values; and
-/// the other items.
+/// The constants, each after those that it uses, and the other items. Constants come first because
+/// arrays are indexed by their values.
 fn constants_first(resolved: &Resolved<'_>) -> (Vec<usize>, Vec<usize>) {
     let ast = resolved.ast;
     let constants = |item: &Item| match item.kind {
@@ -102,15 +116,15 @@ fn constants_first(resolved: &Resolved<'_>) -> (Vec<usize>, Vec<usize>) {
     order::order(&uses).0.into_iter().partition(|item| resolved.is_constant(*item))
 }
 
-/// The item that a node is the name of.
+/// The item that a node names.
 fn used(resolved: &Resolved<'_>, node: NodeId) -> Option<Use> {
     let is_name = matches!(resolved.ast.node(node), Node::Name);
     let item = resolved.scope.item(resolved.ast.text(node)).filter(|_| is_name)?;
     Some((item, resolved.ast.span(node)))
 }
 
-/// The quantifiers of an expression that stand within no other, each with its first node and
-/// itself; the last one first.
+/// The quantifiers of an expression that stand inside no other, last one first, each with its first
+/// node and itself.
 fn outermost(ast: &Ast, first: NodeId, root: NodeId) -> Vec<(NodeId, NodeId, &Quantifier)> {
     let mut quantifiers = Vec::new();
     let mut next = Some(root.0);
@@ -125,22 +139,23 @@ fn outermost(ast: &Ast, first: NodeId, root: NodeId) -> Vec<(NodeId, NodeId, &Qu
     quantifiers
 }
 
+/// The state of an expansion.
 struct Expansion<'r, 'a> {
     resolved: &'r mut Resolved<'a>,
     mistakes: &'r mut Vec<Error>,
-    /// The item whose expression this is.
+    /// The item whose expression is being copied.
     item: usize,
-    /// Which items each item uses, and where, from left to right.
+    /// The items that each item uses, from left to right.
     uses: Vec<Vec<Use>>,
-    /// How many nodes have been copied within quantifiers.
+    /// The number of nodes that were copied within quantifiers.
     copied: usize,
-    /// Whether there is no room for more.
+    /// Whether a bound was passed; reported once.
     full: bool,
 }
 
 impl Expansion<'_, '_> {
-    /// Copies the expression `root`, its quantifiers written out. Calls itself for the quantifiers in
-    /// quantifiers only, of which [`DEEPEST`] may nest.
+    /// Copies the expression `root` with its quantifiers written out. Recurses for quantifiers
+    /// inside quantifiers only, of which [`DEEPEST`] may nest.
     fn copy(&mut self, root: NodeId, environment: Environment) -> ExpressionId {
         let first = self.resolved.ast.first(root);
         let mut quantifiers = outermost(self.resolved.ast, first, root);
@@ -160,7 +175,7 @@ impl Expansion<'_, '_> {
         copies[copies.len() - 1]
     }
 
-    /// Copies a node, given the copies of its operands; a bound name becomes what it stands for.
+    /// Copies a node, given the copies of its operands. A bound name becomes what it stands for.
     fn one(
         &mut self,
         node: NodeId,
@@ -185,6 +200,7 @@ impl Expansion<'_, '_> {
         self.push(expression, place, outer, first, environment)
     }
 
+    /// Adds an expression.
     fn push(
         &mut self,
         expression: Expression,
@@ -200,6 +216,7 @@ impl Expansion<'_, '_> {
         ExpressionId(id)
     }
 
+    /// The expression of a node, given the copies of its operands.
     fn expression(&self, node: NodeId, of: &dyn Fn(NodeId) -> ExpressionId) -> Expression {
         let resolved = &*self.resolved;
         match *resolved.ast.node(node) {
@@ -226,7 +243,8 @@ impl Expansion<'_, '_> {
         }
     }
 
-    /// All copies of the body, joined.
+    /// All copies of the body of a quantifier, joined by `&&` or `||`; of an empty set, true for
+    /// `for all` and false for `for some`.
     fn quantifier(
         &mut self,
         id: NodeId,
@@ -267,11 +285,12 @@ impl Expansion<'_, '_> {
         joined.unwrap_or_else(|| self.push(Expression::Truth(all), id, span, None, None))
     }
 
+    /// The number of names bound in an environment.
     fn depth(&self, environment: Environment) -> usize {
         environment.map_or(0, |at| self.resolved.binders[at as usize].depth)
     }
 
-    /// The error for a name that cannot be bound.
+    /// The error for a name that cannot be bound: it is bound already, or means something else.
     fn refused(&self, name: Span, environment: Environment) -> Option<Error> {
         let text = self.resolved.ast.source().slice(name);
         if self.resolved.binders(environment).any(|(known, _)| known == text) {
@@ -284,6 +303,7 @@ impl Expansion<'_, '_> {
         self.resolved.scope.shadowed(name)
     }
 
+    /// Whether a bound is passed, which is reported once.
     fn no_room(&mut self, span: Span, environment: Environment) -> bool {
         let deep = self.depth(environment) >= DEEPEST;
         let many = self.copied > MOST_NODES;
@@ -302,7 +322,7 @@ impl Expansion<'_, '_> {
         self.full
     }
 
-    /// What a bound name ranges over.
+    /// The values of a set.
     fn values(&mut self, set: Span, listed: &[NodeId], environment: Environment) -> Vec<Bound> {
         let resolved = &*self.resolved;
         let text = resolved.ast.source().slice(set);
@@ -317,7 +337,7 @@ impl Expansion<'_, '_> {
         Vec::new()
     }
 
-    /// The numbers of a range; not many more than can be written out.
+    /// The numbers of a range; not many more than can be written out, so that `0..1e15` ends.
     fn numbers(
         &mut self,
         set: Span,
@@ -340,7 +360,7 @@ impl Expansion<'_, '_> {
         numbers.map(Bound::Number).collect()
     }
 
-    /// The whole number that an end of a range is: written there, or what its name stands for.
+    /// The integer at an end of a range: written there, or the value of a constant.
     fn end(&mut self, id: NodeId, environment: Environment) -> Option<f64> {
         let (ast, scope) = (self.resolved.ast, &self.resolved.scope);
         let constant = || match ast.items()[scope.item(ast.text(id))?].kind {
@@ -365,6 +385,8 @@ impl Expansion<'_, '_> {
     }
 }
 
+/// The error for a quantifier over something that is not a set; `None` if that follows from another
+/// mistake.
 fn not_a_set(resolved: &Resolved<'_>, text: &str, set: Span) -> Option<Error> {
     if text.starts_with('{') {
         return Some(

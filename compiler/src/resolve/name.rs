@@ -1,4 +1,8 @@
-//! What single names stand for, and which are nearly right.
+//! The meaning of single names, and suggestions for names that are nearly right.
+//!
+//! The order of the answers in [`Resolved::name`] is the scoping of the language: parameters,
+//! items, places of the state, values, `none`, functions. Names of the first three kinds cannot
+//! coincide without an error, so their order matters only for what else is reported.
 
 use std::rc::Rc;
 
@@ -9,7 +13,7 @@ use crate::predicate::Function;
 use crate::source::Span;
 
 impl Resolved<'_> {
-    /// What a name, or another leaf, stands for in the expression of `item`.
+    /// The meaning of a name, or of another leaf, in the expression of `item`.
     pub(super) fn name(&self, node: NodeId, item: usize) -> Name {
         let text = self.ast.text(node);
         if !matches!(self.ast.node(node), Node::Name) {
@@ -41,7 +45,8 @@ impl Resolved<'_> {
         }
     }
 
-    /// The item and the function that have the name `id`; if none has, what a call of it stands for.
+    /// The item and the function with the name `id`; if there is neither, the meaning of a call of
+    /// it.
     pub(super) fn callee(&self, id: ExpressionId) -> Result<Callee, Name> {
         let is_name = matches!(self.ast.node(self[id].node), Node::Name);
         let (item, is_free) = match &self[id].expression {
@@ -72,7 +77,7 @@ impl Resolved<'_> {
         error.help(near.unwrap_or_else(|| declare.to_owned()))
     }
 
-    /// The error for a call of what is no function.
+    /// The error for a call of something that is not a function.
     pub(super) fn unknown_function(&self, callee: ExpressionId) -> Error {
         let text = self.quote(callee);
         let message = format!("there is no function `{text}`");
@@ -90,12 +95,14 @@ impl Resolved<'_> {
     }
 }
 
-/// The help that offers the candidate nearest to `name`, if one is near enough to be meant.
+/// The help that offers the candidate nearest to `name`; `None` if none is near.
 pub(crate) fn suggestion(name: &str, candidates: &mut dyn Iterator<Item = &str>) -> Option<String> {
     nearest(name, candidates).map(|near| format!("did you mean `{near}`?"))
 }
 
-/// The candidate that differs least from `name`, if it is near enough to be meant.
+/// The candidate at the least distance, if that is at most a third of the letters of `name`, the
+/// limit that rustc uses. The first of several, so the answer does not depend on anything but the
+/// source.
 fn nearest<'a>(name: &str, candidates: &mut dyn Iterator<Item = &'a str>) -> Option<&'a str> {
     let limit = (name.chars().count() / 3).max(1);
     let mut nearest = None;
@@ -109,7 +116,7 @@ fn nearest<'a>(name: &str, candidates: &mut dyn Iterator<Item = &'a str>) -> Opt
 }
 
 /// The number of letters to add, drop, change or swap with their neighbour (optimal string
-/// alignment), case aside.
+/// alignment), case aside. Words of very different lengths are far apart without counting.
 fn distance(a: &str, b: &str) -> usize {
     let [a, b] = [a, b].map(|text| text.to_lowercase().chars().collect::<Vec<_>>());
     if a.len().abs_diff(b.len()) > 8 || a.len() > 64 {
@@ -131,7 +138,7 @@ fn distance(a: &str, b: &str) -> usize {
     rows[a.len()][b.len()]
 }
 
-/// Whether Rust has taken a word, and a name of the same letters is written with `r#`.
+/// Whether a word is a keyword of Rust; a name of the same letters is written with `r#`.
 pub(crate) fn is_rust_word(word: &str) -> bool {
     crate::reserved::is_keyword(word) && !matches!(word, "true" | "false")
 }

@@ -1,12 +1,17 @@
-//! The order of the items: each after the ones that it uses.
+//! The order of the items: each after those that it uses.
+//!
+//! A depth-first search with a path of its own instead of recursion, so a chain of a hundred
+//! thousand tasks needs no stack. A use that leads back into the path closes a circle; it is
+//! reported and left out, and the search goes on.
 
 use crate::ast::Ast;
 use crate::error::{Error, Kind};
 use crate::source::Span;
 
-/// The use of an item: which, and where.
+/// A use of an item: its position among the items, and the place of the use.
 pub(super) type Use = (usize, Span);
 
+/// How far the search has come with an item.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Mark {
     New,
@@ -14,7 +19,8 @@ enum Mark {
     Done,
 }
 
-/// All items, given the uses in each, and the uses that close a circle.
+/// Orders all items, given the uses of each. Returns the order and the uses that close a circle. An
+/// item stands where the source has it, unless an earlier one uses it.
 pub(super) fn order(uses: &[Vec<Use>]) -> (Vec<usize>, Vec<Use>) {
     let mut marks = vec![Mark::New; uses.len()];
     let (mut order, mut circles) = (Vec::new(), Vec::new());

@@ -1,4 +1,13 @@
-//! Places: paths from the declared state down to a number, a truth value or a value.
+//! Places: paths from the declared state down to a number, a truth value or a value of an
+//! enumeration.
+//!
+//! In a task file, a path is resolved field by field against the declared types, and an index is
+//! checked: a known one must lie within the array, an unknown one must have a type whose every
+//! value does, or be a parameter, for which the generated code asserts it. So no step of a task can
+//! read outside an array.
+//!
+//! In the macro, a path is Rust's to read. It is resolved beside that only if a state is declared,
+//! to learn its unit.
 
 use std::rc::Rc;
 
@@ -9,20 +18,21 @@ use crate::error::{Error, Kind};
 use crate::predicate::{Numeric, ParameterType, Scalar, Type};
 use crate::source::Span;
 
-/// The deepest nesting of indices: it bounds the one recursion over an input.
+/// The deepest nesting of places as indices, `a[b[c]]`. It bounds the one recursion over an input:
+/// terms are made of places recursively.
 const INDICES: usize = 4;
 
-/// What follows the base of a path.
+/// The part of a path after its base.
 #[derive(Clone, Copy)]
 pub(super) enum Part {
     /// `.field`
     Field(Span),
-    /// `[index]`, and the whole path up to there.
+    /// `[index]`, with the node of the whole path up to there.
     Index(NodeId, ExpressionId),
 }
 
 impl Place {
-    /// The type of what stands there, if it is no struct and no array.
+    /// The type at the place; `None` if it is a struct or an array.
     pub(crate) fn scalar(&self) -> Option<Scalar> {
         match self.ty {
             Type::Scalar(scalar) => Some(scalar),
@@ -30,7 +40,7 @@ impl Place {
         }
     }
 
-    /// The place one step on, where something of this type stands.
+    /// The place one step further, with the type there.
     fn then(mut self, segment: Segment, ty: Type) -> Self {
         self.segments.push(segment);
         Self { ty, ..self }
@@ -38,7 +48,7 @@ impl Place {
 }
 
 impl Resolved<'_> {
-    /// What a part of `base` stands for, in the expression of `item`.
+    /// The meaning of a part of `base`, in the expression of `item`.
     pub(super) fn part(&self, base: ExpressionId, part: Part, item: usize) -> Name {
         match (self.names, &self[base].expression) {
             (_, Expression::Name(Name::Free)) => Name::Free,
@@ -55,7 +65,7 @@ impl Resolved<'_> {
         }
     }
 
-    /// The place that an expression of `item` is, if it is one.
+    /// The place that an expression of `item` names, or the error that it names none.
     pub(crate) fn place(&self, id: ExpressionId, item: usize) -> Result<Place, Rc<Error>> {
         let error = match (&self[id].expression, self.ast.node(self[id].node)) {
             (Expression::Name(Name::Place(place, _) | Name::Rust(Some(place))), _) => {
@@ -81,6 +91,7 @@ impl Resolved<'_> {
         Some(Place { segments: vec![Segment::Field(span)], ty, unit, depth: 0 })
     }
 
+    /// The place that a part leads to.
     fn extended(&self, base: Place, part: Part) -> Result<Place, Rc<Error>> {
         let place = match part {
             Part::Field(name) => self.field(base, name),
@@ -89,6 +100,7 @@ impl Resolved<'_> {
         place.map_err(Rc::new)
     }
 
+    /// The place of a field.
     fn field(&self, base: Place, span: Span) -> Result<Place, Error> {
         let name = self.ast.source().slice(span);
         let fields = self.scope.fields_of(Some(&base.ty));
@@ -105,6 +117,7 @@ impl Resolved<'_> {
         })))
     }
 
+    /// The place of an element.
     fn element(&self, base: Place, node: NodeId, index: ExpressionId) -> Result<Place, Error> {
         let (Type::Table(element, _) | Type::Array(element, _)) = &base.ty else {
             let message = format!("`{}` indexes what is not an array", self.ast.quote(node));
@@ -121,7 +134,7 @@ impl Resolved<'_> {
         Ok(Place { depth, ..base.then(segment, element) })
     }
 
-    /// How deep indices nest in a part of a path.
+    /// How deep places nest as indices in a step.
     fn depth(&self, segment: &Segment) -> usize {
         let (Segment::Element { index, .. } | Segment::At { index, .. }) = segment else {
             return 0;
@@ -133,12 +146,13 @@ impl Resolved<'_> {
         }
     }
 
+    /// Whether an index nests too deep already.
     fn is_too_deep(&self, index: ExpressionId) -> bool {
         matches!(&self[index].expression, Expression::Name(Name::Place(place, _)) if place.depth >= INDICES)
     }
 
-    /// The step to an element of a table; of which enumeration the index is, is checked with its
-    /// value.
+    /// The step to an element of a table. Whether the index is a value of the right enumeration is
+    /// checked later, with the value.
     fn table_segment(&self, index: ExpressionId, of: u32) -> Result<Segment, Error> {
         if self.sort(index).is_some() && !self.is_too_deep(index) {
             return Ok(Segment::Element { index, of });
@@ -153,7 +167,7 @@ impl Resolved<'_> {
         Err(error.help(near.unwrap_or_else(|| help.to_owned())))
     }
 
-    /// The step to an element of an array: at a known number, or at one that is known when the
+    /// The step to an element of an array: at a known number, or at one that is known only when the
     /// program runs.
     fn array_segment(&self, index: ExpressionId, length: u32) -> Result<Segment, Error> {
         let at = Segment::At { index, length };
@@ -177,7 +191,7 @@ impl Resolved<'_> {
         }
     }
 
-    /// The error for a place, or a parameter, that an array of `length` is not indexed by.
+    /// The error for a place or a parameter that cannot index an array of `length`.
     pub(crate) fn not_an_index(&self, index: ExpressionId, scalar: Scalar, length: u32) -> Error {
         let (text, span) = (self.quote(index), self.span(index));
         if scalar.whole().is_none() {
@@ -200,6 +214,7 @@ impl Resolved<'_> {
         ))
     }
 
+    /// The step to an element at a known number.
     fn known_segment(&self, index: ExpressionId, length: u32) -> Result<Segment, Error> {
         let (text, span) = (self.text(index), self.span(index));
         let value = match &self[index].expression {
@@ -238,7 +253,7 @@ impl Resolved<'_> {
         self.type_error(id, message).help(format!("name a part of it, such as {example}"))
     }
 
-    /// The error for the parts of what has none.
+    /// The error for the parts of an expression that has none.
     fn no_place(&self, id: ExpressionId) -> Error {
         match &self[id].expression {
             Expression::Number(_) => {
@@ -250,12 +265,12 @@ impl Resolved<'_> {
     }
 }
 
-/// How the elements of an array are numbered.
+/// The help on how the elements of an array are numbered.
 pub(crate) fn elements(length: u32) -> String {
     format!("the elements are numbered from 0 to {}", length.saturating_sub(1))
 }
 
-/// A type as a sentence has it.
+/// A type as a sentence mentions it.
 pub(crate) fn a_type(scalar: Scalar) -> String {
     let name = scalar.name();
     match scalar {

@@ -1,4 +1,7 @@
-//! What the items of a source declare, for looking names up.
+//! The declarations of a source, for looking names up.
+//!
+//! Filled once by `declare` and only read afterwards. Hash maps are for lookups alone; whatever is
+//! listed or iterated is a vector in source order.
 
 use rustc_hash::FxHashMap;
 
@@ -12,55 +15,62 @@ use crate::unit::{Unit, Units};
 /// The declared names and types.
 pub(crate) struct Scope<'a> {
     pub(super) ast: &'a Ast,
+    /// What undeclared names may stand for.
     pub(super) names: Names,
+    /// The position of each item that can stand in an expression, by its name.
     pub(super) items: FxHashMap<&'a str, usize>,
-    /// What each item declares.
+    /// The declaration of each item.
     pub(super) declared: Vec<Declared>,
+    /// The number of tasks.
     pub(super) tasks: u32,
     pub(crate) structs: Vec<Struct>,
     pub(crate) enums: Vec<Enum>,
     pub(super) state: Option<Struct>,
-    /// Where the fields of the state are declared.
+    /// The places of the declarations of the state's fields, broken ones included.
     pub(super) fields: FxHashMap<&'a str, Span>,
+    /// The values with each name; several enumerations may share one.
     pub(super) variants: FxHashMap<&'a str, Vec<Value>>,
-    /// All names that can stand in a formula, in the order of the source within each kind.
+    /// All names that can stand in a formula, for suggestions; in source order within each kind.
     pub(super) known: Vec<&'a str>,
     pub(crate) units: Units,
-    /// Whether anything has a declared unit.
+    /// Whether anything has a declared unit; without one, units are not checked.
     pub(super) measured: bool,
-    /// Whether an item of types could not be read.
+    /// Whether an item that may declare a type could not be parsed.
     pub(super) incomplete: bool,
     /// The mistakes in the declarations.
     pub(super) mistakes: Vec<Error>,
 }
 
-/// What one item declares.
+/// The declaration of one item.
 #[derive(Clone, Default)]
 pub(super) struct Declared {
+    /// Its number among the tasks, if it is one.
     pub(super) task: Option<TaskId>,
-    /// What a predicate or a task takes.
+    /// The parameters of a predicate or a task.
     pub(super) parameters: Vec<Parameter>,
     /// The parameters whose types have mistakes.
     pub(super) unclear: Vec<String>,
-    /// The unit of a constant, and where it stands.
+    /// The unit of a constant, and its place.
     pub(super) unit: Option<(Unit, Span)>,
 }
 
 impl<'a> Scope<'a> {
-    /// The item called `name`, types and the state aside.
+    /// The item of this name; types and the state are not items here.
     pub(crate) fn item(&self, name: &str) -> Option<usize> {
         self.items.get(name).copied()
     }
 
+    /// The number of an item among the tasks.
     pub(crate) fn task_id(&self, item: usize) -> Option<TaskId> {
         self.declared[item].task
     }
 
+    /// The number of tasks.
     pub(crate) fn task_count(&self) -> usize {
         self.tasks as usize
     }
 
-    /// The values called `name`, or `Enumeration::name`.
+    /// The values with the name `name`, or `Enumeration::name`.
     pub(crate) fn variants(&self, name: &str) -> Vec<Value> {
         let (of, name) = name.rsplit_once("::").map_or((None, name), |(of, name)| (Some(of), name));
         let all = self.variants.get(name.trim()).map_or(&[][..], Vec::as_slice);
@@ -68,7 +78,7 @@ impl<'a> Scope<'a> {
         all.iter().filter(wanted).copied().collect()
     }
 
-    /// The enumeration called `name`.
+    /// The enumeration of this name.
     pub(crate) fn enumeration(&self, name: &str) -> Option<u32> {
         (0..).zip(&self.enums).find(|(_, known)| known.name == name).map(|(of, _)| of)
     }
@@ -78,17 +88,17 @@ impl<'a> Scope<'a> {
         self.enums[of as usize].variants.first().map_or("value", String::as_str)
     }
 
-    /// What the item takes when it is used.
+    /// The parameters of an item.
     pub(crate) fn parameters(&self, item: usize) -> &[Parameter] {
         &self.declared[item].parameters
     }
 
-    /// The parameters of the item whose types have mistakes: nothing is known of them.
+    /// The parameters of an item whose types have mistakes; nothing is known about them.
     pub(crate) fn unclear(&self, item: usize) -> &[String] {
         &self.declared[item].unclear
     }
 
-    /// The declared unit of the constant `item`, and where it stands.
+    /// The declared unit of the constant `item`, and its place.
     pub(crate) fn constant_unit(&self, item: usize) -> Option<&(Unit, Span)> {
         self.declared[item].unit.as_ref()
     }
@@ -103,6 +113,7 @@ impl<'a> Scope<'a> {
         self.incomplete || self.fields.contains_key(name)
     }
 
+    /// Whether the source declares the fields of the state.
     pub(crate) fn has_state(&self) -> bool {
         self.state.is_some()
     }
@@ -121,7 +132,7 @@ impl<'a> Scope<'a> {
         self.known.iter().copied()
     }
 
-    /// What predicates are about.
+    /// The state that predicates read.
     pub(crate) fn state(&self) -> State {
         match (&self.state, self.host(), self.names) {
             (Some(state), ..) => State::Declared(state.clone()),
@@ -131,7 +142,7 @@ impl<'a> Scope<'a> {
         }
     }
 
-    /// The name that stands for the state in Rust expressions, its type, and where it stands.
+    /// The name of the state in Rust expressions, its type, and the place of the name.
     pub(crate) fn host(&self) -> Option<(&'a str, Span, Span)> {
         let host = self.ast.items().iter().find_map(|item| match item.kind {
             ItemKind::Host(ty) => Some((self.text(item.name), ty, item.name)),
@@ -140,7 +151,7 @@ impl<'a> Scope<'a> {
         host.filter(|_| self.state.is_none())
     }
 
-    /// The error for a parameter or a bound name that something else is called too.
+    /// The error for a parameter or a bound name that something else has too.
     pub(super) fn shadowed(&self, span: Span) -> Option<Error> {
         let name = self.text(span);
         let item = self.items.get(name).map(|item| self.ast.items()[*item].name);
@@ -153,12 +164,13 @@ impl<'a> Scope<'a> {
         Some(duplicate(name, span, first).help("give this one another name"))
     }
 
+    /// The text at a place.
     pub(super) fn text(&self, span: Span) -> &'a str {
         self.ast.source().slice(span)
     }
 }
 
-/// The error for a name that is declared at `first` already.
+/// The error for a name that was declared at `first` already.
 pub(super) fn duplicate(name: &str, span: Span, first: Span) -> Error {
     Error::new(Kind::DuplicateName, format!("`{name}` is declared twice"), span)
         .label("declared again here")
