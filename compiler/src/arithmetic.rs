@@ -72,6 +72,19 @@ pub fn possible(module: &Module, task: &Task) -> Possible {
 
 /// The valuations of some conditions, taken as propositions in this order, that some state has.
 /// Conditions that share no variable are related apart, and the results conjoined.
+///
+/// ```
+/// use tltl_compiler::{arithmetic, check, source::Source};
+///
+/// let text = "state S { x: i8 }\npredicate p = x > 3\npredicate q = x < 4\ntask t = F (p && q)\n";
+/// let module = check::file(&Source::new("s.tltl", text))?;
+/// let conditions: Vec<_> = module.predicates.iter().map(|known| known.condition).collect();
+/// let mut possible = arithmetic::possible_conditions(&module, &conditions);
+/// // No integer is between 3 and 4.
+/// assert!(possible.excludes(&[(0, true), (1, true)]));
+/// assert!(possible.excludes(&[(0, false), (1, false)]));
+/// # Ok::<(), tltl_compiler::error::Errors>(())
+/// ```
 #[must_use]
 pub fn possible_conditions(module: &Module, roots: &[ConditionId]) -> Possible {
     let analysis = Analysis::new(module);
@@ -119,6 +132,19 @@ impl Possible {
     /// States and the accepting state stay; [`minimize`](crate::minimize::minimize) then merges
     /// states that no possible letter tells apart. The result is minimal over the possible letters,
     /// because *constrain* makes the diagrams of two states equal iff they agree on all of those.
+    ///
+    /// ```
+    /// use tltl_compiler::{arithmetic, check, minimize::minimize, source::Source};
+    /// use tltl_compiler::translate::{Budget, translate};
+    ///
+    /// let module = check::formula(&Source::new("formula", "F (x < 1 && x > 3) || F (x < 0)"))?;
+    /// let task = &module.tasks[0];
+    /// let dfa = minimize(&translate(&task.spec, Budget::EMITTED).unwrap());
+    /// let restricted = minimize(&arithmetic::possible(&module, task).restrict(&dfa));
+    /// assert_eq!((dfa.len(), restricted.len()), (2, 2));
+    /// assert!(restricted.diagram.nodes().len() < dfa.diagram.nodes().len());
+    /// # Ok::<(), tltl_compiler::error::Errors>(())
+    /// ```
     #[must_use]
     pub fn restrict(&self, dfa: &Dfa) -> Dfa {
         let mut diagram = dfa.diagram.clone();

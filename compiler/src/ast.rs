@@ -361,6 +361,17 @@ impl Ast {
     }
 
     /// The operands of an expression, left to right.
+    ///
+    /// ```
+    /// use tltl_compiler::{ast::ItemKind, parse, source::Source};
+    ///
+    /// let ast = parse::formula(&Source::new("formula", "min(x, 2) < y"))?;
+    /// let ItemKind::Task(_, less) = ast.items()[0].kind else { panic!() };
+    /// let texts = |id| ast.operands(id).into_iter().map(|id| ast.text(id)).collect::<Vec<_>>();
+    /// assert_eq!(texts(less), ["min(x, 2)", "y"]);
+    /// assert_eq!(texts(ast.operands(less)[0]), ["min", "x", "2"]);
+    /// # Ok::<(), tltl_compiler::error::Errors>(())
+    /// ```
     #[must_use]
     pub fn operands(&self, id: NodeId) -> Vec<NodeId> {
         match self.node(id) {

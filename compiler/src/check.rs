@@ -66,6 +66,16 @@ pub fn formula(source: &Source) -> Result<Module, Errors> {
 
 /// Parses and checks a task file.
 ///
+/// ```
+/// use tltl_compiler::{check, source::Source};
+///
+/// let text = "state S { d: f64 in m }\npredicate near = d < 2\ntask go = F near\n";
+/// let module = check::file(&Source::new("go.tltl", text))?;
+/// assert_eq!(module.tasks[0].name.as_deref(), Some("go"));
+/// assert!(module.warnings.is_empty());
+/// # Ok::<(), tltl_compiler::error::Errors>(())
+/// ```
+///
 /// # Errors
 /// All mistakes that it has, of form and of meaning.
 pub fn file(source: &Source) -> Result<Module, Errors> {
@@ -73,6 +83,16 @@ pub fn file(source: &Source) -> Result<Module, Errors> {
 }
 
 /// Parses and checks the input of `tltl!{ … }`.
+///
+/// ```
+/// use tltl_compiler::{check, predicate::Condition, source::Source};
+///
+/// // Without a header, names are values in scope that are predicates.
+/// let module = check::fragment(&Source::new("macro", "F at_home"))?;
+/// let condition = module.arena.condition(module.predicates[0].condition);
+/// assert!(matches!(condition, Condition::Value { text, .. } if text == "at_home"));
+/// # Ok::<(), tltl_compiler::error::Errors>(())
+/// ```
 ///
 /// # Errors
 /// All mistakes that it has, of form and of meaning.

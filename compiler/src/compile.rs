@@ -125,6 +125,16 @@ pub fn file(source: &Source, budget: Budget) -> Result<Compiled, Errors> {
 /// Compiles the input of `tltl!{ … }`: a formula with or without a header, or declarations. The
 /// first token decides which of them it is.
 ///
+/// ```
+/// use tltl_compiler::{compile, predicate::State, source::Source, translate::Budget};
+///
+/// let source = Source::new("macro", "|cell: &Cell| F { cell.is_home() }");
+/// let compiled = compile::fragment(&source, Budget::EMITTED)?;
+/// let State::Host { name, .. } = &compiled.module.state else { panic!() };
+/// assert_eq!(name, "cell");
+/// # Ok::<(), tltl_compiler::error::Errors>(())
+/// ```
+///
 /// # Errors
 /// All mistakes of the source, or that the budget does not suffice.
 pub fn fragment(source: &Source, budget: Budget) -> Result<Compiled, Errors> {
@@ -241,6 +251,19 @@ fn check_size(dfa: &Dfa, budget: Budget) -> Result<(), Exceeded> {
 }
 
 /// Whether the guards of an automaton can be written out.
+///
+/// ```
+/// use tltl_compiler::{compile, source::Source, translate::{Budget, Resource}};
+///
+/// // Written as a sum of products, n pairs joined by `&&` are 2^n products.
+/// let pairs: Vec<String> = (0..6).map(|i| format!("(a{i} || b{i})")).collect();
+/// let source = Source::new("formula", format!("F ({})", pairs.join(" && ")));
+/// let dfa = &compile::formula(&source, Budget::EMITTED)?.automata[0].dfa;
+/// let budget = Budget { products: 63, ..Budget::EMITTED };
+/// let exceeded = compile::check_guards(dfa, budget).unwrap_err();
+/// assert_eq!(exceeded.what, Resource::Products);
+/// # Ok::<(), tltl_compiler::error::Errors>(())
+/// ```
 ///
 /// # Errors
 /// If one of them has more products than the budget allows.

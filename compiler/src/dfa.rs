@@ -113,11 +113,32 @@ impl Dfa {
 
     /// The next state from `q` under the letter that `holds` gives, one proposition at a time; only
     /// those that matter in `q` are asked.
+    ///
+    /// ```
+    /// # use tltl_compiler::{compile, source::Source, translate::Budget};
+    /// let source = Source::new("formula", "a T b");
+    /// let dfa = &compile::formula(&source, Budget::EMITTED)?.automata[0].dfa;
+    /// // Both at once is the first step only.
+    /// let trace = [[true, true], [false, false], [false, true]];
+    /// let last = trace.iter().fold(0, |q, letter| dfa.next(q, |proposition| letter[proposition as usize]));
+    /// assert_eq!(Some(last), dfa.accepting);
+    /// # Ok::<(), tltl_compiler::error::Errors>(())
+    /// ```
     pub fn next(&self, q: State, holds: impl Fn(u32) -> bool) -> State {
         self.diagram.evaluate(self.transitions[q as usize], &holds)
     }
 
     /// The states that `q` can move to, itself included where it can stay; by rising number.
+    ///
+    /// ```
+    /// # use tltl_compiler::{compile, source::Source, translate::Budget};
+    /// let source = Source::new("formula", "!water U home");
+    /// let dfa = &compile::formula(&source, Budget::EMITTED)?.automata[0].dfa;
+    /// assert_eq!(dfa.successors(0), [0, 1, 2]);
+    /// let accepting = dfa.accepting.unwrap();
+    /// assert_eq!(dfa.successors(accepting), [accepting]);
+    /// # Ok::<(), tltl_compiler::error::Errors>(())
+    /// ```
     #[must_use]
     pub fn successors(&self, q: State) -> Vec<State> {
         let mut found = self.diagram.leaves(self.transitions[q as usize]);
@@ -126,6 +147,15 @@ impl Dfa {
     }
 
     /// How big the automaton is.
+    ///
+    /// ```
+    /// # use tltl_compiler::{compile, source::Source, translate::Budget};
+    /// let source = Source::new("formula", "!water U home");
+    /// let size = compile::formula(&source, Budget::EMITTED)?.automata[0].dfa.size();
+    /// assert_eq!((size.states, size.edges, size.self_loops), (3, 2, 3));
+    /// assert_eq!((size.trap, size.into_trap), (true, 1));
+    /// # Ok::<(), tltl_compiler::error::Errors>(())
+    /// ```
     #[must_use]
     pub fn size(&self) -> Size {
         let mut size = Size {
@@ -211,6 +241,17 @@ impl<'a> Guards<'a> {
 
     /// ψ_{q,to}: the letters under which `q` moves to `to`, as a sum of products. Literals are
     /// `(proposition, value)`, by rising proposition; no products if there is no such edge.
+    ///
+    /// ```
+    /// # use tltl_compiler::{compile, dfa::Guards, source::Source, translate::Budget};
+    /// let source = Source::new("formula", "!water U home");
+    /// let dfa = &compile::formula(&source, Budget::EMITTED)?.automata[0].dfa;
+    /// let mut guards = Guards::new(dfa);
+    /// // To the trap: in the water, and not at home.
+    /// assert_eq!(guards.edge(0, dfa.trap.unwrap()), [[(0, true), (1, false)]]);
+    /// assert!(guards.edge(dfa.trap.unwrap(), 0).is_empty());
+    /// # Ok::<(), tltl_compiler::error::Errors>(())
+    /// ```
     pub fn edge(&mut self, q: State, to: State) -> Vec<Cube> {
         let when = self.when(q, to);
         self.sum(when)

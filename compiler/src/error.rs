@@ -81,6 +81,10 @@ pub enum Kind {
 
 impl Kind {
     /// Its name, as in `error[unknown-name]`.
+    ///
+    /// ```
+    /// assert_eq!(tltl_compiler::error::Kind::NegatedTemporal.name(), "negated-temporal");
+    /// ```
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -158,6 +162,16 @@ impl Error {
     }
 
     /// Points at another place that matters.
+    ///
+    /// ```
+    /// use tltl_compiler::error::{Error, Kind};
+    /// use tltl_compiler::source::Span;
+    ///
+    /// let error = Error::new(Kind::DuplicateName, "`a` is declared twice", Span::new(20, 21))
+    ///     .label("declared again here")
+    ///     .related(Span::new(5, 6), "first declared here");
+    /// assert_eq!(error.places(), [(Span::new(5, 6), "first declared here".to_owned())]);
+    /// ```
     #[must_use]
     pub fn related(mut self, span: Span, label: impl Into<String>) -> Self {
         self.related.push((span, bounded(label.into())));
@@ -271,6 +285,19 @@ impl Errors {
     /// `Err` of the mistakes if one of them is an error, else the warnings. Sorts them by place and
     /// drops repetitions: the body of a quantifier is checked once for each element, and reports
     /// the same mistake each time.
+    ///
+    /// ```
+    /// use tltl_compiler::error::{Error, Errors, Kind};
+    /// use tltl_compiler::source::Span;
+    ///
+    /// let warning = Error::new(Kind::Unused, "constant `far` is never used", Span::new(6, 9)).warning();
+    /// assert_eq!(Errors::split(vec![warning.clone()]).unwrap(), [warning.clone()]);
+    /// let error = Error::new(Kind::Type, "`far` is a number", Span::new(0, 3));
+    /// let errors = Errors::split(vec![warning, error]).unwrap_err();
+    /// // Source order, and the first error is not the warning.
+    /// assert_eq!(errors.iter().map(|error| error.span().start).collect::<Vec<_>>(), [0, 6]);
+    /// assert!(!errors.first().is_warning());
+    /// ```
     ///
     /// # Errors
     /// If there is an error among them.

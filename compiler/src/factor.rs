@@ -58,6 +58,17 @@ pub struct Factors {
 /// Each part is translated once to see that it stays within the budget; [`compile`](crate::compile)
 /// translates it again, for its automata are a later stage.
 ///
+/// ```
+/// use tltl_compiler::{check, factor::factors, source::Source, translate::Budget};
+///
+/// let goals: Vec<String> = (0..12).map(|i| format!("(!hazard U g{i})")).collect();
+/// let module = check::formula(&Source::new("formula", goals.join(" && ")))?;
+/// let factors = factors(&module.tasks[0].spec, Budget::EMITTED).unwrap();
+/// // 2^12 states are more than a part may have: the goals run apart.
+/// assert_eq!((factors.parts.len(), factors.joint), (12, false));
+/// # Ok::<(), tltl_compiler::error::Errors>(())
+/// ```
+///
 /// # Errors
 /// If the automaton of a single conjunct needs more than `budget`.
 pub fn factors(spec: &Spec, budget: Budget) -> Result<Factors, Exceeded> {

@@ -118,6 +118,16 @@ fn eliminated(upper: &Inequality, lower: &Inequality, variable: TermId) -> Optio
 
 /// Merges two forms; `sum` gives the coefficient of each variable from those in `left` and `right`.
 /// `None` if `sum` returns it.
+///
+/// ```
+/// use tltl_compiler::linear::combined;
+/// use tltl_compiler::predicate::TermId;
+///
+/// let [x, y] = [0, 1].map(TermId);
+/// // (x + 2y) - (x - y) = 3y
+/// let minus = |a: i128, b: i128| a.checked_sub(b);
+/// assert_eq!(combined(&vec![(x, 1), (y, 2)], &vec![(x, 1), (y, -1)], &minus), Some(vec![(y, 3)]));
+/// ```
 pub fn combined(
     left: &Form,
     right: &Form,
@@ -155,6 +165,13 @@ fn reduced(row: &Inequality) -> Inequality {
 }
 
 /// The greatest common divisor of all coefficients and of `other`.
+///
+/// ```
+/// use tltl_compiler::linear::divisor;
+/// use tltl_compiler::predicate::TermId;
+///
+/// assert_eq!(divisor(&vec![(TermId(0), 12), (TermId(1), -18)], 0), 6);
+/// ```
 #[must_use]
 pub fn divisor(form: &Form, other: i128) -> i128 {
     form.iter().fold(other, |divisor, (_, coefficient)| gcd(divisor, coefficient.abs()))

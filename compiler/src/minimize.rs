@@ -52,6 +52,18 @@ pub fn minimize(dfa: &Dfa) -> Dfa {
 
 /// The same states in canonical numbering, unreachable ones dropped, and the old number of each new
 /// state. Merges nothing: for a raw automaton that is to be shown.
+///
+/// ```
+/// use tltl_compiler::{check, minimize::canonical_order, source::Source};
+/// use tltl_compiler::translate::{Budget, translate};
+///
+/// let module = check::formula(&Source::new("formula", "F a || F b"))?;
+/// let raw = translate(&module.tasks[0].spec, Budget::EMITTED).unwrap();
+/// let (ordered, numbers) = canonical_order(&raw);
+/// assert_eq!(ordered.len(), numbers.len());
+/// assert_eq!(numbers[0], 0);
+/// # Ok::<(), tltl_compiler::error::Errors>(())
+/// ```
 #[must_use]
 pub fn canonical_order(dfa: &Dfa) -> (Dfa, Vec<State>) {
     let apart: Vec<_> = dfa.states().collect();

@@ -44,6 +44,17 @@ const BRACES: usize = 64;
 
 /// Parses a bare formula.
 ///
+/// ```
+/// use tltl_compiler::{parse, source::Source};
+///
+/// assert!(parse::formula(&Source::new("formula", "F a && b")).is_ok());
+/// let errors = parse::formula(&Source::new("formula", "F a & & b")).unwrap_err();
+/// assert_eq!(errors.first().kind().name(), "syntax");
+/// // Operators of other logics have an error of their own.
+/// let errors = parse::formula(&Source::new("formula", "G a")).unwrap_err();
+/// assert_eq!(errors.first().kind().name(), "unsupported-operator");
+/// ```
+///
 /// # Errors
 /// All mistakes of form that it has.
 pub fn formula(source: &Source) -> Result<Ast, Errors> {
@@ -51,6 +62,17 @@ pub fn formula(source: &Source) -> Result<Ast, Errors> {
 }
 
 /// Parses a task file.
+///
+/// ```
+/// use tltl_compiler::{ast::ItemKind, parse, source::Source};
+///
+/// let text = "//! Rooms.\nenum Room { hall, attic }\ntask up = F (at == attic)\n";
+/// let ast = parse::file(&Source::new("rooms.tltl", text))?;
+/// assert_eq!(ast.docs(), ["Rooms."]);
+/// let kinds: Vec<bool> = ast.items().iter().map(|item| matches!(item.kind, ItemKind::Enum(_))).collect();
+/// assert_eq!(kinds, [true, false]);
+/// # Ok::<(), tltl_compiler::error::Errors>(())
+/// ```
 ///
 /// # Errors
 /// All mistakes of form that it has.

@@ -139,6 +139,13 @@ pub enum Scalar {
 
 impl Scalar {
     /// The scalar type that Rust calls `name`.
+    ///
+    /// ```
+    /// use tltl_compiler::predicate::{Numeric, Scalar};
+    ///
+    /// assert_eq!(Scalar::named("u8"), Some(Scalar::Number(Numeric::U8)));
+    /// assert_eq!(Scalar::named("usize"), None);
+    /// ```
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         if name == "bool" {
@@ -590,6 +597,15 @@ impl Arena {
     }
 
     /// Adds a term as it is, and returns its id; an equal one has the same id.
+    ///
+    /// ```
+    /// use tltl_compiler::predicate::{Arena, Term};
+    ///
+    /// let mut arena = Arena::default();
+    /// let [one, other] = [0, 1].map(|_| arena.add_term(Term::Variable("x".into())));
+    /// assert_eq!(one, other);
+    /// assert_eq!(arena.terms().len(), 1);
+    /// ```
     pub fn add_term(&mut self, term: Term) -> TermId {
         if let Some(id) = self.find_term(&term) {
             return id;
@@ -735,6 +751,14 @@ impl Comparison {
 
     /// The comparison that holds iff this one does not. NaN is an error before it is compared, so
     /// `!(a < b)` is `a >= b`.
+    ///
+    /// ```
+    /// use tltl_compiler::ast::Comparison;
+    ///
+    /// assert_eq!(Comparison::Less.negated(), Comparison::AtLeast);
+    /// assert_eq!(Comparison::Less.mirrored(), Comparison::Greater);
+    /// assert!(Comparison::AtMost.holds(1.0, 1.0));
+    /// ```
     #[must_use]
     pub const fn negated(self) -> Self {
         match self {

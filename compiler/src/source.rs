@@ -55,6 +55,12 @@ impl Span {
 
     /// The same span `by` bytes further on: the place in the file of a span that was found in a
     /// part of it.
+    ///
+    /// ```
+    /// # use tltl_compiler::source::Span;
+    /// // An item that starts at byte 40 was parsed from a slice of its own.
+    /// assert_eq!(Span::new(3, 5).shifted(40), Span::new(43, 45));
+    /// ```
     #[must_use]
     pub const fn shifted(self, by: usize) -> Self {
         Self { start: self.start + by, end: self.end + by }
@@ -113,6 +119,14 @@ impl Source {
     }
 
     /// The text at `span`; empty if the span is not a part of this text.
+    ///
+    /// ```
+    /// # use tltl_compiler::source::{Source, Span};
+    /// let source = Source::new("formula", "F été");
+    /// assert_eq!(source.slice(Span::new(2, 7)), "été");
+    /// // Within a character there is no text.
+    /// assert_eq!(source.slice(Span::new(2, 3)), "");
+    /// ```
     #[must_use]
     pub fn slice(&self, span: Span) -> &str {
         self.text.get(span.start..span.end).unwrap_or_default()
@@ -120,6 +134,13 @@ impl Source {
 
     /// The line and column of a byte; the end of the text if it lies beyond. Scans the text up to
     /// there.
+    ///
+    /// ```
+    /// # use tltl_compiler::source::Source;
+    /// let source = Source::new("formula", "F été &&\nF b");
+    /// assert_eq!(source.place(8).to_string(), "1:7");
+    /// assert_eq!(source.place(999).to_string(), "2:4");
+    /// ```
     #[must_use]
     pub fn place(&self, byte: usize) -> Place {
         let before = self.before(byte);
@@ -131,6 +152,13 @@ impl Source {
     }
 
     /// The span of the line that holds `byte`, without its line break, be it `\n` or `\r\n`.
+    ///
+    /// ```
+    /// # use tltl_compiler::source::Source;
+    /// let source = Source::new("formula", "F a &&\r\nF b");
+    /// let lines = [0, 9].map(|byte| source.slice(source.line(byte)));
+    /// assert_eq!(lines, ["F a &&", "F b"]);
+    /// ```
     #[must_use]
     pub fn line(&self, byte: usize) -> Span {
         let byte = self.before(byte).len();

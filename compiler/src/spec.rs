@@ -77,6 +77,14 @@ pub enum Formula {
 
 impl Formula {
     /// The operands, left to right.
+    ///
+    /// ```
+    /// use tltl_compiler::spec::{Formula, FormulaId};
+    ///
+    /// let [a, b] = [0, 1].map(FormulaId);
+    /// assert_eq!(Formula::Until(a, b).operands().collect::<Vec<_>>(), [a, b]);
+    /// assert_eq!(Formula::True.operands().count(), 0);
+    /// ```
     pub fn operands(self) -> impl DoubleEndedIterator<Item = FormulaId> {
         use Formula::{And, Eventually, False, Literal, Next, Or, Then, True, Until};
         let pair = match self {
@@ -170,6 +178,18 @@ impl Spec {
     }
 
     /// For each operator whether the root depends on it.
+    ///
+    /// ```
+    /// use tltl_compiler::{source::Span, spec::Spec};
+    ///
+    /// let mut spec = Spec::new(vec!["a".into(), "b".into()]);
+    /// let at = Span::default();
+    /// let a = spec.literal(0, false, at);
+    /// let b = spec.literal(1, false, at);
+    /// spec.set_root(a);
+    /// let reachable = spec.reachable();
+    /// assert!(reachable[a.0 as usize] && !reachable[b.0 as usize]);
+    /// ```
     #[must_use]
     pub fn reachable(&self) -> Vec<bool> {
         let mut reachable = vec![false; self.formulas.len()];
@@ -194,6 +214,17 @@ impl Spec {
 
     /// φ ∧ ψ. A chain keeps the order in which it was written: that order becomes the order of
     /// levels.
+    ///
+    /// ```
+    /// use tltl_compiler::{source::Span, spec::Spec};
+    ///
+    /// let mut spec = Spec::new(vec!["a".into()]);
+    /// let at = Span::default();
+    /// let a = spec.literal(0, false, at);
+    /// let truth = spec.truth(true, at);
+    /// assert_eq!(spec.and(truth, a, at), a);
+    /// assert_eq!(spec.and(a, a, at), a);
+    /// ```
     pub fn and(&mut self, a: FormulaId, b: FormulaId, span: Span) -> FormulaId {
         match (self.formula(a), self.formula(b)) {
             (Formula::True, _) => b,
@@ -218,6 +249,18 @@ impl Spec {
     }
 
     /// ○φ. `X false` is false; `X true` is not true.
+    ///
+    /// ```
+    /// use tltl_compiler::{source::Span, spec::{Formula, Spec}};
+    ///
+    /// let mut spec = Spec::new(Vec::new());
+    /// let at = Span::default();
+    /// let [yes, no] = [true, false].map(|value| spec.truth(value, at));
+    /// assert_eq!(spec.next(no, at), no);
+    /// // It asks for one more state.
+    /// let next = spec.next(yes, at);
+    /// assert_eq!(spec.formula(next), Formula::Next(yes));
+    /// ```
     pub fn next(&mut self, a: FormulaId, span: Span) -> FormulaId {
         match self.formula(a) {
             Formula::False => a,
@@ -247,6 +290,18 @@ impl Spec {
     }
 
     /// φ T ψ, as the conjunction of φ now and ◇ψ from the next state on, sometime.
+    ///
+    /// ```
+    /// use tltl_compiler::{source::Span, spec::Spec};
+    ///
+    /// let mut spec = Spec::new(vec!["pick".into(), "place".into()]);
+    /// let at = Span::default();
+    /// let [pick, place] = [0, 1].map(|proposition| spec.literal(proposition, false, at));
+    /// let sequence = spec.then(pick, place, at);
+    /// // Waiting for a sequence is the sequence itself.
+    /// assert_eq!(spec.eventually(sequence, at), sequence);
+    /// assert_eq!(spec.display(sequence).to_string(), "pick T place");
+    /// ```
     pub fn then(&mut self, a: FormulaId, b: FormulaId, span: Span) -> FormulaId {
         match (self.formula(a), self.formula(b)) {
             (Formula::False, _) => a,
@@ -276,6 +331,22 @@ impl Spec {
     /// `ids` rise, and hold the operands of every formula among them. `image` makes one formula:
     /// it gets the formula's id in `other`, and its operator over the images of its operands, which
     /// [`add`](Self::add) takes as it is.
+    ///
+    /// ```
+    /// use tltl_compiler::{source::Span, spec::{Formula, Spec}};
+    ///
+    /// let at = Span::default();
+    /// let mut one = Spec::new(vec!["a".into()]);
+    /// let a = one.literal(0, false, at);
+    /// let goal = one.eventually(a, at);
+    /// // The same formula over another proposition.
+    /// let mut other = Spec::new(vec!["x".into(), "y".into()]);
+    /// let images = other.rebuild(&one, &[a, goal], &mut |other, _, formula| match formula {
+    ///     Formula::Literal { negated, .. } => other.literal(1, negated, at),
+    ///     formula => other.add(formula, at),
+    /// });
+    /// assert_eq!(other.display(images[1]).to_string(), "F y");
+    /// ```
     ///
     /// # Panics
     /// If `ids` lack an operand.

@@ -129,6 +129,16 @@ pub enum Operator {
 
 /// The operators of a formula, operands first; the last one is the whole formula. Operators that
 /// the root does not need are left out, and shared ones stand there once.
+///
+/// ```
+/// use tltl_compiler::{check, source::Source, tables::{Operator, operators}};
+///
+/// let module = check::formula(&Source::new("formula", "!a U (b && a)"))?;
+/// let operators = operators(&module.tasks[0].spec);
+/// assert_eq!(operators[..3], [Operator::Not(0), Operator::Is(1), Operator::Is(0)]);
+/// assert_eq!(operators[3..], [Operator::And(1, 2), Operator::Until(0, 3)]);
+/// # Ok::<(), tltl_compiler::error::Errors>(())
+/// ```
 #[must_use]
 pub fn operators(spec: &Spec) -> Vec<Operator> {
     let reachable = spec.reachable();

@@ -151,6 +151,18 @@ pub struct Exceeded {
 /// Translates a formula. The automaton is complete and reachable, with at most one accepting state
 /// and at most one trap, but not yet minimal.
 ///
+/// ```
+/// use tltl_compiler::{check, minimize::minimize, source::Source, translate::{Budget, translate}};
+///
+/// let module = check::formula(&Source::new("formula", "X true"))?;
+/// let dfa = translate(&module.tasks[0].spec, Budget::default()).unwrap();
+/// // The first state is read, then any second one.
+/// let second = dfa.next(0, |_| false);
+/// assert_eq!(Some(dfa.next(second, |_| false)), dfa.accepting);
+/// assert_eq!(minimize(&dfa).len(), 3);
+/// # Ok::<(), tltl_compiler::error::Errors>(())
+/// ```
+///
 /// # Errors
 /// If the budget does not suffice. The work done until then is bounded by the budget.
 pub fn translate(spec: &Spec, budget: Budget) -> Result<Dfa, Exceeded> {

@@ -48,6 +48,14 @@ pub struct Unit(Vec<(u32, i32)>);
 impl Unit {
     /// The product of some powers of names, a name being allowed several times; `None` if the
     /// result is beyond the bounds.
+    ///
+    /// ```
+    /// use tltl_compiler::unit::Unit;
+    ///
+    /// let plain = Unit::product([(0, 2), (0, -2)]);
+    /// assert!(plain.unwrap().is_plain());
+    /// assert_eq!(Unit::product([(0, 100)]), None);
+    /// ```
     pub fn product(powers: impl IntoIterator<Item = (u32, i64)>) -> Option<Self> {
         let mut sum: Vec<(u32, i64)> = Vec::new();
         for (name, power) in powers {
@@ -106,6 +114,14 @@ impl Unit {
 
     /// The names `a` and `b` if it is `a/b`: what a message offers where a factor from `b` to `a`
     /// seems to be missing.
+    ///
+    /// ```
+    /// use tltl_compiler::unit::Unit;
+    ///
+    /// let per = Unit::product([(7, 1), (3, -1)]).unwrap();
+    /// assert_eq!(per.ratio(), Some((7, 3)));
+    /// assert_eq!(per.power(2).unwrap().ratio(), None);
+    /// ```
     #[must_use]
     pub fn ratio(&self) -> Option<(u32, u32)> {
         match self.0[..] {

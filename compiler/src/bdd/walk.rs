@@ -32,6 +32,15 @@ impl Images<'_> {
 impl Diagram {
     /// The leaves of `f`, each once, in the lexicographic order of the first valuations that lead
     /// to them (level 0 first, false before true).
+    ///
+    /// ```
+    /// use tltl_compiler::bdd::{Bdd, Diagram};
+    ///
+    /// let mut diagram = Diagram::default();
+    /// let inner = diagram.node(1, Bdd::leaf(9), Bdd::leaf(4));
+    /// let f = diagram.node(0, inner, Bdd::leaf(9));
+    /// assert_eq!(diagram.leaves(f), [9, 4]);
+    /// ```
     #[must_use]
     pub fn leaves(&self, f: Bdd) -> Vec<u32> {
         let mut nodes = FxHashSet::default();
@@ -60,6 +69,18 @@ impl Diagram {
 
     /// The indices of the nodes that `roots` need, children before parents: the order in which a
     /// depth-first walk from the first root to the last, low before high, leaves them.
+    ///
+    /// ```
+    /// use tltl_compiler::bdd::{Bdd, Diagram};
+    ///
+    /// let mut diagram = Diagram::default();
+    /// let unused = diagram.variable(3);
+    /// let inner = diagram.variable(1);
+    /// let f = diagram.node(0, Bdd::FALSE, inner);
+    /// let place = |f: Bdd| f.index().unwrap();
+    /// assert_eq!(diagram.postorder(&[f]), [place(inner), place(f)]);
+    /// assert_eq!(place(unused), 0);
+    /// ```
     #[must_use]
     pub fn postorder(&self, roots: &[Bdd]) -> Vec<u32> {
         let mut seen = vec![false; self.nodes.len()];
@@ -85,6 +106,23 @@ impl Diagram {
     /// `order` holds indices of nodes after those of their children, as
     /// [`postorder`](Self::postorder) gives them; other nodes have no image. The caller passes it,
     /// because one order serves several folds (each round of a minimization is one).
+    ///
+    /// ```
+    /// use tltl_compiler::bdd::{Bdd, Diagram, Node};
+    ///
+    /// let mut diagram = Diagram::default();
+    /// let [a, b] = [0, 1].map(|level| diagram.variable(level));
+    /// let both = diagram.and(a, b);
+    /// // ∃b: drop the nodes of level 1.
+    /// let mut result = Diagram::default();
+    /// let order = diagram.postorder(&[both]);
+    /// let images = diagram.fold(&order, &Bdd::leaf, &mut |Node { level, low, high }| match level {
+    ///     1 => result.or(low, high),
+    ///     _ => result.node(level, low, high),
+    /// });
+    /// let projected = images.of(both);
+    /// assert_eq!(projected, result.variable(0));
+    /// ```
     #[must_use]
     pub fn fold<'a>(
         &self,
@@ -106,6 +144,17 @@ impl Diagram {
     /// Its nodes stand in the order of [`postorder`](Self::postorder), and nodes that `roots` do
     /// not need are gone: equal functions give equal diagrams, byte for byte. So this is also how a
     /// diagram is cleaned up.
+    ///
+    /// ```
+    /// use tltl_compiler::bdd::{Bdd, Diagram};
+    ///
+    /// let mut diagram = Diagram::default();
+    /// let f = diagram.node(0, Bdd::leaf(5), Bdd::leaf(6));
+    /// // States 5 and 6 become one: the node asks in vain and is gone.
+    /// let (merged, roots) = diagram.map_leaves(&[f], &|_| Bdd::leaf(5));
+    /// assert_eq!(roots, [Bdd::leaf(5)]);
+    /// assert!(merged.nodes().is_empty());
+    /// ```
     #[must_use]
     pub fn map_leaves(&self, roots: &[Bdd], leaf: &dyn Fn(u32) -> Bdd) -> (Self, Vec<Bdd>) {
         let mut mapped = Self::default();
@@ -117,6 +166,16 @@ impl Diagram {
     }
 
     /// The function `f` of another diagram, in this one. Levels and leaves keep their numbers.
+    ///
+    /// ```
+    /// use tltl_compiler::bdd::Diagram;
+    ///
+    /// let [mut one, mut other] = [Diagram::default(), Diagram::default()];
+    /// let a = one.variable(0);
+    /// let not_a = one.not(a);
+    /// let imported = other.import(&one, not_a);
+    /// assert_eq!(other.evaluate(imported, &|_| false), 1);
+    /// ```
     pub fn import(&mut self, from: &Self, f: Bdd) -> Bdd {
         let order = from.postorder(&[f]);
         let node = &mut |Node { level, low, high }| self.node(level, low, high);
@@ -129,6 +188,17 @@ impl Diagram {
     /// All indicators are built in one pass from those of the children; asking for each leaf by
     /// itself would walk the diagram once a leaf. Cost: the number of pairs of a node and a leaf
     /// that it leads to.
+    ///
+    /// ```
+    /// use tltl_compiler::bdd::{Bdd, Diagram};
+    ///
+    /// let mut diagram = Diagram::default();
+    /// let f = diagram.node(0, Bdd::leaf(9), Bdd::leaf(4));
+    /// let mut guards = Diagram::default();
+    /// let indicators = diagram.indicators(&[f], &mut guards);
+    /// let a = guards.variable(0);
+    /// assert_eq!(indicators, [[(4, a), (9, guards.not(a))]]);
+    /// ```
     #[must_use]
     pub fn indicators(&self, roots: &[Bdd], into: &mut Self) -> Vec<Vec<(u32, Bdd)>> {
         let mut known: Vec<Vec<(u32, Bdd)>> = vec![Vec::new(); self.nodes.len()];

@@ -25,6 +25,17 @@ impl Edge {
 impl Dfa {
     /// All edges, self-loops included, by rising states. An edge that only impossible letters take
     /// is left out.
+    ///
+    /// ```
+    /// # use tltl_compiler::{compile, source::Source, translate::Budget};
+    /// let source = Source::new("formula", "F (x < 1 || x > 3)");
+    /// let dfa = &compile::formula(&source, Budget::EMITTED)?.automata[0].dfa;
+    /// let edges = dfa.edges();
+    /// assert_eq!(edges.iter().filter(|edge| edge.is_loop()).count(), 2);
+    /// // Both at once cannot occur, and the guard does not say so.
+    /// assert_eq!(edges[1].guard, [vec![(0, true)], vec![(1, true)]]);
+    /// # Ok::<(), tltl_compiler::error::Errors>(())
+    /// ```
     #[must_use]
     pub fn edges(&self) -> Vec<Edge> {
         let mut guards = Guards::new(self);

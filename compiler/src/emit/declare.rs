@@ -246,6 +246,16 @@ pub(super) fn documentation(lines: &[String], paragraphs: &[String]) -> TokenStr
 }
 
 /// The size of an automaton, as a sentence of its documentation.
+///
+/// ```
+/// use tltl_compiler::{compile, emit::rust::sizes, source::Source, translate::Budget};
+///
+/// let source = Source::new("formula", "!water U home");
+/// let compiled = compile::formula(&source, Budget::EMITTED)?;
+/// let text = "Minimal automaton: 3 states, one of them the trap, 2 edges and 3 self-loops.";
+/// assert_eq!(sizes(&compiled.automata[0].dfa), text);
+/// # Ok::<(), tltl_compiler::error::Errors>(())
+/// ```
 #[must_use]
 pub fn sizes(dfa: &Dfa) -> String {
     let size = dfa.size();

@@ -63,6 +63,15 @@ pub fn code(compiled: &Compiled, options: &Options<'_>) -> TokenStream {
 }
 
 /// Whether a source is a bare formula: its task has no name.
+///
+/// ```
+/// use tltl_compiler::{compile, emit::rust::is_bare, source::Source, translate::Budget};
+///
+/// let [bare, declared] = ["F a", "task go = F a"].map(|text| {
+///     compile::fragment(&Source::new("macro", text), Budget::EMITTED).unwrap()
+/// });
+/// assert!(is_bare(&bare) && !is_bare(&declared));
+/// ```
 #[must_use]
 pub fn is_bare(compiled: &Compiled) -> bool {
     let factored = compiled.factored.iter().map(|factored| &factored.task);

@@ -56,6 +56,16 @@ pub fn automaton(tables: &Tables, runtime: &TokenStream) -> TokenStream {
 /// The runtime's `Formula` as an expression, with `written` as its text. The operators are those of
 /// `spec`, in negation normal form; an [`Operator`](crate::tables::Operator) prints as the
 /// runtime's `Op` of the same name.
+///
+/// ```
+/// use quote::quote;
+/// use tltl_compiler::{check, emit, source::Source};
+///
+/// let module = check::formula(&Source::new("formula", "F a"))?;
+/// let code = emit::tables::formula(&module.tasks[0].spec, "F a", &quote! { ::tltl }).to_string();
+/// assert!(code.contains("Is (0) , Eventually (0)"));
+/// # Ok::<(), tltl_compiler::error::Errors>(())
+/// ```
 #[must_use]
 pub fn formula(spec: &Spec, written: &str, runtime: &TokenStream) -> TokenStream {
     let mut text = String::new();

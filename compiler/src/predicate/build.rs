@@ -14,6 +14,19 @@ use crate::ast::Comparison;
 
 impl Arena {
     /// ¬φ. The negation of a comparison is the opposite comparison: robustness is exact either way.
+    ///
+    /// ```
+    /// use tltl_compiler::ast::Comparison;
+    /// use tltl_compiler::predicate::{Arena, Condition, Number, Term};
+    ///
+    /// let mut arena = Arena::default();
+    /// let x = arena.add_term(Term::Variable("x".into()));
+    /// let three = arena.add_term(Term::Number(Number(3.0)));
+    /// let less = arena.compare(Comparison::Less, x, three);
+    /// let not = arena.not(less);
+    /// assert_eq!(*arena.condition(not), Condition::Compare(Comparison::AtLeast, x, three));
+    /// assert_eq!(arena.not(not), less);
+    /// ```
     pub fn not(&mut self, a: ConditionId) -> ConditionId {
         let condition = match *self.condition(a) {
             Condition::Truth(value) => Condition::Truth(!value),
@@ -46,6 +59,19 @@ impl Arena {
 
     /// One comparison. What varies stands on the left, so that `x < 3` and `3 > x` are one
     /// condition; two constants are compared at once.
+    ///
+    /// ```
+    /// use tltl_compiler::ast::Comparison;
+    /// use tltl_compiler::predicate::{Arena, Condition, Number, Term};
+    ///
+    /// let mut arena = Arena::default();
+    /// let x = arena.add_term(Term::Variable("x".into()));
+    /// let [three, five] = [3.0, 5.0].map(|value| arena.add_term(Term::Number(Number(value))));
+    /// let one = arena.compare(Comparison::Less, x, three);
+    /// assert_eq!(arena.compare(Comparison::Greater, three, x), one);
+    /// let constant = arena.compare(Comparison::Less, three, five);
+    /// assert_eq!(*arena.condition(constant), Condition::Truth(true));
+    /// ```
     pub fn compare(&mut self, op: Comparison, left: TermId, right: TermId) -> ConditionId {
         let condition = match (self.fixed(left), self.fixed(right)) {
             (Some(x), Some(y)) => Condition::Truth(op.holds(x, y)),
@@ -95,6 +121,18 @@ impl Arena {
     }
 
     /// The condition `root` with `arguments` in place of the parameters of these names.
+    ///
+    /// ```
+    /// use tltl_compiler::{check, predicate::{Number, Term}, source::Source};
+    ///
+    /// let text = "state S { x: f64 }\npredicate near(d: f64) = x < 2 * d\ntask t = F near(1)\n";
+    /// let mut module = check::file(&Source::new("s.tltl", text))?;
+    /// let three = module.arena.add_term(Term::Number(Number(3.0)));
+    /// let near = module.predicates[0].condition;
+    /// let instance = module.arena.substitute(near, &vec![("d".into(), three)]);
+    /// assert_eq!(module.display(instance).to_string(), "x < 6");
+    /// # Ok::<(), tltl_compiler::error::Errors>(())
+    /// ```
     pub fn substitute(&mut self, root: ConditionId, arguments: &Arguments) -> ConditionId {
         let needed = self.conditions_of(root);
         let mut done: Vec<ConditionId> = Vec::with_capacity(needed.len());
@@ -109,6 +147,17 @@ impl Arena {
     /// The number of operators and operands of a condition that is written out, shared ones counted
     /// wherever they stand; predicates without parameters count as one. Saturating: sharing can
     /// make it exponential.
+    ///
+    /// ```
+    /// use tltl_compiler::ast::Comparison;
+    /// use tltl_compiler::predicate::{Arena, Number, Term};
+    ///
+    /// let mut arena = Arena::default();
+    /// let x = arena.add_term(Term::Variable("x".into()));
+    /// let one = arena.add_term(Term::Number(Number(1.0)));
+    /// let less = arena.compare(Comparison::Less, x, one);
+    /// assert_eq!(arena.written_size(less), 3);
+    /// ```
     #[must_use]
     pub fn written_size(&self, root: ConditionId) -> usize {
         let conditions = self.conditions_of(root);
@@ -278,6 +327,16 @@ impl Arena {
 impl Module {
     /// The least length of an array that a parameter of a task indexes, and the place that it is
     /// part of. The generated function asserts that the argument is below it.
+    ///
+    /// ```
+    /// use tltl_compiler::{check, source::Source};
+    ///
+    /// let text = "state S { a: [bool; 9], b: [bool; 4] }\ntask t(i: u8) = F (a[i] && b[i])\n";
+    /// let module = check::file(&Source::new("s.tltl", text))?;
+    /// let (length, place) = module.shortest_array(&module.tasks[0], "i").unwrap();
+    /// assert_eq!((length, module.display_term(place).to_string().as_str()), (4, "b[i]"));
+    /// # Ok::<(), tltl_compiler::error::Errors>(())
+    /// ```
     #[must_use]
     pub fn shortest_array(&self, task: &Task, parameter: &str) -> Option<(u32, TermId)> {
         let is_it = |index: TermId| matches!(self.arena.term(index), Term::Parameter { name, .. } if name == parameter);

@@ -41,6 +41,22 @@ impl Spec {
     }
 
     /// The formula `root` as text of about `most` bytes at most, then `…`.
+    ///
+    /// ```
+    /// use tltl_compiler::{source::Span, spec::Spec};
+    ///
+    /// let mut spec = Spec::new(vec!["a".into(), "b".into()]);
+    /// let at = Span::default();
+    /// let mut all = spec.literal(0, false, at);
+    /// for _ in 0..40 {
+    ///     let (b, held) = (spec.literal(1, false, at), all);
+    ///     let next = spec.next(held, at);
+    ///     let until = spec.until(b, held, at);
+    ///     all = spec.or(next, until, at);
+    /// }
+    /// // 2^40 leaves if it is written out.
+    /// assert!(spec.text(all, 50).len() < 80);
+    /// ```
     #[must_use]
     pub fn text(&self, root: FormulaId, most: usize) -> String {
         let mut short = Short { text: String::new(), most };
