@@ -16,7 +16,9 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 /// A type that is a number: an index into an arena.
 pub(crate) trait Id: Copy {
+    /// The id of this number.
     fn new(number: u32) -> Self;
+    /// The number of this id.
     fn number(self) -> u32;
 }
 
@@ -46,8 +48,9 @@ macro_rules! id {
 }
 pub(crate) use id;
 
-/// What a [`Memo`] can be asked for: one id, or two, packed into 64 bits without loss.
+/// A key of a [`Memo`]: one id, or two, packed into 64 bits without loss.
 pub(crate) trait Key {
+    /// The key as a number; different keys have different numbers.
     fn key(self) -> u64;
 }
 
@@ -84,10 +87,12 @@ impl<K, V> Default for Memo<K, V> {
 }
 
 impl<K: Key, V: Id> Memo<K, V> {
+    /// The value of `key`.
     pub(crate) fn get(&self, key: K) -> Option<V> {
         self.known.get(&key.key()).map(|&number| V::new(number))
     }
 
+    /// Sets the value of `key`; an old one is replaced.
     pub(crate) fn insert(&mut self, key: K, value: V) {
         self.known.insert(key.key(), value.number());
     }
@@ -98,6 +103,7 @@ impl<K: Key, V: Id> Memo<K, V> {
         V::new(*self.known.entry(key.key()).or_insert(fresh.number()))
     }
 
+    /// The number of keys.
     pub(crate) fn len(&self) -> usize {
         self.known.len()
     }

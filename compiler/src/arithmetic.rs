@@ -47,7 +47,7 @@ use crate::predicate::{ConditionId, Module, PredicateId, Task};
 use relation::Analysis;
 
 /// Predicates whose relation needs more nodes than this count as independent. A million nodes with
-/// their tables take about 90 MB.
+/// their tables take less than 100 MB.
 pub const NODE_LIMIT: usize = 1 << 20;
 /// Linear forms with more combinations of cells than this count as independent. Each combination is
 /// one system of inequalities to decide.

@@ -188,7 +188,7 @@ pub struct FieldType {
     pub optional: bool,
     /// The lengths, innermost first: numbers, or names of constants or enumerations.
     pub lengths: Vec<Span>,
-    /// All of it.
+    /// The whole type.
     pub span: Span,
 }
 
@@ -197,7 +197,7 @@ pub struct FieldType {
 pub struct WrittenUnit {
     /// Its factors, in order. A factor `1` is left out.
     pub factors: Vec<UnitFactor>,
-    /// All of it.
+    /// The whole unit.
     pub span: Span,
 }
 
@@ -210,7 +210,7 @@ pub struct UnitFactor {
     pub divides: bool,
     /// The digits of its power, and whether a minus stands before them; `None` for the power 1.
     pub power: Option<(Span, bool)>,
-    /// All of it.
+    /// The whole factor.
     pub span: Span,
 }
 
@@ -267,9 +267,9 @@ pub struct Item {
     pub docs: Vec<String>,
     /// Its name; an empty span for a bare formula.
     pub name: Span,
-    /// What it is.
+    /// Its kind, and the parts that only this kind has.
     pub kind: ItemKind,
-    /// All of it, without its docs.
+    /// The whole item, without its docs.
     pub span: Span,
 }
 
@@ -287,6 +287,7 @@ pub struct Ast {
 }
 
 impl Ast {
+    /// The tree of a source without items.
     pub(crate) fn new(source: Source) -> Self {
         Self {
             source,
@@ -327,7 +328,7 @@ impl Ast {
         &self.entry(id).node
     }
 
-    /// Where an expression stands.
+    /// The place of an expression, without brackets around it.
     #[must_use]
     pub fn span(&self, id: NodeId) -> Span {
         self.entry(id).span

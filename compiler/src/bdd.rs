@@ -67,6 +67,7 @@ pub struct Bdd(u32);
 arena::id! { Bdd }
 
 impl Bdd {
+    /// The bit that tells a leaf from a node.
     const LEAF: u32 = 1 << 31;
     /// The function that is always false: leaf 0.
     pub const FALSE: Self = Self::leaf(0);
@@ -79,7 +80,7 @@ impl Bdd {
         Self(Self::LEAF | value)
     }
 
-    /// The node at `index` in [`Diagram::nodes`].
+    /// The node at `index` of [`Diagram::nodes`].
     #[must_use]
     pub const fn node(index: u32) -> Self {
         Self(index)
@@ -91,13 +92,13 @@ impl Bdd {
         if self.0 >= Self::LEAF { Some(self.0 & !Self::LEAF) } else { None }
     }
 
-    /// The place of a node in [`Diagram::nodes`]; `None` for a leaf.
+    /// The index of a node in [`Diagram::nodes`]; `None` for a leaf.
     #[must_use]
     pub const fn index(self) -> Option<u32> {
         if self.0 < Self::LEAF { Some(self.0) } else { None }
     }
 
-    /// The place of a node, or 2^31 plus the number that a leaf is.
+    /// The index of a node, or 2^31 plus the number of a leaf: how tables refer to a function.
     #[must_use]
     pub const fn code(self) -> u32 {
         self.0
@@ -170,9 +171,9 @@ impl Default for Diagram {
 }
 
 impl Diagram {
-    /// The number of levels up to which no operation runs out of stack. Whoever takes levels from
-    /// an input checks it. An unoptimised build needs a megabyte for so many, half of what a thread
-    /// has.
+    /// The number of levels up to which no operation runs out of stack. Callers that take levels
+    /// from an input check it. An unoptimized build needs a megabyte for this many, half of what a
+    /// thread has.
     pub const MAX_LEVELS: u32 = 4096;
 
     /// A diagram without nodes that stops growing soon after `limit` of them: from then on, results
@@ -208,7 +209,8 @@ impl Diagram {
         self.get(f).map_or(u32::MAX, |node| node.level)
     }
 
-    /// What `f` is where `level` is false, and where it is true; no lower level is asked by `f`.
+    /// The two functions that `f` is where `level` is false, and where it is true. `f` asks no
+    /// lower level.
     #[must_use]
     pub fn cofactors(&self, f: Bdd, level: u32) -> (Bdd, Bdd) {
         match self.get(f) {
@@ -298,6 +300,7 @@ impl Diagram {
         std::mem::replace(&mut self.cache, vec![empty; self.unique.len()])
     }
 
+    /// The remembered result of an operation.
     fn known(&mut self, key: usize, operation: Operation, f: Bdd, g: Bdd) -> Option<Bdd> {
         if self.cache.is_empty() {
             self.empty_cache();
@@ -306,6 +309,7 @@ impl Diagram {
         (known.operation == operation && known.f == f && known.g == g).then_some(known.result)
     }
 
+    /// Remembers a result in the slot of its key; an older one there is lost.
     fn remember(&mut self, key: usize, known: Known) {
         let slot = key & (self.cache.len() - 1);
         self.cache[slot] = known;
@@ -348,6 +352,18 @@ impl Diagram {
     /// `terminal` is the operation. It gives the result of two leaves, and also of two functions if
     /// it can be seen without asking a variable; it gets the diagram, to make nodes. Each pair of
     /// functions is combined once, as long as the cache remembers it.
+    ///
+    /// ```
+    /// use tltl_compiler::bdd::{Bdd, Diagram, Operation};
+    ///
+    /// // The product of two automata moves to the pair of their next states.
+    /// let mut diagram = Diagram::default();
+    /// let f = diagram.node(0, Bdd::leaf(2), Bdd::leaf(3));
+    /// let g = diagram.node(1, Bdd::leaf(4), Bdd::leaf(5));
+    /// let pair = |f: Bdd, g: Bdd| Some(Bdd::leaf(10 * f.value()? + g.value()?));
+    /// let product = diagram.apply(Operation::new(0), f, g, &mut |_, f, g| pair(f, g));
+    /// assert_eq!(diagram.leaves(product), [24, 25, 34, 35]);
+    /// ```
     pub fn apply(
         &mut self,
         operation: Operation,
@@ -379,6 +395,17 @@ impl Diagram {
 
     /// The generalized cofactor: a function that is `f` wherever `care` is true, and the same one
     /// for all `f` that agree there. `f` itself if `care` is never true.
+    ///
+    /// ```
+    /// use tltl_compiler::bdd::Diagram;
+    ///
+    /// let mut diagram = Diagram::default();
+    /// let [a, b] = [0, 1].map(|level| diagram.variable(level));
+    /// let either = diagram.or(a, b);
+    /// // Where `a` does not hold, a ∨ b is b.
+    /// let not_a = diagram.not(a);
+    /// assert_eq!(diagram.constrain(either, not_a), b);
+    /// ```
     pub fn constrain(&mut self, f: Bdd, care: Bdd) -> Bdd {
         if f.value().is_some() || care.value().is_some() {
             return f;

@@ -124,9 +124,13 @@ fn finish((ast, mut mistakes): (Ast, Vec<Error>), names: Names) -> Result<Module
 
 /// A module under construction.
 struct Checker<'r> {
+    /// The source, its names resolved.
     resolved: &'r Resolved<'r>,
+    /// The terms and conditions so far, and all mistakes.
     lowering: Lowering<'r>,
+    /// The predicates so far.
     propositions: Propositions,
+    /// The constants so far.
     constants: Vec<Constant>,
     /// The unit of each constant, by its item.
     measures: Vec<Measure>,

@@ -41,13 +41,13 @@ use crate::translate::{Budget, Exceeded, Resource, translate};
 /// neither: they have several automata each, so they stand in `factored` with their parts.
 #[derive(Clone, Debug)]
 pub struct Compiled {
-    /// What it declares.
+    /// The declarations of the source, checked.
     pub module: Module,
     /// The automata of each task of `module.tasks`, in the same order.
     pub automata: Vec<Automata>,
     /// The tasks marked `#[factored]`, in source order.
     pub factored: Vec<Factored>,
-    /// What the author should look at, in source order; none of them is an error.
+    /// The warnings, in source order; none of them is an error.
     pub warnings: Vec<Error>,
 }
 

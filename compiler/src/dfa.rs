@@ -146,16 +146,7 @@ impl Dfa {
         found
     }
 
-    /// How big the automaton is.
-    ///
-    /// ```
-    /// # use tltl_compiler::{compile, source::Source, translate::Budget};
-    /// let source = Source::new("formula", "!water U home");
-    /// let size = compile::formula(&source, Budget::EMITTED)?.automata[0].dfa.size();
-    /// assert_eq!((size.states, size.edges, size.self_loops), (3, 2, 3));
-    /// assert_eq!((size.trap, size.into_trap), (true, 1));
-    /// # Ok::<(), tltl_compiler::error::Errors>(())
-    /// ```
+    /// The size of the automaton.
     #[must_use]
     pub fn size(&self) -> Size {
         let mut size = Size {
@@ -276,7 +267,7 @@ impl<'a> Guards<'a> {
         })
     }
 
-    /// The letters under which `q` moves to `to`.
+    /// The letters under which `q` moves to `to`; none if it does not.
     fn when(&self, q: State, to: State) -> Bdd {
         let moves = &self.moves[q as usize];
         let place = moves.binary_search_by_key(&to, |&(state, _)| state);
@@ -297,6 +288,7 @@ impl<'a> Guards<'a> {
         (self.diagram.and(when, self.possible), self.diagram.or(when, impossible))
     }
 
+    /// A guard as an irredundant sum of products.
     fn sum(&mut self, when: Bdd) -> Vec<Cube> {
         let (lower, upper) = self.bounds(when);
         self.diagram.sum_of_products(lower, upper)

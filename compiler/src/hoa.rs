@@ -60,8 +60,8 @@ use crate::source::{Source, Span};
 /// The most propositions that are read. Formulas written by hand have a few dozen; the bound keeps
 /// every walk over a diagram, which recurses once a level, within a small stack.
 pub const MOST_PROPOSITIONS: usize = 512;
-/// The most nodes that the decision diagrams of all labels and transitions may have together. Two
-/// million nodes with their tables take about 100 MB.
+/// The most nodes that the decision diagrams of all labels and transitions may have together. With
+/// their tables they take about 100 MB at most.
 pub const MOST_NODES: usize = 2_000_000;
 
 /// An automaton together with its name.

@@ -138,7 +138,7 @@ struct Part {
     holds: bool,
     /// The condition that must hold, as text in backquotes.
     text: String,
-    /// Where the source says so, if it does.
+    /// The place in the source that says so; `None` if it follows from a type.
     place: Option<Span>,
 }
 

@@ -37,6 +37,7 @@ use crate::grammar::{Grammar, Rule};
 use crate::source::{Source, Span};
 use crate::token;
 
+/// A pair of the grammar: a rule, with the text that it matched.
 type Pair<'a> = pest::iterators::Pair<'a, Rule>;
 
 /// The deepest nesting of braces. Verbatim Rust is the one recursive rule of the grammar.

@@ -235,9 +235,9 @@ pub enum State {
     Host {
         /// The name that stands for the state.
         name: String,
-        /// Where the source has the type.
+        /// The place of the type in the source.
         ty: Span,
-        /// Where the source has the name.
+        /// The place of the name in the source.
         span: Span,
     },
     /// The input of the macro without a header: the type is the one that the predicates take.
@@ -461,9 +461,9 @@ pub enum Term {
     Host {
         /// Its text without superfluous blanks. Terms of the same text and bindings are one.
         text: String,
-        /// Where it stands first.
+        /// Its first place in the source.
         span: Span,
-        /// What the names of parameters in it stand for.
+        /// The meanings of the parameters and bound names in it.
         bindings: Vec<Binding>,
         /// Whether it is a value rather than a number.
         value: bool,
@@ -517,7 +517,7 @@ pub enum Condition {
     Apply {
         /// Which.
         predicate: PredicateId,
-        /// What its parameters stand for, in order.
+        /// The arguments, in the order of the parameters.
         arguments: Vec<TermId>,
         /// Its condition with the arguments in place of the parameters. Analysis reads this;
         /// emission calls the predicate.
@@ -527,9 +527,9 @@ pub enum Condition {
     Value {
         /// Its text without blanks.
         text: String,
-        /// Where it stands first.
+        /// Its first place in the source.
         span: Span,
-        /// What the names of parameters in it stand for.
+        /// The meanings of the parameters and bound names in it.
         bindings: Vec<Binding>,
     },
     /// A free proposition of a bare formula: nothing is known about it but its name.
@@ -648,13 +648,13 @@ pub struct Predicate {
     pub parameters: Vec<Parameter>,
     /// The author's docs.
     pub docs: Vec<String>,
-    /// Where the source has it first.
+    /// The place of its name in the source; of its first use if no item declares it.
     pub span: Span,
     /// The condition under which it holds.
     pub condition: ConditionId,
 }
 
-/// How a task is made of other tasks.
+/// The operator that makes a task of other tasks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Connective {
     /// All of them.

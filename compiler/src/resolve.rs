@@ -45,7 +45,7 @@ pub(crate) use expand::{Bound, MOST_NODES};
 pub(crate) use place::{a_type, elements};
 pub(crate) use scope::Scope;
 
-/// What a name may stand for if the source does not declare it.
+/// The meaning of names that the source does not declare.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Names {
     /// A bare formula: any name is a proposition, or a real variable inside a comparison.
@@ -143,7 +143,7 @@ pub(crate) struct Place {
     pub(crate) ty: Type,
     /// The unit of its numbers, if the source gives one.
     pub(crate) unit: Option<Unit>,
-    /// How deep places nest as indices in its path.
+    /// The depth to which places nest as indices in its path.
     depth: usize,
 }
 

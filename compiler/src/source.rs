@@ -106,7 +106,7 @@ impl Source {
         Self { name: name.into(), text: text.into() }
     }
 
-    /// What messages call it.
+    /// The name under which messages show it.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name

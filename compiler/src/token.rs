@@ -153,6 +153,7 @@ pub(crate) struct Tokens<'a> {
 }
 
 impl<'a> Tokens<'a> {
+    /// The tokens of `text` from byte `at` on.
     pub(crate) fn new(text: &'a str, at: usize) -> Self {
         Self { text, at }
     }

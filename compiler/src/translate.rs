@@ -203,6 +203,7 @@ struct Translation<'a> {
 }
 
 impl<'a> Translation<'a> {
+    /// A translation with nothing done but the numbering of obligations.
     fn new(spec: &'a Spec, budget: Budget) -> Result<Self, Exceeded> {
         let mut translation = Self {
             spec,
@@ -429,10 +430,12 @@ impl<'a> Translation<'a> {
         state
     }
 
+    /// Checks the size of the diagram against the budget.
     fn check_nodes(&self) -> Result<(), Exceeded> {
         self.check(Resource::Nodes, self.functions.nodes().len(), self.budget.nodes)
     }
 
+    /// Checks a count against a limit.
     fn check(&self, what: Resource, count: usize, limit: usize) -> Result<(), Exceeded> {
         if count > limit { Err(Exceeded { what, limit }) } else { Ok(()) }
     }

@@ -31,6 +31,7 @@ const MOST_COVERS: usize = 1 << 20;
 pub(super) struct Covers {
     /// The set for each pair of bounds that was asked for.
     known: Memo<(Bdd, Bdd), u32>,
+    /// All sets so far, each after those that it is made of.
     sets: Vec<Cover>,
 }
 
@@ -53,13 +54,14 @@ impl Covers {
     /// The index of the set whose only cube has no literals.
     const EMPTY_CUBE: u32 = 1;
 
-    /// The two sets that all others are made of.
+    /// The two fixed sets.
     fn new() -> Self {
         let cover = Cover { level: u32::MAX, parts: [0; 3], count: 0, function: Bdd::FALSE };
         let empty_cube = Cover { count: 1, function: Bdd::TRUE, ..cover };
         Self { known: Memo::default(), sets: vec![cover, empty_cube] }
     }
 
+    /// The set at an index.
     fn get(&self, set: u32) -> Cover {
         self.sets[set as usize]
     }

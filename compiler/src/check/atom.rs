@@ -32,7 +32,7 @@ pub(super) struct Atoms<'c, 'r> {
     pub(super) propositions: &'c mut Propositions,
     /// The tasks checked so far.
     pub(super) tasks: &'c [Option<Task>],
-    /// What each expression must be.
+    /// The role of each expression.
     pub(super) roles: &'c Roles,
     /// The terms of the expressions that are numbers, by their position in the item.
     pub(super) terms: &'c [Option<TermId>],
@@ -204,8 +204,11 @@ impl Atoms<'_, '_> {
 
 /// One comparison of a chain.
 struct Link {
+    /// The comparison.
     op: Comparison,
+    /// Its two sides.
     sides: [ExpressionId; 2],
+    /// The place of its symbol.
     operator: Span,
 }
 

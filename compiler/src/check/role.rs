@@ -11,7 +11,7 @@ use crate::error::{Error, Kind};
 use crate::predicate::{ParameterType, Scalar};
 use crate::resolve::{Callee, Expression, ExpressionId, Resolved};
 
-/// What an expression must be where it stands.
+/// The role of an expression: the type that its position asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Role {
     /// A formula of a task, under the negation `negated`: the `!`, or the `=>` whose left side it

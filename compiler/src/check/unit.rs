@@ -15,7 +15,7 @@ use crate::predicate::{Function, TermId};
 use crate::resolve::{Callee, Expression, ExpressionId, Name, Resolved, large_unit};
 use crate::unit::Unit;
 
-/// What is known about the unit of a number.
+/// The knowledge about the unit of a number.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Measure {
     /// Nothing: it is not declared.

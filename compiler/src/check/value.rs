@@ -309,6 +309,7 @@ impl Lowering<'_> {
 
 /// Names as a message lists them: at most twelve.
 fn listed(names: &[String]) -> String {
+    /// The most names that a message lists.
     const MOST: usize = 12;
     let shown = names.iter().take(MOST).map(|name| format!("`{name}`")).collect::<Vec<_>>();
     let more = if names.len() > MOST { ", …" } else { "" };

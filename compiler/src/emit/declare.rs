@@ -181,11 +181,13 @@ impl Emitter<'_> {
 /// The parameters of a predicate or a task. They are arguments of its function and fields of the
 /// struct of the same name.
 pub(super) struct Parameters {
+    /// The documentation of the fields.
     docs: Vec<TokenStream>,
     /// The names of the fields: the source's own.
     pub(super) fields: Vec<Ident>,
     /// The names of the arguments and of the locals to which the fields are bound.
     names: Vec<Ident>,
+    /// The Rust types.
     types: Vec<TokenStream>,
     /// Whether all types are known to implement `Debug`: a type of the host may not.
     printable: bool,

@@ -129,7 +129,9 @@ type Written = (TokenStream, u32);
 
 /// Writes one condition: operands first, in order, without recursion.
 struct Writer<'a> {
+    /// The surroundings of the code.
     scope: &'a Scope<'a>,
+    /// The reading that is written.
     reading: Reading,
     /// The conditions to be written, operands first.
     needed: Vec<u32>,
@@ -277,7 +279,7 @@ impl Writer<'_> {
         }
     }
 
-    /// A negation: the opposite robustness, or the opposite truth.
+    /// A negation: the negative robustness, or the opposite truth.
     fn unary(&mut self, a: ConditionId) -> Written {
         let (a, depth) = self.operand(a);
         let code = if self.reading == Reading::Robustness {

@@ -147,7 +147,9 @@ struct Made {
 pub(super) struct Emitter<'a> {
     pub(super) compiled: &'a Compiled,
     pub(super) options: &'a Options<'a>,
+    /// The path of the runtime crate.
     runtime: &'a TokenStream,
+    /// The surroundings of the predicates' code.
     pub(super) scope: Scope<'a>,
 }
 

@@ -22,6 +22,8 @@ pub enum Style {
     Coloured,
 }
 
+/// ANSI codes, as rustc uses them: errors are red, warnings yellow, everything around the text
+/// blue.
 const BOLD: &str = "\x1b[1m";
 const RED: &str = "\x1b[1;31m";
 const YELLOW: &str = "\x1b[1;33m";
@@ -43,8 +45,11 @@ impl Style {
 
 /// A place to underline.
 struct Label<'a> {
+    /// The place.
     span: Span,
+    /// The text beside it.
     text: &'a str,
+    /// Whether it is the place of the mistake itself.
     primary: bool,
 }
 

@@ -16,6 +16,7 @@ use crate::source::Span;
 /// The destination of an edge, with its marks.
 #[derive(Clone, Debug)]
 pub(super) struct Edge {
+    /// The state that it enters.
     pub(super) to: State,
     /// The acceptance sets on the edge itself.
     pub(super) marks: Vec<u32>,

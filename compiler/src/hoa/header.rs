@@ -25,12 +25,15 @@ pub(super) enum Acceptance {
 
 /// The parts of the header that matter.
 pub(super) struct Header {
+    /// The name, if there is one.
     pub(super) name: Option<String>,
     /// The initial state, by its number in the text, and the place where it is named.
     pub(super) start: (u32, Span),
     /// The names of the propositions, in the order of `AP:`.
     pub(super) propositions: Vec<String>,
+    /// The acceptance condition.
     pub(super) acceptance: Acceptance,
+    /// The aliases, and the diagram for all labels.
     pub(super) labels: Labels,
 }
 

@@ -14,6 +14,7 @@ use crate::source::Span;
 pub(super) struct Labels {
     /// The diagram, which becomes that of the automaton.
     pub(super) diagram: Diagram,
+    /// The function of each alias.
     aliases: FxHashMap<String, Bdd>,
     /// The highest proposition that a label names, and its place.
     pub(super) highest: Option<(u32, Span)>,
@@ -28,6 +29,7 @@ enum Pending {
     Or(Bdd),
     /// A conjunction, by its left operand.
     And(Bdd),
+    /// A negation.
     Not,
 }
 

@@ -12,13 +12,19 @@ use crate::source::Span;
 pub(super) enum Token<'a> {
     /// `name:`, without the colon.
     Header(&'a str),
+    /// A word without a colon: `t`, `Inf`, `v1`.
     Word(&'a str),
+    /// A string in quotes, its escapes resolved.
     Text(String),
+    /// A number.
     Number(u32),
     /// `@name`, without the `@`.
     Alias(&'a str),
+    /// A bracket or an operator.
     Symbol(char),
+    /// `--BODY--`
     Body,
+    /// `--END--`
     End,
     /// The end of the text.
     Nothing,
@@ -43,7 +49,9 @@ impl Token<'_> {
 
 /// The tokens of a text, with one token of lookahead.
 pub(super) struct Tokens<'a> {
+    /// The whole text.
     text: &'a str,
+    /// The byte after the next token.
     at: usize,
     /// The next token.
     token: Token<'a>,

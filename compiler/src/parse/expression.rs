@@ -29,7 +29,9 @@ pub(super) fn build(
 /// An operator that waits for its right operand, or a bracket that waits for its end.
 #[derive(Clone, Copy)]
 enum Pending {
+    /// An operator before its operand.
     Prefix(Prefix, Span),
+    /// A quantifier, which waits for its body.
     Quantifier {
         all: bool,
         name: Span,
@@ -39,21 +41,25 @@ enum Pending {
         range: Option<bool>,
         span: Span,
     },
+    /// An operator that has its left operand.
     Infix(Infix, Span),
+    /// An opening bracket.
     Open(Span),
     /// A call; its arguments are the operands from `first` on.
-    Call {
-        first: usize,
-        span: Span,
-    },
+    Call { first: usize, span: Span },
+    /// An opening bracket after an array.
     Index(Span),
 }
 
 /// The two stacks.
 struct Yard<'a> {
+    /// The tree that is built.
     ast: &'a mut Ast,
+    /// The byte at which the parsed text starts.
     at: usize,
+    /// The operands that no operator has taken yet.
     operands: Vec<NodeId>,
+    /// The operators and brackets that wait.
     pending: Vec<Pending>,
     mistakes: &'a mut Vec<Error>,
 }

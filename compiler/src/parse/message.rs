@@ -14,8 +14,11 @@ use crate::token::{self, Tokens};
 struct Found<'a> {
     /// The whole source.
     text: &'a str,
+    /// The word before the place.
     before: Option<Span>,
+    /// The word at the place.
     here: Option<Span>,
+    /// The word after it.
     after: Option<Span>,
     /// The end of the word before.
     end: usize,

@@ -134,7 +134,7 @@ impl Resolved<'_> {
         Ok(Place { depth, ..base.then(segment, element) })
     }
 
-    /// How deep places nest as indices in a step.
+    /// The depth to which places nest as indices in a step.
     fn depth(&self, segment: &Segment) -> usize {
         let (Segment::Element { index, .. } | Segment::At { index, .. }) = segment else {
             return 0;

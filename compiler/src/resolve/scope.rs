@@ -15,7 +15,7 @@ use crate::unit::{Unit, Units};
 /// The declared names and types.
 pub(crate) struct Scope<'a> {
     pub(super) ast: &'a Ast,
-    /// What undeclared names may stand for.
+    /// The meaning of undeclared names.
     pub(super) names: Names,
     /// The position of each item that can stand in an expression, by its name.
     pub(super) items: FxHashMap<&'a str, usize>,
@@ -23,8 +23,11 @@ pub(crate) struct Scope<'a> {
     pub(super) declared: Vec<Declared>,
     /// The number of tasks.
     pub(super) tasks: u32,
+    /// The structs, each after those that it holds.
     pub(crate) structs: Vec<Struct>,
+    /// The enumerations, in source order.
     pub(crate) enums: Vec<Enum>,
+    /// The state, if the source declares its fields.
     pub(super) state: Option<Struct>,
     /// The places of the declarations of the state's fields, broken ones included.
     pub(super) fields: FxHashMap<&'a str, Span>,
@@ -32,6 +35,7 @@ pub(crate) struct Scope<'a> {
     pub(super) variants: FxHashMap<&'a str, Vec<Value>>,
     /// All names that can stand in a formula, for suggestions; in source order within each kind.
     pub(super) known: Vec<&'a str>,
+    /// The names of all units.
     pub(crate) units: Units,
     /// Whether anything has a declared unit; without one, units are not checked.
     pub(super) measured: bool,
