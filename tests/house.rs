@@ -76,13 +76,19 @@ fn what_users_build_is_counted() {
 }
 
 /// The modules of each crate, from those that know none of the others to those that know most.
-const ORDER: [(&str, &str); 3] = [
+const ORDER: [(&str, &str); 4] = [
     (
         "compiler",
         "source error arena token reserved ast unit bdd dfa grammar parse spec predicate linear \
          arithmetic resolve check translate minimize factor judge compile hoa tables emit",
     ),
     ("macros", "tokens expand"),
+    (
+        "runtime",
+        "shared range checksum interner automaton formula robustness monitor task factored \
+         private product model env mismatch reward episode augmented estimate certificate settings \
+         policy q experience solve shield learn compose controller network deep checkpoint prelude",
+    ),
     ("tools", "semantics tables format evaluate vacuity task product trace diff emit explain cli"),
 ];
 

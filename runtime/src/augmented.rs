@@ -21,7 +21,7 @@ pub(crate) use label::{Payment, Tables};
 pub(crate) use moves::Moves;
 
 use crate::env::{Env, Step};
-use crate::learn::episode::{Monitored, Move};
+use crate::episode::{Monitored, Move};
 use crate::monitor::Monitor;
 use crate::reward::{End, Rewards};
 use crate::task::Error;

@@ -19,9 +19,8 @@ pub use batch::Letters;
 #[cfg(feature = "alloc")]
 pub use check::TableError;
 #[cfg(feature = "alloc")]
-pub(crate) use check::{length as check_length, operators as check_operators};
+pub(crate) use check::{length as check_length, limit_of as check_limit};
 
-use crate::monitor::Acceptor;
 use crate::shared::Shared;
 
 /// The data of an [`Automaton`], not checked yet.
@@ -240,6 +239,7 @@ impl Automaton {
     }
 
     /// All data of the automaton.
+    #[inline]
     #[must_use]
     pub const fn tables(&self) -> &Tables {
         &self.tables
@@ -337,7 +337,7 @@ impl Automaton {
 
     /// The number of the first edge of `q`, and what all its edges enter.
     #[inline]
-    fn targets(&self, q: u32) -> (usize, &[u32]) {
+    pub(crate) fn targets(&self, q: u32) -> (usize, &[u32]) {
         let q = q as usize;
         let (start, end) = (self.tables.edges[q] as usize, self.tables.edges[q + 1] as usize);
         (start, &self.tables.targets[start..end])
@@ -353,29 +353,5 @@ impl Automaton {
         let Tables { guards, literals, .. } = &self.tables;
         let ends = &guards[index..index + 2];
         Guard { literals: &literals[ends[0] as usize..ends[1] as usize] }
-    }
-}
-
-impl Acceptor for Automaton {
-    fn states(&self) -> u32 {
-        self.tables.states
-    }
-
-    #[inline]
-    fn is_accepting(&self, q: u32) -> bool {
-        self.tables.accepting == Some(q)
-    }
-
-    #[inline]
-    fn is_trap(&self, q: u32) -> bool {
-        self.tables.trap == Some(q)
-    }
-
-    fn distance(&self, q: u32) -> Option<u32> {
-        Some(self.tables.distance[q as usize]).filter(|&distance| distance < u32::MAX)
-    }
-
-    fn successors(&self, q: u32, visit: &mut dyn FnMut(u32)) {
-        self.targets(q).1.iter().for_each(|&to| visit(to));
     }
 }

@@ -128,7 +128,7 @@ impl<P> Factored<P> {
         for Part { formula, automaton, predicates } in &*parts {
             let propositions = automaton.propositions().len();
             crate::automaton::check_length("predicates", predicates.len(), propositions)?;
-            crate::automaton::check_operators(formula.operators(), propositions)?;
+            crate::formula::check_operators(formula.operators(), propositions)?;
         }
         Ok(Self::trusted(name.into(), text.into(), parts, joint, predicates))
     }

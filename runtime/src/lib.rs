@@ -71,6 +71,8 @@ extern crate std;
 #[cfg(feature = "alloc")]
 pub mod augmented;
 pub mod automaton;
+#[cfg(feature = "alloc")]
+mod certificate;
 #[cfg(feature = "std")]
 pub mod checkpoint;
 #[cfg(feature = "alloc")]
@@ -83,9 +85,14 @@ pub mod controller;
 pub mod deep;
 #[cfg(feature = "alloc")]
 pub mod env;
+#[cfg(feature = "alloc")]
+pub mod episode;
 #[cfg(feature = "std")]
 pub mod estimate;
+#[cfg(feature = "alloc")]
+mod experience;
 pub mod factored;
+mod formula;
 #[cfg(feature = "alloc")]
 mod interner;
 #[cfg(feature = "alloc")]
@@ -111,6 +118,8 @@ mod range;
 #[cfg(feature = "alloc")]
 pub mod reward;
 pub mod robustness;
+#[cfg(feature = "alloc")]
+mod settings;
 mod shared;
 #[cfg(feature = "alloc")]
 pub mod shield;

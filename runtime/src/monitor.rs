@@ -8,7 +8,9 @@
 #[cfg(feature = "alloc")]
 use alloc::{boxed::Box, rc::Rc, sync::Arc};
 
-use crate::task::{EMPTY, Error, Formula};
+use crate::automaton::Automaton;
+use crate::formula::{EMPTY, Formula};
+use crate::robustness::Error;
 
 /// A finite-state acceptor: the states of a task's automaton and how they are connected.
 ///
@@ -167,4 +169,28 @@ pointers! {
     #[cfg(feature = "alloc")] Box<M>,
     #[cfg(feature = "alloc")] Rc<M>,
     #[cfg(feature = "alloc")] Arc<M>
+}
+
+impl Acceptor for Automaton {
+    fn states(&self) -> u32 {
+        self.tables().states
+    }
+
+    #[inline]
+    fn is_accepting(&self, q: u32) -> bool {
+        self.tables().accepting == Some(q)
+    }
+
+    #[inline]
+    fn is_trap(&self, q: u32) -> bool {
+        self.tables().trap == Some(q)
+    }
+
+    fn distance(&self, q: u32) -> Option<u32> {
+        Some(self.tables().distance[q as usize]).filter(|&distance| distance < u32::MAX)
+    }
+
+    fn successors(&self, q: u32, visit: &mut dyn FnMut(u32)) {
+        self.targets(q).1.iter().for_each(|&to| visit(to));
+    }
 }

@@ -77,12 +77,11 @@ pub(crate) use document::checked;
 pub use document::{Document, PolicyError, Starts, States, Training};
 
 use crate::augmented::{Labelled, Tables};
+use crate::certificate::{Certificate, Shielded, Start};
 use crate::mismatch::Mismatch;
 use crate::monitor::Acceptor as _;
 use crate::product::Product;
 use crate::reward::{End, Ends};
-use crate::shield::Shielded;
-use crate::solve::{Certificate, Start};
 
 /// A policy for a task on a finite world: for each automaton state and world state an action.
 ///

@@ -26,4 +26,4 @@ pub use crate::reward::Rewards;
 #[cfg(feature = "alloc")]
 pub use crate::solve::Problem;
 #[cfg(feature = "macros")]
-pub use crate::{include_tltl, tltl};
+pub use tltl_macros::{include_tltl, tltl};

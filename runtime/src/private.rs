@@ -9,9 +9,10 @@
 use core::fmt;
 
 use crate::automaton::{Automaton, Tables, Transitions};
+use crate::formula::EMPTY;
 use crate::robustness::{NotANumber, Predicate, Predicates};
 use crate::shared::Shared;
-use crate::task::{EMPTY, Task};
+use crate::task::Task;
 
 /// A predicate as two closures: its robustness, and whether it holds. They are two because at
 /// robustness 0 the comparison decides, which the number alone does not tell.

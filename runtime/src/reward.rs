@@ -383,7 +383,7 @@ impl From<Rewards> for Saved {
 #[cfg(feature = "serde")]
 impl Saved {
     /// The rewards that were saved beside `gamma`.
-    pub(crate) fn with_gamma(self, gamma: f64) -> Result<Rewards, crate::OutOfRange> {
+    pub(crate) fn with_gamma(self, gamma: f64) -> Result<Rewards, crate::range::OutOfRange> {
         let rewards = match self.mode {
             SavedMode::Progress => Rewards::of(Mode::Progress),
             SavedMode::Literal => Rewards::of(Mode::Literal),

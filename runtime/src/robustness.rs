@@ -11,11 +11,44 @@
 //! [`guard`], [`trajectory`] and [`best_run`] work on the robustness of propositions, wherever that
 //! comes from; [`Task`](crate::Task) applies them to states.
 
+use core::fmt;
+
 use crate::automaton::{Automaton, Guard, proposition};
+pub use crate::formula::Op;
+use crate::shared::Shared;
 
 /// A predicate met a value that is not a number. The task knows which one, and adds its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NotANumber;
+
+/// A predicate was not a number at some state.
+///
+/// ```
+/// # #[cfg(feature = "macros")] {
+/// let task = tltl::tltl! { |x: &f64| F ({ *x } < 3) };
+/// let error = task.satisfied(&[4.0, f64::NAN]).unwrap_err();
+/// assert_eq!((&*error.predicate, error.instant), ("{*x} < 3", Some(1)));
+/// # }
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Error {
+    /// The predicate, as its author named it.
+    pub predicate: Shared<str>,
+    /// The instant of the trajectory, if the caller gave a whole one.
+    pub instant: Option<usize>,
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "predicate `{}` is not a number (NaN)", self.predicate)?;
+        match self.instant {
+            Some(instant) => write!(f, " at instant {instant}"),
+            None => Ok(()),
+        }
+    }
+}
+
+impl core::error::Error for Error {}
 
 /// A predicate over states of type `S`.
 ///
@@ -269,35 +302,6 @@ pub fn progress_of_all<E>(
         best = max(best, min(progress?, others));
     }
     Ok(best)
-}
-
-/// One operator of a formula in negation normal form; operands are indices of earlier operators, so
-/// a formula is a slice and its last operator the whole.
-///
-/// Bounded operators and `ensuring` are not here: they abbreviate these, and the compiler writes
-/// them out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Op {
-    /// ⊤, robustness +∞.
-    True,
-    /// ⊥, robustness -∞.
-    False,
-    /// A proposition.
-    Is(u32),
-    /// A negated proposition.
-    Not(u32),
-    /// φ ∧ ψ.
-    And(u32, u32),
-    /// φ ∨ ψ.
-    Or(u32, u32),
-    /// ○φ, strong: there must be a next state.
-    Next(u32),
-    /// ◇φ.
-    Eventually(u32),
-    /// φ U ψ, strong.
-    Until(u32, u32),
-    /// φ T ψ: φ at some instant, ψ at a strictly later one. The operands are φ and ◇ψ.
-    Then(u32, u32),
 }
 
 /// Robustness of a formula, the last of `operators`, on a whole trajectory of `length` states, where

@@ -13,17 +13,15 @@
 
 use alloc::vec::Vec;
 
-#[cfg(feature = "serde")]
-use serde::{Deserialize, Serialize};
-
 use crate::augmented::Labelled;
-use crate::learn::Experience;
+pub use crate::certificate::Shielded;
+use crate::experience::Experience;
 use crate::mismatch::Mismatch;
 use crate::model::FiniteModel;
 use crate::policy::Policy;
 use crate::q::QTable;
 use crate::reward::End;
-use crate::solve::{Actions, Certificate, Optimum, Problem};
+use crate::solve::{Actions, Optimum, Problem};
 
 /// Which actions are allowed where.
 ///
@@ -53,25 +51,6 @@ use crate::solve::{Actions, Certificate, Optimum, Problem};
 pub struct Shield {
     task: Labelled,
     actions: Actions,
-}
-
-/// What a shield does to a policy: means over the starts, `s_0` read.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct Shielded {
-    /// The policy as it was.
-    pub before: Certificate,
-    /// The policy under the shield.
-    pub after: Certificate,
-    /// P(the trap is entered) before.
-    pub lost_before: f64,
-    /// P(the trap is entered) under the shield.
-    pub lost_after: f64,
-    /// The smallest possible P(the trap is entered).
-    pub smallest_lost: f64,
-    /// The fraction of live pairs in which the shield overrules the policy.
-    pub overruled: f64,
 }
 
 impl Shield {

@@ -13,78 +13,13 @@ pub use parametric::Parametric;
 #[cfg(feature = "alloc")]
 use crate::automaton::TableError;
 use crate::automaton::{Automaton, Guard};
+pub use crate::formula::Formula;
+#[cfg(feature = "alloc")]
+use crate::formula::check_operators;
 use crate::monitor::{Acceptor, Monitor};
-use crate::robustness::{self, NotANumber, Op, Predicates};
+pub use crate::robustness::Error;
+use crate::robustness::{self, NotANumber, Predicates};
 use crate::shared::Shared;
-
-/// A formula as data: its text and its operators, children before parents.
-///
-/// ```
-/// # #[cfg(feature = "macros")] {
-/// use tltl::{Acceptor, robustness::Op, tltl};
-///
-/// let task = tltl! { |s: &(bool, bool)| F s.0 && F s.1 };
-/// assert_eq!(task.formula().text(), "F s.0 && F s.1");
-/// assert_eq!(task.formula().operators().last(), Some(&Op::And(1, 3)));
-/// # }
-/// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Formula {
-    pub(crate) text: Shared<str>,
-    operators: Shared<[Op]>,
-}
-
-/// The formula of an automaton on its own.
-pub(crate) static EMPTY: Formula =
-    Formula::trusted(Shared::from_static(""), Shared::from_static(&[]));
-
-impl Formula {
-    /// The formula whose last operator is the whole, in negation normal form. Without operators it
-    /// is only a text: that of a task whose automaton came without a formula.
-    ///
-    /// # Errors
-    /// If an operand is not an earlier operator.
-    ///
-    /// ```
-    /// use tltl::{Formula, robustness::Op};
-    ///
-    /// let eventually = Formula::new("F a", vec![Op::Is(0), Op::Eventually(0)])?;
-    /// assert_eq!(eventually.text(), "F a");
-    /// let error = Formula::new("F a", vec![Op::Eventually(0), Op::Is(0)]).unwrap_err();
-    /// assert_eq!(error.to_string(), "`operators`, entry 0: 0 is not less than 0");
-    /// # Ok::<(), tltl::automaton::TableError>(())
-    /// ```
-    #[cfg(feature = "alloc")]
-    pub fn new(
-        text: impl Into<Shared<str>>,
-        operators: impl Into<Shared<[Op]>>,
-    ) -> Result<Self, TableError> {
-        let operators = operators.into();
-        // A task checks the propositions, of which the automaton has the number.
-        crate::automaton::check_operators(&operators, usize::MAX)?;
-        Ok(Self { text: text.into(), operators })
-    }
-
-    /// For generated code, whose operators are in order by construction.
-    #[doc(hidden)]
-    #[must_use]
-    pub const fn trusted(text: Shared<str>, operators: Shared<[Op]>) -> Self {
-        Self { text, operators }
-    }
-
-    /// The formula as its author wrote it.
-    #[must_use]
-    pub fn text(&self) -> &str {
-        &self.text
-    }
-
-    /// The operators in negation normal form; the last one is the whole formula. None: the
-    /// automaton came without a formula.
-    #[must_use]
-    pub fn operators(&self) -> &[Op] {
-        &self.operators
-    }
-}
 
 /// A compiled task over states of any type that its predicates `P` read.
 ///
@@ -112,35 +47,6 @@ pub struct Task<P> {
     automaton: Shared<Automaton>,
     predicates: P,
 }
-
-/// A predicate was not a number at some state.
-///
-/// ```
-/// # #[cfg(feature = "macros")] {
-/// let task = tltl::tltl! { |x: &f64| F ({ *x } < 3) };
-/// let error = task.satisfied(&[4.0, f64::NAN]).unwrap_err();
-/// assert_eq!((&*error.predicate, error.instant), ("{*x} < 3", Some(1)));
-/// # }
-/// ```
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Error {
-    /// The predicate, as its author named it.
-    pub predicate: Shared<str>,
-    /// The instant of the trajectory, if the caller gave a whole one.
-    pub instant: Option<usize>,
-}
-
-impl fmt::Display for Error {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "predicate `{}` is not a number (NaN)", self.predicate)?;
-        match self.instant {
-            Some(instant) => write!(f, " at instant {instant}"),
-            None => Ok(()),
-        }
-    }
-}
-
-impl core::error::Error for Error {}
 
 /// Name, formula and size: predicates are code.
 impl<P> fmt::Debug for Task<P> {
@@ -187,7 +93,7 @@ impl<P> Task<P> {
     ) -> Result<Self, TableError> {
         let (name, formula, automaton) = (name.into(), formula.into(), automaton.into());
         let propositions = automaton.propositions().len();
-        crate::automaton::check_operators(formula.operators(), propositions)?;
+        check_operators(formula.operators(), propositions)?;
         Ok(Self { name, formula, automaton, predicates })
     }
 

@@ -1,7 +1,7 @@
 //! What reading a state does at any automaton state, for worlds whose states have no numbers.
 
 use crate::env::Step;
-use crate::learn::episode::Move;
+use crate::episode::Move;
 use crate::monitor::{Acceptor, Monitor};
 use crate::reward::{Arrival, Ends, Rewards};
 use crate::task::Error;

@@ -17,7 +17,6 @@ use alloc::vec::Vec;
 use core::fmt;
 
 use super::{Tables, Transitions};
-use crate::robustness::Op;
 
 /// Why tables are not an automaton, or operators not a formula: the table, the entry, and what is
 /// wrong with it.
@@ -76,24 +75,6 @@ pub(super) fn automaton(tables: &Tables) -> Result {
     distances(tables)
 }
 
-/// Whether operators are a formula over so many propositions: every operator comes after its
-/// operands, so one pass in order has the operands' values when it needs them.
-pub(crate) fn operators(ops: &[Op], propositions: usize) -> Result {
-    for (k, op) in ops.iter().enumerate() {
-        let limited = |value: u32, limit: usize| limit_of("operators", k, value.into(), limit);
-        match *op {
-            Op::True | Op::False => {}
-            Op::Is(i) | Op::Not(i) => limited(i, propositions)?,
-            Op::Next(a) | Op::Eventually(a) => limited(a, k)?,
-            Op::And(a, b) | Op::Or(a, b) | Op::Until(a, b) | Op::Then(a, b) => {
-                limited(a, k)?;
-                limited(b, k)?;
-            }
-        }
-    }
-    Ok(())
-}
-
 /// Whether a table has as many entries as it should have.
 pub(crate) fn length(table: &'static str, found: usize, expected: usize) -> Result {
     if found == expected {
@@ -104,7 +85,7 @@ pub(crate) fn length(table: &'static str, found: usize, expected: usize) -> Resu
 }
 
 /// Whether an index is below the limit.
-fn limit_of(table: &'static str, at: usize, found: u64, limit: usize) -> Result {
+pub(crate) fn limit_of(table: &'static str, at: usize, found: u64, limit: usize) -> Result {
     let limit = limit as u64;
     if found < limit { Ok(()) } else { Err(TableError(Kind::Limit { table, at, found, limit })) }
 }

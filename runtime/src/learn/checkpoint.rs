@@ -7,9 +7,9 @@ use rand::rngs::Xoshiro256PlusPlus;
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
-use super::episode::Elapsed;
 use super::{Experience, Settings};
 use crate::augmented::Labelled;
+use crate::episode::Elapsed;
 use crate::mismatch::Mismatch;
 
 /// All that learning changes, and which task it was for: what is saved of a

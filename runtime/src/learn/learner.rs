@@ -5,12 +5,12 @@ use alloc::vec::Vec;
 use rand::SeedableRng;
 use rand::rngs::Xoshiro256PlusPlus;
 
-use super::episode::{self, Agent, Elapsed};
 use super::mask::{Mask, Masked};
 use super::table::{Fixed, Numbered, Tabular, Width};
 use super::{Checkpoint, Experience, Settings, TrainError};
 use crate::augmented::Labelled;
 use crate::env::FiniteEnv;
+use crate::episode::{self, Agent, Elapsed};
 use crate::mismatch::Mismatch;
 use crate::model::{Dynamics, ModelError};
 use crate::policy::{Policy, Training};

@@ -4,11 +4,11 @@ use alloc::vec::Vec;
 
 use rand::Rng;
 
-use super::episode::{Agent, Monitored, Transition};
 use super::table::Tabular;
 use super::{Experience, TrainError};
 use crate::augmented::Labelled;
 use crate::env::below;
+use crate::episode::{Agent, Monitored, Transition};
 use crate::model::FiniteModel;
 use crate::reward::End;
 use crate::shield::Shield;

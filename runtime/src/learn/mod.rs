@@ -11,14 +11,10 @@
 //! were not chosen on. Where a task has a trap, take [`Settings::safe`].
 
 mod checkpoint;
-pub mod episode;
-mod experience;
 mod learner;
 mod mask;
-mod schedule;
 #[cfg(feature = "std")]
 mod seeds;
-mod settings;
 mod table;
 mod trajectory;
 
@@ -26,16 +22,16 @@ use core::convert::Infallible;
 use core::fmt;
 
 pub use checkpoint::Checkpoint;
-pub use experience::Experience;
 pub use learner::Learner;
 pub use mask::Mask;
-pub use schedule::Schedule;
 #[cfg(feature = "std")]
 pub use seeds::seeds;
-pub use settings::{Memory, Settings, Updates};
 pub use trajectory::{Observation, TerminalReward, TrajectoryLearner};
 
+pub use crate::episode;
+pub use crate::experience::Experience;
 use crate::mismatch::Mismatch;
+pub use crate::settings::{Memory, Schedule, Settings, Updates};
 use crate::task;
 
 /// Why training stopped.

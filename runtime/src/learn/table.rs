@@ -5,10 +5,10 @@ use core::convert::Infallible;
 
 use rand::Rng;
 
-use super::episode::{Agent, Monitored, Move, Transition};
 use super::{Experience, Settings, TrainError};
 use crate::augmented::{Labelled, Payment};
 use crate::env::{FiniteEnv, Step, below, unit};
+use crate::episode::{Agent, Monitored, Move, Transition};
 use crate::q::{argmax, largest};
 use crate::reward::Rewards;
 

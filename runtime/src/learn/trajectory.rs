@@ -9,10 +9,10 @@ use alloc::vec::Vec;
 use rand::rngs::Xoshiro256PlusPlus;
 use rand::{Rng, SeedableRng};
 
-use super::episode::{self, Agent, Elapsed, Monitored, Move, Transition};
 use super::{Settings, TrainError};
 use crate::augmented::Labelled;
 use crate::env::{FiniteEnv, Step, below, unit};
+use crate::episode::{self, Agent, Elapsed, Monitored, Move, Transition};
 use crate::monitor::Monitor;
 use crate::policy::Policy;
 use crate::q::QTable;

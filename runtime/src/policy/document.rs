@@ -8,11 +8,10 @@ use core::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::Policy;
-use crate::learn::Settings;
+use crate::certificate::{Certificate, Shielded, Start};
 use crate::monitor::Acceptor;
 use crate::reward::Ends;
-use crate::shield::Shielded;
-use crate::solve::{Certificate, Start};
+use crate::settings::Settings;
 
 /// The automaton of a policy, without its edges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

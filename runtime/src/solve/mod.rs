@@ -18,7 +18,6 @@
 
 mod actions;
 mod block;
-mod certificate;
 mod evaluation;
 mod graph;
 mod optimum;
@@ -29,6 +28,7 @@ use alloc::sync::Arc;
 use alloc::vec::Vec;
 
 use crate::augmented::{Labelled, Payment};
+pub use crate::certificate::{Basis, Certificate, Mistake, Start};
 use crate::mismatch::Mismatch;
 use crate::model::Dynamics;
 use crate::policy::Policy;
@@ -36,7 +36,6 @@ use crate::q::QTable;
 use crate::reward::{End, Rewards};
 pub(crate) use actions::Actions;
 use block::Block;
-pub use certificate::{Basis, Certificate, Mistake, Start};
 pub use evaluation::{Evaluation, Values};
 pub use optimum::Optimum;
 use rule::Rule;

@@ -3,7 +3,7 @@
 //! A [`Monitored`] world is an environment beside an automaton, an [`Agent`] acts and learns in it,
 //! and [`run`] brings them together: s_0 is read, then act, step, read, learn, until the task or the
 //! environment ends or the horizon is reached. States are whatever the world says: numbers for
-//! tables ([`Learner`](super::Learner), [`TrajectoryLearner`](super::TrajectoryLearner)), an
+//! tables ([`Learner`](crate::learn::Learner), [`TrajectoryLearner`](crate::learn::TrajectoryLearner)), an
 //! environment's own states for anything else; an [`Augmented`](crate::augmented::Augmented)
 //! environment is a monitored world as it is.
 //!

@@ -33,7 +33,7 @@ impl Experience {
     }
 
     /// Whether all of it is of a world of this size: it may come from a file.
-    pub(super) fn is_of(&self, states: usize, actions: usize) -> bool {
+    pub(crate) fn is_of(&self, states: usize, actions: usize) -> bool {
         let inside = |list: &Vec<(u32, u32)>| list.iter().all(|&(to, _)| (to as usize) < states);
         (self.starts.len(), self.actions) == (states, actions)
             && Some(self.outcomes.len()) == states.checked_mul(actions)

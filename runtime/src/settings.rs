@@ -3,7 +3,10 @@
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
-use super::Schedule;
+mod schedule;
+
+pub use schedule::Schedule;
+
 use crate::range::{OutOfRange, checked};
 use crate::reward::Rewards;
 
@@ -22,7 +25,7 @@ pub enum Updates {
 pub enum Memory {
     /// Nothing.
     None,
-    /// The [`Experience`](super::Experience), for replay and composition.
+    /// The [`Experience`](crate::learn::Experience), for replay and composition.
     Experience,
 }
 
@@ -59,7 +62,7 @@ pub struct Settings {
 
 impl Settings {
     /// For tasks with a trap: [`Rewards::acceptance`] and γ 0.99999, everything else as by default;
-    /// train, then [replay](super::Learner::replay). The optimum for that reward gives away at most
+    /// train, then [replay](crate::learn::Learner::replay). The optimum for that reward gives away at most
     /// 0.011 % of P(satisfied) in the study of rewards (`docs/studies/rewards.md`); `Progress` with
     /// γ 0.95 trades safety for speed, and pays for detours where an automaton has longer ways to
     /// acceptance.

@@ -74,3 +74,22 @@ pub struct Mistake {
     /// By how much the value of the best action is larger.
     pub loss: f64,
 }
+
+/// What a shield does to a policy: means over the starts, `s_0` read.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Shielded {
+    /// The policy as it was.
+    pub before: Certificate,
+    /// The policy under the shield.
+    pub after: Certificate,
+    /// P(the trap is entered) before.
+    pub lost_before: f64,
+    /// P(the trap is entered) under the shield.
+    pub lost_after: f64,
+    /// The smallest possible P(the trap is entered).
+    pub smallest_lost: f64,
+    /// The fraction of live pairs in which the shield overrules the policy.
+    pub overruled: f64,
+}
