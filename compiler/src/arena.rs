@@ -140,6 +140,8 @@ pub(crate) fn groups(ties: &[Vec<u32>]) -> Vec<Vec<usize>> {
         for &tie in ties {
             let holder = holders.get_or_insert(tie, place as u32) as usize;
             let (a, b) = (first(&mut earlier, holder), first(&mut earlier, place));
+            // The earlier place becomes the root: groups then come out in the order of their first
+            // places.
             earlier[a.max(b)] = a.min(b);
         }
     }

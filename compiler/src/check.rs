@@ -281,7 +281,8 @@ impl<'r> Checker<'r> {
             let name = ast.source().slice(item.name);
             let what = match item.kind {
                 ItemKind::Predicate(..) => "predicate",
-                // It may also be an index or the end of a range, or be there to be given to a task.
+                // A constant may also be an index or the end of a range, or serve as an argument of
+                // a task.
                 ItemKind::Constant(..) if !given && !ast.mentions(name) => "constant",
                 _ => continue,
             };

@@ -216,6 +216,7 @@ fn task_automata(
     let dfa = if possible.all() {
         propositional.clone()
     } else {
+        // Restriction can make states equal that no possible letter separates.
         let mut dfa = minimize(&possible.restrict(&propositional));
         possible.attach(&mut dfa);
         dfa

@@ -259,6 +259,7 @@ impl<'a> Guards<'a> {
     pub fn are_below(&mut self, most: usize) -> bool {
         self.dfa.states().all(|q| {
             let mut guards = self.moves[q as usize].clone();
+            // The guard of progress is written out too, and can be larger than those of its edges.
             guards.push((q, self.progresses(q)));
             guards.iter().all(|&(_, when)| {
                 let (lower, upper) = self.bounds(when);

@@ -302,7 +302,7 @@ impl Errors {
     /// # Errors
     /// If there is an error among them.
     pub fn split(mut mistakes: Vec<Error>) -> Result<Vec<Error>, Self> {
-        // What stands in the body of a quantifier is found more than once.
+        // The body of a quantifier reports a mistake once for each of its copies.
         sort(&mut mistakes);
         let mut distinct: Vec<Error> = Vec::new();
         for mistake in mistakes {

@@ -75,6 +75,8 @@ pub fn factors(spec: &Spec, budget: Budget) -> Result<Factors, Exceeded> {
     let mut factors = Factors { parts: Vec::new(), joint: true };
     for group in groups(spec) {
         let whole = extract(spec, &group);
+        // A group of one is its own joint automaton, whatever its size: the caller's budget
+        // decides.
         if group.len() > 1 && translate(&whole.spec, PART).is_err() {
             factors.joint = false;
             factors.parts.extend(group.iter().map(|&conjunct| extract(spec, &[conjunct])));

@@ -253,7 +253,7 @@ fn formula(
             let error = Error::new(Kind::Unsatisfiable, message, task.span)
                 .label("no trajectory satisfies this");
             match obstacle(possible, &automata.propositional).as_deref() {
-                // The predicate itself is told of.
+                // The predicate itself has been reported.
                 Some([_]) => None,
                 Some(all) => {
                     let condition = |&(proposition, holds): &(u32, bool)| {

@@ -58,6 +58,9 @@ pub struct Inequality {
 /// ```
 #[must_use]
 pub fn feasible(system: &[Inequality]) -> Option<bool> {
+    // A set, because elimination produces the same row many times over. Its order is never visible:
+    // the variable to eliminate is chosen by counts, and the answer does not depend on the order of
+    // rows.
     let mut system: FxHashSet<Inequality> = system.iter().map(reduced).collect();
     while let Some(variable) = cheapest(&system) {
         let (mut upper, mut lower, mut rest) = (Vec::new(), Vec::new(), FxHashSet::default());
@@ -84,7 +87,7 @@ pub fn feasible(system: &[Inequality]) -> Option<bool> {
 /// The variable whose elimination makes the fewest new inequalities, the first of several; `None`
 /// if no variable is left.
 fn cheapest(system: &FxHashSet<Inequality>) -> Option<TermId> {
-    // How many rows bound each variable from above and from below, by variable.
+    // For each variable the number of rows that bound it from above and from below.
     let mut bounds: Vec<(TermId, usize, usize)> = Vec::new();
     for &(variable, coefficient) in system.iter().flat_map(|row| &row.form) {
         let place = bounds.binary_search_by_key(&variable, |known| known.0);

@@ -205,6 +205,7 @@ fn refine(dfa: &Dfa, order: &[u32], classes: &[State]) -> (Vec<State>, usize) {
 fn renumber(dfa: &Dfa, classes: &[State]) -> Dfa {
     let count = classes.iter().max().map_or(0, |&last| last as usize + 1);
     let mut representative = vec![0; count];
+    // Backwards, so that the first state of a class represents it.
     dfa.states().rev().for_each(|q| representative[classes[q as usize] as usize] = q);
     let order = breadth_first(dfa, classes, &representative);
     let mut number = vec![0; count];

@@ -287,7 +287,7 @@ impl Resolved<'_> {
             Expression::Name(Name::Item(item, _)) => self.constant(*item)?,
             _ => return None,
         };
-        // One zero: the sign of zero is no part of any meaning here.
+        // Adding 0 makes -0 to 0: the sign of zero is not part of any meaning here.
         value.is_finite().then_some(value + 0.0)
     }
 

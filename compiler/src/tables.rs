@@ -227,6 +227,7 @@ fn dense(dfa: &Dfa) -> Option<Transitions> {
             order.push(column.clone());
             fresh
         }));
+        // Given up early: a large automaton would compute 2^10 columns for nothing.
         if class.len().max(order.len() * dfa.len()) > DENSE_LIMIT {
             return None;
         }

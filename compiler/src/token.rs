@@ -100,6 +100,7 @@ pub(crate) fn next_item(text: &str, at: usize, from: usize) -> usize {
 /// Rust are equal texts. A text with quotes in it stays as it is, for blanks inside a literal
 /// matter.
 pub(crate) fn compact(text: &str) -> String {
+    // Tokens know nothing of literals, in which every blank counts.
     if text.contains(['"', '\'']) {
         return text.trim().to_owned();
     }

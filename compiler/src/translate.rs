@@ -311,8 +311,8 @@ impl<'a> Translation<'a> {
             Formula::Literal { proposition, negated } => {
                 self.functions.literal((proposition, !negated))
             }
-            // From the right: what is written later mostly stands lower in the diagram, and each
-            // step then touches only the top of what is there.
+            // From the right: later operands mostly stand lower in the diagram, and each step then
+            // touches only the top of the result so far.
             Formula::And(..) => self.chain(id).iter().rev().fold(Bdd::TRUE, |rest, &operand| {
                 self.functions.and(self.expansion[operand.0 as usize], rest)
             }),
@@ -398,6 +398,7 @@ impl<'a> Translation<'a> {
                 let (low, high) = (self.target(low), self.target(high));
                 self.transitions.node(level, low, high)
             }
+            // Nothing more is asked: this letter accepts, and no further state is needed.
             None if f == Bdd::TRUE => Bdd::leaf(self.accepting_state()),
             _ => {
                 let expansion = self.expand(f);

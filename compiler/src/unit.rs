@@ -64,6 +64,7 @@ impl Unit {
                 Err(place) => sum.insert(place, (name, power)),
             }
         }
+        // Normal form: a name that cancels out leaves no trace.
         sum.retain(|(_, power)| *power != 0);
         if sum.len() > MOST_NAMES {
             return None;

@@ -94,7 +94,7 @@ impl Range {
         if !self.integer {
             return true;
         }
-        // The least integer not below a cut.
+        // The least integer that is not below a cut.
         let first = |(at, inclusive): Cut| {
             let floor = at.numerator.div_euclid(at.denominator);
             let whole = floor * at.denominator == at.numerator;
@@ -276,8 +276,8 @@ pub(super) fn atom(
         // A number too large or too fine for exact arithmetic.
         return None;
     }
-    // Comparisons of multiples of one form are cuts of the one whose coefficients have no common
-    // divisor and whose first is positive.
+    // Comparisons of multiples of one form become cuts of the same form: its coefficients have no
+    // common divisor, and the first is positive.
     let divisor = divisor(&difference.form, 0) * difference.form[0].1.signum();
     let form: Form = difference.form.iter().map(|&(term, c)| (term, c / divisor)).collect();
     let sign = divisor.signum();

@@ -254,6 +254,7 @@ impl<'a> Relation<'a> {
             }
             let known = system.len();
             system.extend(inequalities(&chain.form, after, until));
+            // Counted before the system is decided: deciding is the expensive part.
             *left = left.checked_sub(1)?;
             // A form alone is feasible in every cell that its range inhabits.
             let alone = known == 0 && others.is_empty();
@@ -302,6 +303,7 @@ impl<'a> Relation<'a> {
         let order = self.diagram.postorder(&[f]);
         let mut node = |Node { level, low, high }| match level < self.propositions {
             true => result.node(places[level as usize] as u32, low, high),
+            // Reduced diagrams have no node that leads to ⊥ only, so any node below is satisfiable.
             false => Bdd::TRUE,
         };
         self.diagram.fold(&order, &Bdd::leaf, &mut node).of(f)

@@ -153,7 +153,7 @@ impl Diagram {
         let level = self.level(lower).min(self.level(upper));
         let (lower0, lower1) = self.cofactors(lower, level);
         let (upper0, upper1) = self.cofactors(upper, level);
-        // What only cubes that ask the level can cover.
+        // The parts that only cubes with a literal of the level can cover.
         let (only0, only1) = (self.minus(lower0, upper1), self.minus(lower1, upper0));
         let (low, high) = (self.cover(only0, upper0), self.cover(only1, upper1));
         let (on_low, on_high) = (self.covers.get(low).function, self.covers.get(high).function);

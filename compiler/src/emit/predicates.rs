@@ -423,7 +423,7 @@ impl Writer<'_> {
                 ..
             } => (self.leaf(id), 0),
             Term::Place { .. } | Term::Host { .. } | Term::Parameter { .. } => {
-                // Of the wrong type, rustc underlines the author's own expression.
+                // If its type is wrong, rustc underlines the author's own expression.
                 let span = self.span(id);
                 let place = self.leaf(id);
                 (quote_spanned! { span => #runtime::private::number(#place) }, 0)

@@ -73,6 +73,7 @@ pub(super) fn report(error: &Error, source: &Source, style: Style) -> String {
         let equals = style.paint(BLUE, "=");
         let _ = writeln!(out, "{:gutter$} {equals} {} {lines}", "", style.paint(BOLD, "help:"));
     }
+    // Editors and snapshots strip trailing blanks, so none is written.
     out.lines().map(|line| line.trim_end().to_owned() + "\n").collect()
 }
 

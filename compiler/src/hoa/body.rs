@@ -205,7 +205,7 @@ fn table(
         return Err(syntax(message, state.span));
     }
     let mut row: Vec<Bdd> = implicit.iter().map(|&to| Bdd::leaf(to)).collect();
-    // The last proposition tells the first half of the row from the second.
+    // The last proposition separates the first half of the row from the second.
     for proposition in (0..count as u32).rev() {
         let (low, high) = row.split_at(row.len() / 2);
         let join = |(&low, &high)| diagram.node(proposition, low, high);

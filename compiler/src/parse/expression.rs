@@ -387,7 +387,7 @@ fn infix_of(rule: Rule) -> Infix {
         Rule::plus => Infix::Calculate(Arithmetic::Add),
         Rule::times => Infix::Calculate(Arithmetic::Multiply),
         Rule::divide => Infix::Calculate(Arithmetic::Divide),
-        // The last that the grammar has: `-`.
+        // The last operator of the grammar: `-`.
         _ => Infix::Calculate(Arithmetic::Subtract),
     }
 }

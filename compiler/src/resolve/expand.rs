@@ -255,7 +255,8 @@ impl Expansion<'_, '_> {
         let ast = self.resolved.ast;
         let (span, operator) = (ast.span(id), ast.entry(id).operator);
         let refused = self.refused(name, environment);
-        // What is called like something else is that, and binds nothing; it still counts as deep.
+        // A refused name keeps its other meaning and binds nothing, but the quantifier still counts
+        // as nesting.
         let name = if refused.is_some() { Span::default() } else { name };
         self.mistakes.extend(refused);
         let values = match (range, ast.arguments(elements)) {

@@ -124,7 +124,7 @@ impl Resolved<'_> {
             return Err(Error::new(Kind::Type, message, self.ast.span(node)));
         };
         let segment = match base.ty {
-            // What stands in the brackets is Rust's.
+            // Rust reads the brackets; the unit is that of any element.
             _ if self.names == Names::Host => Segment::Index(0),
             Type::Table(_, of) => self.table_segment(index, of)?,
             Type::Array(_, length) => self.array_segment(index, length)?,

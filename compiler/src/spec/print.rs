@@ -161,7 +161,7 @@ impl Printed<'_> {
             Formula::Then(a, b) => self.ordered(a, " T ", self.spec.goal(b), Level::Then),
             Formula::Next(a) => self.after("X ", a),
             Formula::Eventually(a) => self.after("F ", a),
-            // A leaf has no pieces: it is written at once.
+            // A leaf is written at once and has no pieces.
             Formula::True | Formula::False | Formula::Literal { .. } => Vec::new(),
         }
     }
