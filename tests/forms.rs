@@ -3,6 +3,7 @@
 use tltl_compiler::compile;
 use tltl_compiler::dfa::Dfa;
 use tltl_compiler::minimize;
+use tltl_compiler::proposition::{Proposition, Shape};
 use tltl_compiler::source::Source;
 use tltl_compiler::translate::Budget;
 use tltlc::diff;
@@ -85,8 +86,8 @@ fn a_trace_of_a_difference_is_judged_as_told() {
 }
 
 fn accepts(dfa: &Dfa, trace: &tltlc::trace::Trace) -> bool {
-    let place = |name: &String| trace.propositions.iter().position(|other| other == name);
-    let places: Vec<_> = dfa.propositions.iter().map(|name| place(name).unwrap()).collect();
+    let place = |one: &Proposition| trace.propositions.iter().position(|other| other == one);
+    let places: Vec<_> = dfa.propositions.iter().map(|one| place(one).unwrap()).collect();
     let step = |q, letter: &Vec<bool>| dfa.next(q, |p| letter[places[p as usize]]);
     dfa.accepting == Some(trace.letters.iter().fold(0, step))
 }
@@ -134,7 +135,9 @@ fn json_keeps_its_contract() {
 #[test]
 fn names_from_elsewhere_are_escaped() {
     let mut dfa = automaton("a U b");
-    dfa.propositions = vec!["x < 3 \"&\"".to_owned(), "p|1]#;\\".to_owned()];
+    let named = |(name, shape): (&str, Shape)| Proposition { name: name.to_owned(), shape };
+    let names = [("x < 3 \"&\"", Shape::Compound), ("p|1]#;\\", Shape::Foreign)];
+    dfa.propositions = names.map(named).to_vec();
     let title = "<a> & \"b\" --> ]]";
     insta::assert_snapshot!("escaped_dot", dot::automaton(title, &dfa));
     insta::assert_snapshot!("escaped_mermaid", mermaid::automaton(title, &dfa));

@@ -215,7 +215,7 @@ proptest! {
         prop_assert_eq!(emitted(&minimal), tables(&minimal));
         let automaton = automaton(&minimal).unwrap();
         let names: Vec<&str> = automaton.propositions().iter().map(|name| &**name).collect();
-        prop_assert_eq!(&names, &minimal.propositions);
+        prop_assert_eq!(&minimal.propositions, &names);
         prop_assert_eq!((automaton.states() as usize, automaton.accepting(), automaton.trap()), (minimal.len(), minimal.accepting, minimal.trap));
         let distances = minimal.distances();
         for q in minimal.states() {

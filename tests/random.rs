@@ -1,6 +1,8 @@
 //! Random formulas and traces from any source of choices: a generator of numbers, or the bytes of a
 //! test that is being shrunk or a fuzzer.
 
+use tltl_compiler::proposition::Proposition;
+
 /// A source of choices.
 pub(crate) trait Choices {
     /// A number below `count`, which is at least 1.
@@ -93,7 +95,7 @@ pub(crate) fn trace(choices: &mut impl Choices, longest: u32) -> Vec<[f64; 5]> {
 }
 
 /// The place among [`NAMES`] of each proposition.
-pub(crate) fn places(propositions: &[String]) -> Vec<usize> {
-    let place = |name: &String| NAMES.iter().position(|known| known == name).unwrap_or(0);
+pub(crate) fn places(propositions: &[Proposition]) -> Vec<usize> {
+    let place = |one: &Proposition| NAMES.iter().position(|name| one == name).unwrap_or(0);
     propositions.iter().map(place).collect()
 }

@@ -9,6 +9,7 @@ use tltl::{Acceptor, Task};
 use tltl_compiler::compile::{self, Compiled};
 use tltl_compiler::dfa::Dfa;
 use tltl_compiler::hoa;
+use tltl_compiler::proposition::Proposition;
 use tltl_compiler::source::Source;
 use tltl_compiler::spec::Spec;
 use tltl_compiler::translate::{Budget, translate};
@@ -24,8 +25,8 @@ fn compiled(formula: &str) -> Compiled {
 }
 
 /// Where the row has each proposition of the tool.
-fn places(row: &Row, propositions: &[String]) -> Vec<usize> {
-    let place = |name: &String| row.aps.iter().position(|ap| ap == name).unwrap();
+fn places(row: &Row, propositions: &[Proposition]) -> Vec<usize> {
+    let place = |one: &Proposition| row.aps.iter().position(|ap| *ap == one.name).unwrap();
     propositions.iter().map(place).collect()
 }
 
@@ -112,11 +113,11 @@ fn every_engine_gives_the_verdicts_of_the_corpus() {
 
 /// The propositions of an owned task, by name.
 #[derive(Clone)]
-struct Named(Vec<String>);
+struct Named(Vec<Proposition>);
 
 impl Predicates<Letter> for Named {
     fn robustness(&self, i: usize, letter: &Letter) -> f64 {
-        let place = letter.aps.iter().position(|ap| *ap == self.0[i]).unwrap();
+        let place = letter.aps.iter().position(|ap| *ap == self.0[i].name).unwrap();
         if letter.bits >> place & 1 == 1 { 1.0 } else { -1.0 }
     }
 

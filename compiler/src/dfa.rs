@@ -32,6 +32,7 @@
 mod edge;
 
 use crate::bdd::{Bdd, Cube, Diagram};
+use crate::proposition::Proposition;
 
 pub use edge::Edge;
 
@@ -50,7 +51,7 @@ pub type State = u32;
 #[derive(Clone, Debug)]
 pub struct Dfa {
     /// The propositions; bit i of a letter is proposition i.
-    pub propositions: Vec<String>,
+    pub propositions: Vec<Proposition>,
     /// The nodes that the transitions of all states share. Levels are propositions, in the order in
     /// which the formula names them: formulas are mostly written in the order in which things shall
     /// happen, and later goals then share the diagrams of earlier ones. The opposite order makes

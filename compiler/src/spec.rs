@@ -39,6 +39,7 @@ use rustc_hash::FxHashMap;
 
 pub use print::Printed;
 
+use crate::proposition::Proposition;
 use crate::source::Span;
 
 /// A formula of a [`Spec`]: an index into its arena. Ids of one spec are equal iff their formulas
@@ -117,7 +118,7 @@ impl Formula {
 /// operator; `spans` has one entry for each.
 #[derive(Clone, Debug)]
 pub struct Spec {
-    propositions: Vec<String>,
+    propositions: Vec<Proposition>,
     formulas: Vec<Formula>,
     spans: Vec<Span>,
     known: FxHashMap<Formula, FormulaId>,
@@ -125,10 +126,10 @@ pub struct Spec {
 }
 
 impl Spec {
-    /// A spec over `propositions` (their names, all different). Its formula is `true` until
+    /// A spec over `propositions`, all different. Its formula is `true` until
     /// [`set_root`](Self::set_root) sets another.
     #[must_use]
-    pub fn new(propositions: Vec<String>) -> Self {
+    pub fn new(propositions: Vec<Proposition>) -> Self {
         let mut spec = Self {
             propositions,
             formulas: Vec::new(),
@@ -140,10 +141,10 @@ impl Spec {
         spec
     }
 
-    /// The names of the propositions, in order of first appearance in the source. Some may not
+    /// The propositions, in order of first appearance in the source. Some may not
     /// occur in the formula any more: simplification can remove the last occurrence.
     #[must_use]
-    pub fn propositions(&self) -> &[String] {
+    pub fn propositions(&self) -> &[Proposition] {
         &self.propositions
     }
 

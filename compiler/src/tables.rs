@@ -170,7 +170,7 @@ pub fn operators(spec: &Spec) -> Vec<Operator> {
 pub fn tables(dfa: &Dfa) -> Tables {
     let distance = dfa.distances().iter().map(|known| known.unwrap_or(u32::MAX)).collect();
     let mut tables = Tables {
-        propositions: dfa.propositions.clone(),
+        propositions: dfa.propositions.iter().map(|one| one.name.clone()).collect(),
         states: dfa.len() as u32,
         accepting: dfa.accepting,
         trap: dfa.trap,

@@ -18,6 +18,7 @@ use crate::product::{Aligned, Pairs, union};
 use crate::trace::{Letter, Trace, first_letters};
 use tltl_compiler::bdd::{Bdd, Diagram, Operation};
 use tltl_compiler::dfa::{Dfa, State};
+use tltl_compiler::proposition::Proposition;
 
 /// The result of a comparison.
 ///
@@ -75,17 +76,17 @@ impl fmt::Display for Difference {
 /// ```
 #[must_use]
 pub fn diff(first: &Dfa, second: &Dfa) -> Difference {
-    let names = union(&first.propositions, &second.propositions);
+    let propositions = union(&first.propositions, &second.propositions);
     let mut diagram = Diagram::default();
-    let sides = [first, second].map(|dfa| Aligned::new(dfa, &names, &mut diagram));
+    let sides = [first, second].map(|dfa| Aligned::new(dfa, &propositions, &mut diagram));
     let possible = diagram.and(sides[0].possible, sides[1].possible);
     let pairs = Pairs::default();
-    Search { names, diagram, sides, possible, pairs }.run()
+    Search { propositions, diagram, sides, possible, pairs }.run()
 }
 
 /// The breadth-first search over pairs of states, one of each automaton.
 struct Search {
-    names: Vec<String>,
+    propositions: Vec<Proposition>,
     diagram: Diagram,
     sides: [Aligned; 2],
     /// The letters that can occur in both automata.
@@ -117,7 +118,7 @@ impl Search {
                 steps.push(Step { pair, before: at, letter });
                 let [first, second] = [0, 1].map(|i| self.sides[i].accepting == Some(pair[i]));
                 if first != second {
-                    let trace = Trace { propositions: self.names, letters: letters(&steps) };
+                    let trace = Trace { propositions: self.propositions, letters: letters(&steps) };
                     return Difference::Trace { trace, first, second };
                 }
             }
@@ -128,7 +129,7 @@ impl Search {
 
     /// The pairs that follow a pair, each with the first letter that leads there.
     fn successors(&mut self, [p, q]: [State; 2]) -> Vec<([State; 2], Letter)> {
-        let width = self.names.len();
+        let width = self.propositions.len();
         let [a, b] = &self.sides;
         let (f, g) = (a.transitions[p as usize], b.transitions[q as usize]);
         let pairing = Operation::new(width as u32);

@@ -22,6 +22,7 @@ use rustc_hash::FxHashMap;
 use tltl_compiler::bdd::{Bdd, Diagram, Node, Operation};
 use tltl_compiler::dfa::{Dfa, State};
 use tltl_compiler::minimize::canonical_order;
+use tltl_compiler::proposition::Proposition;
 
 /// The rule by which the verdicts of the operands become one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -104,11 +105,11 @@ fn pair(operator: Operator, left: &Product, right: &Dfa) -> Product {
     Product { dfa, components }
 }
 
-/// The names of both lists in order of first appearance.
-pub(crate) fn union(first: &[String], second: &[String]) -> Vec<String> {
-    let mut names = first.to_vec();
-    names.extend(second.iter().filter(|name| !first.contains(name)).cloned());
-    names
+/// The propositions of both lists in order of first appearance.
+pub(crate) fn union(first: &[Proposition], second: &[Proposition]) -> Vec<Proposition> {
+    let mut both = first.to_vec();
+    both.extend(second.iter().filter(|one| !first.contains(one)).cloned());
+    both
 }
 
 /// Pairs of states, numbered in order of discovery.
@@ -172,7 +173,7 @@ impl Aligned {
     /// Moves an automaton into `diagram`, its propositions renumbered to their places in
     /// `propositions`. The new numbers may be in another order, so nodes are built anew from the
     /// leaves up.
-    pub(crate) fn new(dfa: &Dfa, propositions: &[String], diagram: &mut Diagram) -> Self {
+    pub(crate) fn new(dfa: &Dfa, propositions: &[Proposition], diagram: &mut Diagram) -> Self {
         let place = |name| propositions.iter().position(|other| other == name);
         let places: Vec<_> =
             dfa.propositions.iter().filter_map(place).map(|place| place as u32).collect();

@@ -12,6 +12,7 @@ use rustc_hash::FxHashSet;
 
 use tltl_compiler::bdd::{Bdd, Diagram};
 use tltl_compiler::dfa::{Dfa, State};
+use tltl_compiler::proposition::Proposition;
 
 /// The truth of every proposition at one instant, by its number.
 pub type Letter = Vec<bool>;
@@ -21,16 +22,17 @@ pub type Letter = Vec<bool>;
 /// It prints the propositions that hold at each instant.
 ///
 /// ```
+/// use tltl_compiler::proposition::Proposition;
 /// use tltlc::trace::Trace;
 ///
-/// let propositions = ["a", "b"].map(str::to_owned).to_vec();
+/// let propositions = ["a", "b"].map(Proposition::from).to_vec();
 /// let letters = vec![vec![true, false], vec![false, false], vec![true, true]];
 /// assert_eq!(Trace { propositions, letters }.to_string(), "{a}; {}; {a, b}");
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Trace {
-    /// The names of the propositions, by number.
-    pub propositions: Vec<String>,
+    /// The propositions, by number.
+    pub propositions: Vec<Proposition>,
     /// The letters, one an instant; each has a value for each proposition.
     pub letters: Vec<Letter>,
 }
@@ -40,7 +42,7 @@ impl fmt::Display for Trace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (i, letter) in self.letters.iter().enumerate() {
             let held = letter.iter().zip(&self.propositions).filter(|(holds, _)| **holds);
-            let held: Vec<_> = held.map(|(_, name)| name.as_str()).collect();
+            let held: Vec<_> = held.map(|(_, one)| one.name.as_str()).collect();
             write!(f, "{}{{{}}}", if i == 0 { "" } else { "; " }, held.join(", "))?;
         }
         Ok(())

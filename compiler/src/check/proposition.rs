@@ -9,7 +9,8 @@ use rustc_hash::FxHashMap;
 
 use super::lower::Lowering;
 use crate::error::{Error, Kind};
-use crate::predicate::{Arguments, Condition, ConditionId, Predicate, PredicateId, Task};
+use crate::predicate::{Arena, Arguments, Condition, ConditionId, Predicate, PredicateId, Task};
+use crate::proposition::{Proposition, Shape};
 use crate::resolve::{ExpressionId, MOST_NODES};
 use crate::source::Span;
 
@@ -58,6 +59,18 @@ impl Propositions {
     /// One predicate.
     pub(super) fn predicate(&self, id: PredicateId) -> &Predicate {
         &self.predicates[id.0 as usize]
+    }
+
+    /// A predicate as a proposition.
+    pub(super) fn named(&self, arena: &Arena, id: PredicateId) -> Proposition {
+        let predicate = self.predicate(id);
+        let shape = match arena.condition(predicate.condition) {
+            _ if predicate.declared => Shape::Atom,
+            Condition::Compare(..) => Shape::Comparison,
+            Condition::Not(_) | Condition::And(..) | Condition::Or(..) => Shape::Compound,
+            _ => Shape::Atom,
+        };
+        Proposition { name: predicate.name.clone(), shape }
     }
 
     /// The literal of a condition, which becomes a predicate without a name of its own if it is

@@ -49,8 +49,8 @@ pub(super) fn spec(mut atoms: Atoms<'_, '_>) -> Option<(Spec, Vec<PredicateId>)>
             }
         }
     }
-    let name = |id: &PredicateId| propositions.predicate(*id).name.clone();
-    let spec = Spec::new(predicates.iter().map(name).collect());
+    let named = |id: &PredicateId| propositions.named(&lowering.arena, *id);
+    let spec = Spec::new(predicates.iter().map(named).collect());
     let mut builder = Builder { lowering, roles, spec, positions, built: Vec::new() };
     for ((id, role), leaf) in roles.iter().zip(leaves) {
         let formula = match role {

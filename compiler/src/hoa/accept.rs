@@ -18,7 +18,7 @@ pub(super) fn finish(header: &mut Header, body: Body) -> Result<Dfa, Error> {
     let mut transitions: Vec<Bdd> = states.iter().map(|state| state.transitions).collect();
     transitions.push(Bdd::leaf(trap));
     let dfa = Dfa {
-        propositions: header.propositions.clone(),
+        propositions: std::mem::take(&mut header.propositions),
         diagram: std::mem::take(&mut header.labels.diagram),
         transitions,
         accepting: None,

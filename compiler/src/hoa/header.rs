@@ -7,8 +7,11 @@
 use super::label::{Labels, no_proposition};
 use super::token::{Token, Tokens};
 use super::{MOST_PROPOSITIONS, refused, syntax};
+use crate::ast::{Infix, ItemKind, Node, NodeId, Prefix};
 use crate::error::Error;
-use crate::source::Span;
+use crate::parse;
+use crate::proposition::{Proposition, Shape};
+use crate::source::{Source, Span};
 
 /// The acceptance condition, as a condition on the marks of a state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,7 +33,7 @@ pub(super) struct Header {
     /// The initial state, by its number in the text, and the place where it is named.
     pub(super) start: (u32, Span),
     /// The names of the propositions, in the order of `AP:`.
-    pub(super) propositions: Vec<String>,
+    pub(super) propositions: Vec<Proposition>,
     /// The acceptance condition.
     pub(super) acceptance: Acceptance,
     /// The aliases, and the diagram for all labels.
@@ -43,7 +46,7 @@ pub(super) struct Header {
 struct Draft {
     name: Option<String>,
     start: Option<(u32, Span)>,
-    propositions: Option<Vec<String>>,
+    propositions: Option<Vec<Proposition>>,
     acceptance: Option<Acceptance>,
     labels: Labels,
 }
@@ -183,19 +186,19 @@ fn start(tokens: &mut Tokens) -> Result<(u32, Span), Error> {
 }
 
 /// Reads the count and the names of the propositions.
-fn propositions(tokens: &mut Tokens) -> Result<Vec<String>, Error> {
+fn propositions(tokens: &mut Tokens) -> Result<Vec<Proposition>, Error> {
     let span = tokens.span();
     let count = tokens.number("the number of propositions")? as usize;
     if count > MOST_PROPOSITIONS {
         let message = format!("{count} propositions are more than the {MOST_PROPOSITIONS} allowed");
         return Err(refused(message, span));
     }
-    let mut names: Vec<String> = Vec::new();
+    let mut names: Vec<Proposition> = Vec::new();
     while let Token::Text(name) = tokens.peek() {
-        if names.contains(name) {
+        if names.iter().any(|known| known.name == *name) {
             return Err(syntax(format!("the proposition {name:?} comes twice"), tokens.span()));
         }
-        names.push(name.clone());
+        names.push(Proposition { name: name.clone(), shape: shape(name) });
         tokens.next()?;
     }
     if names.len() == count {
@@ -239,4 +242,52 @@ fn condition(tokens: &mut Tokens) -> Result<Option<Acceptance>, Error> {
     tokens.expect(')')?;
     // Inf(!0) asks for marks outside the set, Fin(!0) forbids them in the long run.
     Ok(Some(if inside != negated { Acceptance::In(set) } else { Acceptance::Outside(set) }))
+}
+
+/// The form of a name, which may be a formula of the language or anything else.
+fn shape(name: &str) -> Shape {
+    let Ok(ast) = parse::formula(&Source::new("proposition", name)) else { return Shape::Foreign };
+    let Some(ItemKind::Task(_, root)) = ast.items().last().map(|item| &item.kind) else {
+        return Shape::Foreign;
+    };
+    let is_temporal = |id: u32| match ast.node(NodeId(id)) {
+        Node::Prefix(op, _) => matches!(op, Prefix::Eventually | Prefix::Next),
+        Node::Infix(op, ..) => matches!(op, Infix::Until | Infix::Then),
+        Node::Quantified(_) => true,
+        _ => false,
+    };
+    // Blanks, comments and attributes are no part of an expression.
+    if ast.entry(*root).outer != Span::new(0, name.len()) || (0..=root.0).any(is_temporal) {
+        return Shape::Foreign;
+    }
+    match ast.node(*root) {
+        Node::Truth(_) | Node::Number(_) | Node::Text => Shape::Foreign,
+        _ if ast.entry(*root).is_bracketed() => Shape::Atom,
+        Node::Infix(Infix::Compare(_), ..) => Shape::Comparison,
+        Node::Prefix(Prefix::Minus, _) | Node::Infix(Infix::Calculate(_), ..) => Shape::Foreign,
+        Node::Prefix(..) | Node::Infix(..) => Shape::Compound,
+        _ => Shape::Atom,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_other_tools_are_formulas_or_foreign() {
+        for (shape_of, names) in [
+            (Shape::Atom, &["a", "f(x, y)[2]", "{ x < 1 }", "s.x", "m::n", "(a || b)"][..]),
+            (Shape::Comparison, &["x < 3", "1 <= x + y < 2", "a == b", "x ≤ 3"]),
+            (Shape::Compound, &["a || b", "!a", "a & b", "a -> b < 3"]),
+            (
+                Shape::Foreign,
+                &["p 1", "F", "true", "a=1", "F a", "a && X b", "x + 1", " a", "a // b"],
+            ),
+        ] {
+            for name in names {
+                assert_eq!(shape(name), shape_of, "{name}");
+            }
+        }
+    }
 }

@@ -8,6 +8,7 @@
 use std::fmt;
 
 use super::{Formula, FormulaId, Spec};
+use crate::proposition::Shape;
 
 /// A formula of a [`Spec`] that can be printed.
 pub struct Printed<'a> {
@@ -83,10 +84,9 @@ impl Spec {
         }
     }
 
-    /// Whether the name of a proposition is a comparison rather than one word.
+    /// Whether the name of a proposition has operators.
     fn is_compound(&self, proposition: u32) -> bool {
-        let name = &self.propositions()[proposition as usize];
-        ["<", ">", "==", "!="].iter().any(|symbol| name.contains(symbol))
+        self.propositions()[proposition as usize].shape != Shape::Atom
     }
 
     /// ψ of a formula ◇ψ, which `T` implies; other formulas as they are.
@@ -147,7 +147,7 @@ impl Printed<'_> {
         match (negated, self.spec.is_compound(proposition)) {
             (true, true) => write!(f, "!({name})"),
             (true, false) => write!(f, "!{name}"),
-            (false, _) => f.write_str(name),
+            (false, _) => write!(f, "{name}"),
         }
     }
 

@@ -50,8 +50,8 @@ fn header(title: &str, dfa: &Dfa) -> String {
     let _ = writeln!(hoa, "tool: \"tltlc\" \"{}\"", env!("CARGO_PKG_VERSION"));
     let _ = writeln!(hoa, "States: {}\nStart: 0", dfa.len());
     let _ = write!(hoa, "AP: {}", dfa.propositions.len());
-    for name in &dfa.propositions {
-        let _ = write!(hoa, " {}", quoted(name));
+    for one in &dfa.propositions {
+        let _ = write!(hoa, " {}", quoted(&one.name));
     }
     hoa.push_str("\nacc-name: Buchi\nAcceptance: 1 Inf(0)\n");
     hoa.push_str("properties: trans-labels explicit-labels state-acc\n");

@@ -22,7 +22,7 @@ pub const MOST_PROPOSITIONS: usize = 16;
 #[derive(Serialize)]
 struct Automaton<'a> {
     formula: &'a str,
-    propositions: &'a [String],
+    propositions: Vec<&'a str>,
     states: usize,
     initial: State,
     accepting: Vec<State>,
@@ -79,7 +79,7 @@ impl<'a> Automaton<'a> {
         let size = dfa.size();
         Self {
             formula,
-            propositions: &dfa.propositions,
+            propositions: dfa.propositions.iter().map(|one| one.name.as_str()).collect(),
             states: size.states,
             initial: 0,
             accepting: dfa.accepting.into_iter().collect(),

@@ -13,6 +13,7 @@ use std::fmt;
 
 use tltl_compiler::bdd::Cube;
 use tltl_compiler::dfa::{Dfa, Edge};
+use tltl_compiler::proposition::{Proposition, Shape};
 
 /// The symbols in which a guard is printed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -64,27 +65,28 @@ impl Notation {
 /// A guard that prints as a sum of products: an empty sum is false, an empty product true.
 ///
 /// ```
+/// use tltl_compiler::proposition::{Proposition, Shape};
 /// use tltlc::emit::sum::{Notation, Sum};
 ///
-/// let names = ["a", "x < 3"].map(str::to_owned);
+/// let comparison = Proposition { name: "x < 3".to_owned(), shape: Shape::Comparison };
+/// let propositions = [Proposition::from("a"), comparison];
 /// let cubes = [vec![(0, true), (1, false)], vec![(0, false)]];
-/// let sum = Sum::new(&names, &cubes);
+/// let sum = Sum::new(&propositions, &cubes);
 /// assert_eq!(sum.to_string(), "a && !(x < 3) || !a");
 /// assert_eq!(sum.notation(Notation::Mathematical).to_string(), "a ∧ ¬(x < 3) ∨ ¬a");
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Sum<'a> {
-    names: &'a [String],
+    propositions: &'a [Proposition],
     cubes: &'a [Cube],
     notation: Notation,
 }
 
 impl<'a> Sum<'a> {
-    /// The sum of `cubes`, in [`Notation::Ascii`]; `names` are the names of the propositions by
-    /// number.
+    /// The sum of `cubes` over these propositions, in [`Notation::Ascii`].
     #[must_use]
-    pub fn new(names: &'a [String], cubes: &'a [Cube]) -> Self {
-        Self { names, cubes, notation: Notation::Ascii }
+    pub fn new(propositions: &'a [Proposition], cubes: &'a [Cube]) -> Self {
+        Self { propositions, cubes, notation: Notation::Ascii }
     }
 
     /// The same sum in other symbols.
@@ -114,14 +116,14 @@ impl<'a> Sum<'a> {
         if self.notation == Notation::Numbered {
             return format!("{not}{proposition}");
         }
-        let name = &self.names[proposition as usize];
+        let Proposition { name, shape } = &self.propositions[proposition as usize];
         let shown = match self.notation {
             Notation::Mathematical => mathematical(name),
             _ => Cow::Borrowed(name.as_str()),
         };
-        match (shape(name), value) {
+        match (shape, value) {
             (Shape::Atom, _) | (Shape::Comparison, true) => format!("{not}{shown}"),
-            (Shape::Comparison, false) | (Shape::Formula, _) => format!("{not}({shown})"),
+            (Shape::Comparison, false) | (Shape::Compound, _) => format!("{not}({shown})"),
             (Shape::Foreign, _) => format!("{not}{}", quoted(name)),
         }
     }
@@ -149,54 +151,6 @@ pub fn quoted(name: &str) -> String {
     format!("\"{}\"", name.replace('\\', "\\\\").replace('"', "\\\""))
 }
 
-/// The form of a proposition's text, by what brackets it needs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Shape {
-    /// Binds tighter than every operator: a name, a field, a call.
-    Atom,
-    /// A comparison.
-    Comparison,
-    /// Has operators that bind less tightly than a comparison.
-    Formula,
-    /// Is not an expression of the language.
-    Foreign,
-}
-
-/// The form of a proposition. It looks only outside of brackets, and takes no parser: names of
-/// other tools are no formulas.
-fn shape(name: &str) -> Shape {
-    let Some(outside) = outside_brackets(name) else { return Shape::Foreign };
-    let keyword = matches!(name, "F" | "X" | "U" | "T" | "true" | "false" | "not" | "and" | "or");
-    let starts = |c: char| c.is_alphabetic() || matches!(c, '_' | '(' | '{' | ':');
-    let continues = |c: char| c.is_alphanumeric() || matches!(c, '_' | '.' | ':' | '#' | '{');
-    let any = |parts: &[&str]| parts.iter().any(|part| outside.contains(part));
-    if !keyword && name.starts_with(starts) && outside.chars().all(continues) {
-        Shape::Atom
-    } else if any(&["&", "|", "∧", "∨", "=>", "⇒", "->", "!("]) || name.starts_with(['!', '¬'])
-    {
-        Shape::Formula
-    } else if any(&["<", ">", "==", "!=", "≤", "≥", "≠"]) {
-        Shape::Comparison
-    } else {
-        Shape::Foreign
-    }
-}
-
-/// The text without the parts in brackets; `None` if the brackets do not pair.
-fn outside_brackets(text: &str) -> Option<String> {
-    let mut depth = 0_usize;
-    let mut outside = String::new();
-    for c in text.chars() {
-        match c {
-            '(' | '[' | '{' => depth += 1,
-            ')' | ']' | '}' => depth = depth.checked_sub(1)?,
-            _ if depth == 0 => outside.push(c),
-            _ => {}
-        }
-    }
-    (depth == 0 && !text.is_empty()).then_some(outside)
-}
-
 /// A name with the symbols of mathematics for its operators.
 fn mathematical(name: &str) -> Cow<'_, str> {
     let symbols = [("<=", "≤"), (">=", "≥"), ("==", "="), ("!=", "≠"), ("&&", "∧"), ("||", "∨")];
@@ -210,9 +164,21 @@ mod tests {
     use super::*;
 
     fn print(cubes: &[Cube], notation: Notation) -> String {
-        let names = ["a", "s.x < 3", "p 1", "f(x, y)[2]", "a || b", "x <= y", "F", "{ x }", "a=1"];
-        let names = names.map(str::to_owned);
-        Sum::new(&names, cubes).notation(notation).to_string()
+        use Shape::{Atom, Comparison, Compound, Foreign};
+        let propositions = [
+            ("a", Atom),
+            ("s.x < 3", Comparison),
+            ("p 1", Foreign),
+            ("f(x, y)[2]", Atom),
+            ("a || b", Compound),
+            ("x <= y", Comparison),
+            ("F", Foreign),
+            ("{ x }", Atom),
+            ("a=1", Foreign),
+        ];
+        let propositions =
+            propositions.map(|(name, shape)| Proposition { name: name.to_owned(), shape });
+        Sum::new(&propositions, cubes).notation(notation).to_string()
     }
 
     #[test]
