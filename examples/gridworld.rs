@@ -25,40 +25,38 @@ fn main() -> Result<(), Box<dyn Error>> {
     show::train(&mut first, &mut env, STEPS)?;
     show::train(&mut second, &mut env, STEPS)?;
 
-    // Compose them: visit all three. That takes no further step in the world.
+    // Compose them from what they have seen: visit all three, without a further step in the world.
     let product = Product::conjunction(&[&phi_1, &phi_2]);
-    let whole = gridworld::visit_all();
-    let visit_all = Labelled::of_env(&env, &product)?.named("visit_all", whole.formula().text());
+    let visit_all = Labelled::of_env(&env, &product)?.named("visit_all", "visit_a_b && visit_c");
     let skills = [first.q(), second.q()];
     let composition = Composition::new(&product, &visit_all, &skills, first.rewards())?;
-    let sum = composition.initial(Combine::NormalisedSum).policy();
-    let mut experience = first.experience().clone();
-    experience.extend(second.experience())?;
-    let seen = Dynamics::new(&experience)?;
-    let composed = composition.refined(&seen, &composition.initial(Combine::NormalisedSum))?;
-    let composed = composed.policy();
+    let sum = composition.initial(Combine::NormalisedSum);
+    let mut seen = first.experience().clone();
+    seen.extend(second.experience())?;
+    let composed = composition.refined(&Dynamics::new(&seen)?, &sum)?.policy();
 
-    // Learn the same from scratch, and judge everything against the exact optimum.
+    // What is that worth, against the exact optimum?
+    let all = Problem::new(env.dynamics(), &visit_all)?.optimum(&first.rewards());
+    let certificate = all.certify(&composed)?;
+
+    // Compare with the skills themselves, with their sum, and with learning from scratch.
+    let one = Problem::new(env.dynamics(), &visit_a_b)?.optimum(&first.rewards());
+    let two = Problem::new(env.dynamics(), &visit_c)?.optimum(&second.rewards());
     let mut scratch = Learner::new(&visit_all, Settings::default(), 3);
     show::train(&mut scratch, &mut env, STEPS)?;
-    let optimum = |task| {
-        Ok::<_, Box<dyn Error>>(Problem::new(env.dynamics(), task)?.optimum(&first.rewards()))
-    };
-    let (one, two, all) = (optimum(&visit_a_b)?, optimum(&visit_c)?, optimum(&visit_all)?);
     let automata = show::automata("gridworld.tltl", include_str!("tasks/gridworld.tltl"))?;
-    let certificate = all.certify(&composed)?;
     show::verdicts(&[
-        ("φ₁ = ◇a ∧ ◇b, learned", &automata[0], one.certify(&first.policy())?),
-        ("φ₂ = ◇c, learned", &automata[1], two.certify(&second.policy())?),
-        ("φ₁ ∧ φ₂, sum of skills (step 2)", &automata[2], all.certify(&sum)?),
+        ("φ₁ = ◇a ∧ ◇b, learned", &automata[0], first.certify(one.problem())?),
+        ("φ₂ = ◇c, learned", &automata[1], second.certify(two.problem())?),
+        ("φ₁ ∧ φ₂, sum of skills (step 2)", &automata[2], all.certify(&sum.policy())?),
         ("φ₁ ∧ φ₂, refined on replay (step 6)", &automata[2], certificate.clone()),
-        ("φ₁ ∧ φ₂, learned from scratch", &automata[2], all.certify(&scratch.policy())?),
+        ("φ₁ ∧ φ₂, learned from scratch", &automata[2], scratch.certify(all.problem())?),
     ]);
     println!("\nThe composition took no step in the world. Steps are means over all start cells.");
 
     // Draw the paper's Figure 2.
     let folder = Folder::of_arguments("target/gridworld")?;
-    let minimal = Labelled::of_env(&env, &whole)?;
+    let minimal = Labelled::of_env(&env, &gridworld::visit_all())?;
     let mut figure = Figure::of(Grid::PAPER);
     figure.regions(&[("a", gridworld::a), ("b", gridworld::b), ("c", gridworld::c)]);
     let titles = [
@@ -68,7 +66,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     ];
     figure.row(titles[0], &automata[0].dfa, &visit_a_b, &one, &first.policy())?;
     figure.row(titles[1], &automata[1].dfa, &visit_c, &two, &second.policy())?;
-    figure.row(titles[2], &automata[2].dfa, &minimal, &all, &sum)?;
+    figure.row(titles[2], &automata[2].dfa, &minimal, &all, &sum.policy())?;
     folder.write("figure2.svg", &figure.svg())?;
 
     // Save the policy with all that is known of it, and emit it as Rust that stands alone.

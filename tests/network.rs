@@ -10,7 +10,7 @@ use std::process::{Command, Stdio};
 
 use serde_json::Value;
 use tltl::estimate::{Estimate, Interval};
-use tltl::network::policy::{NetworkPolicy, NetworkTraining};
+use tltl::network::policy::{NetworkDocument, NetworkPolicy, NetworkPolicyError, NetworkTraining};
 use tltl::network::{Dense, Network, Shape};
 use tltl::policy::States;
 use tltl::reward::End;
@@ -43,6 +43,29 @@ fn network(shape: Shape, mut weight: impl FnMut() -> f32) -> Network {
     Network::new(shape, layers).unwrap()
 }
 
+/// A network policy for an automaton of which no more is known than its file says.
+fn policy(
+    task: &str,
+    formula: &str,
+    automaton: States,
+    actions: Vec<String>,
+    network: Network,
+) -> Result<NetworkPolicy, NetworkPolicyError> {
+    NetworkPolicy::try_from(NetworkDocument {
+        format: NetworkPolicy::FORMAT.to_owned(),
+        version: NetworkPolicy::VERSION,
+        task: task.to_owned(),
+        formula: formula.to_owned(),
+        actions,
+        automaton,
+        inputs: Vec::new(),
+        channels: Vec::new(),
+        training: Vec::new(),
+        estimate: None,
+        network,
+    })
+}
+
 /// A small policy of every feature; some of its weights look like constants, or are hard to write.
 fn example() -> NetworkPolicy {
     use std::f32::consts::{E, FRAC_1_PI, LN_2, LOG10_2, PI, SQRT_2};
@@ -55,7 +78,7 @@ fn example() -> NetworkPolicy {
     let network = network(shape, || special.next().unwrap_or_else(|| number(&mut choices, 1.0)));
     let automaton = States { states: 5, initial: 0, accepting: Some(3), trap: Some(1) };
     let interval = |mean, low, high| Interval { mean, low, high };
-    NetworkPolicy::new("fetch", "(!c U a) && F b", automaton, names("action number", 5), network)
+    policy("fetch", "(!c U a) && F b", automaton, names("action number", 5), network)
         .and_then(|policy| policy.described(names("input", 2), names("channel", 3)))
         .unwrap()
         .trained(NetworkTraining {
@@ -185,7 +208,7 @@ fn policies() -> Vec<NetworkPolicy> {
             let shape = Shape { inputs, hidden, heads, actions, entities, channels };
             let network = network(shape, || number(&mut choices, 1.5));
             let automaton = States { states, initial: 0, accepting, trap };
-            let policy = NetworkPolicy::new("t", "F a", automaton, names("a", actions), network);
+            let policy = policy("t", "F a", automaton, names("a", actions), network);
             all.push(policy.unwrap());
         }
     }

@@ -17,7 +17,7 @@ mod moves;
 use rand::Rng;
 
 pub use label::{LabelError, Labelled};
-pub(crate) use label::{Payment, Tables};
+pub(crate) use label::{LabelTable, Payment};
 pub(crate) use moves::Moves;
 
 use crate::env::{Env, Step};

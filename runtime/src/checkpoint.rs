@@ -86,6 +86,7 @@ impl std::error::Error for Error {}
 ///
 /// # Panics
 /// If `kind` is empty or has white space in it.
+#[track_caller]
 pub fn write(path: &Path, kind: &str, content: &[u8]) -> Result<(), Error> {
     assert!(!kind.is_empty() && !kind.contains(char::is_whitespace), "a kind is one word");
     let header = std::format!(

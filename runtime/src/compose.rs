@@ -182,7 +182,7 @@ impl<'a> Composition<'a> {
         }
         for (skill, operand) in skills.iter().zip(operands) {
             let own = skill.task();
-            task.expect_world("a skill", own.states(), own.actions())?;
+            task.check_world("a skill", own.states(), own.actions())?;
             if own.automaton_states() != operand.states() {
                 let (name, states) = (operand.name(), operand.states());
                 let expected = alloc::format!("`{name}` ({states} automaton states)");
@@ -256,7 +256,7 @@ impl<'a> Composition<'a> {
     /// # Errors
     /// If `dynamics` is of another world, or `start` of another task.
     pub fn refined(&self, dynamics: &Dynamics, start: &QTable) -> Result<QTable, Mismatch> {
-        self.task.expect("a table", start.task())?;
+        self.task.check("a table", start.task())?;
         Ok(self.refined_on(&Problem::new(dynamics, &self.task)?, start))
     }
 

@@ -156,31 +156,31 @@ pub(crate) fn unit(rng: &mut (impl Rng + ?Sized)) -> f64 {
 /// One column of an alias table (Walker 1977, Vose 1991): itself below the threshold, else the
 /// alias.
 #[derive(Clone, Copy, Debug)]
-struct Column {
+struct Alias {
     threshold: u32,
     alias: u32,
 }
 
 /// Samples a column from one random word: its high half chooses, its low half decides.
 #[inline]
-fn sample(columns: &[Column], word: u64) -> usize {
+fn sample(columns: &[Alias], word: u64) -> usize {
     let at = (((word >> 32) * columns.len() as u64) >> 32) as usize;
     let column = columns[at];
     if (word as u32) < column.threshold { at } else { column.alias as usize }
 }
 
 /// The alias table of a distribution; probabilities are kept to 2^-32.
-fn alias_table(probabilities: &[f64]) -> Vec<Column> {
+fn alias_table(probabilities: &[f64]) -> Vec<Alias> {
     let n = probabilities.len();
     let (mut mass, mut columns) = (Vec::with_capacity(n), Vec::with_capacity(n));
     let (mut small, mut large) = (Vec::new(), Vec::new());
     for (i, p) in probabilities.iter().enumerate() {
         mass.push(p * n as f64);
-        columns.push(Column { threshold: u32::MAX, alias: i as u32 });
+        columns.push(Alias { threshold: u32::MAX, alias: i as u32 });
         if mass[i] < 1.0 { small.push(i) } else { large.push(i) }
     }
     while let (Some(i), Some(&j)) = (small.pop(), large.last()) {
-        columns[i] = Column { threshold: (mass[i] * 4_294_967_296.0) as u32, alias: j as u32 };
+        columns[i] = Alias { threshold: (mass[i] * 4_294_967_296.0) as u32, alias: j as u32 };
         mass[j] -= 1.0 - mass[i];
         if mass[j] < 1.0 {
             large.pop();
@@ -193,7 +193,7 @@ fn alias_table(probabilities: &[f64]) -> Vec<Column> {
 /// One column of an alias table with the states themselves: `state` below the threshold, else
 /// `alias`.
 #[derive(Clone, Copy, Debug)]
-struct Outcome {
+struct Draw {
     threshold: u32,
     state: u32,
     alias: u32,
@@ -203,7 +203,7 @@ struct Outcome {
 #[derive(Clone, Debug)]
 struct Outcomes {
     /// `width` columns for each `s * actions + a`.
-    columns: Vec<Outcome>,
+    columns: Vec<Draw>,
     width: usize,
 }
 
@@ -212,7 +212,7 @@ impl Outcomes {
     const MOST: usize = 1 << 22;
 
     /// The columns of `dynamics`; none if they are too many.
-    fn new(dynamics: &Dynamics, compact: &[Column]) -> Self {
+    fn new(dynamics: &Dynamics, compact: &[Alias]) -> Self {
         let (states, actions) = (dynamics.states(), dynamics.actions());
         let width = (0..states).map(|s| dynamics.successors(s).len()).max().unwrap_or(1);
         if states.saturating_mul(actions).saturating_mul(width) > Self::MOST {
@@ -231,9 +231,9 @@ impl Outcomes {
                 let mut padded = p.to_vec();
                 padded.resize(width, 0.0);
                 let table = if uniform { row.to_vec() } else { alias_table(&padded) };
-                for (i, Column { threshold, alias }) in table.into_iter().enumerate() {
+                for (i, Alias { threshold, alias }) in table.into_iter().enumerate() {
                     let (state, alias) = (state(i), state(alias as usize));
-                    columns.push(Outcome { threshold, state, alias });
+                    columns.push(Draw { threshold, state, alias });
                 }
             }
         }
@@ -269,8 +269,8 @@ pub struct ModelEnv<M> {
     dynamics: Dynamics,
     outcomes: Outcomes,
     /// Alias tables, parallel to the probabilities of `dynamics`.
-    columns: Vec<Column>,
-    starts: Vec<Column>,
+    columns: Vec<Alias>,
+    starts: Vec<Alias>,
     state: usize,
     steps: u64,
 }
@@ -300,6 +300,7 @@ impl<M: FiniteModel> ModelEnv<M> {
 
     /// Takes an action; the number of the new state.
     #[inline]
+    #[track_caller]
     fn move_on<R: Rng + ?Sized>(&mut self, action: usize, rng: &mut R) -> usize {
         let Outcomes { columns, width } = &self.outcomes;
         let word = rng.next_u64();
@@ -310,7 +311,7 @@ impl<M: FiniteModel> ModelEnv<M> {
         } else {
             assert!(action < self.dynamics.actions(), "an action of the model");
             let row = (self.state * self.dynamics.actions() + action) * width;
-            let Outcome { threshold, state, alias } = columns[row + at];
+            let Draw { threshold, state, alias } = columns[row + at];
             let (state, alias) = (state as usize, alias as usize);
             core::hint::select_unpredictable((word as u32) < threshold, state, alias)
         };
@@ -333,8 +334,8 @@ impl<M: FiniteModel> ModelEnv<M> {
 }
 
 /// The alias tables of all distinct rows, in place.
-fn columns(dynamics: &Dynamics) -> Vec<Column> {
-    let empty = Column { threshold: 0, alias: 0 };
+fn columns(dynamics: &Dynamics) -> Vec<Alias> {
+    let empty = Alias { threshold: 0, alias: 0 };
     let mut columns = alloc::vec![empty; dynamics.probabilities().len()];
     let mut done = alloc::vec![false; columns.len()];
     for s in 0..dynamics.states() {

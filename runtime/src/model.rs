@@ -118,11 +118,11 @@ impl core::error::Error for ModelError {}
 /// Invariants: successors are sorted and distinct within a state; every row of probabilities sums
 /// to one. Cheap to clone: clones share the tables.
 #[derive(Clone)]
-pub struct Dynamics(Arc<Tables>);
+pub struct Dynamics(Arc<Kernel>);
 
 /// The tables of a [`Dynamics`].
 #[derive(Default)]
-struct Tables {
+struct Kernel {
     actions: usize,
     first: Vec<u32>,
     successors: Vec<u32>,
@@ -146,7 +146,7 @@ impl Dynamics {
             builder.push(model, s)?;
         }
         let starts = distribution((0..states).map(|s| model.start(s)).collect())?;
-        Ok(Self(Arc::new(Tables { starts, ..builder.tables })))
+        Ok(Self(Arc::new(Kernel { starts, ..builder.tables })))
     }
 
     /// The number of states.
@@ -245,7 +245,7 @@ fn distribution(mut weights: Vec<f64>) -> Result<Vec<f64>, ModelError> {
 
 /// Collects the tables state by state.
 struct Builder {
-    tables: Tables,
+    tables: Kernel,
     /// The distinct matrices, as bits.
     matrices: Interner<u64>,
     /// Where each of them starts.
@@ -258,7 +258,7 @@ impl Builder {
         let mut first = Vec::with_capacity(states + 1);
         first.push(0);
         let matrix = Vec::with_capacity(states);
-        let tables = Tables { actions, first, matrix, ..Tables::default() };
+        let tables = Kernel { actions, first, matrix, ..Kernel::default() };
         Self { tables, matrices: Interner::new(), offsets: Vec::new(), outcomes: Vec::new() }
     }
 

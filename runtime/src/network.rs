@@ -87,6 +87,7 @@ impl Shape {
     ///
     /// # Panics
     /// If there are more entities than actions.
+    #[track_caller]
     pub fn of<S: ?Sized>(
         features: &impl Features<S>,
         hidden: &[usize],
@@ -296,6 +297,7 @@ impl Network {
     /// # Panics
     /// If the features or the head do not fit the shape.
     #[must_use]
+    #[track_caller]
     pub fn values(&self, head: usize, inputs: &[f32], entities: &[f32]) -> Vec<f32> {
         let (plain, n) = (self.shape.plain(), self.shape.entities);
         assert_eq!(inputs.len(), self.shape.inputs, "as many features as the shape says");
@@ -322,6 +324,7 @@ impl Network {
     /// # Panics
     /// As [`Self::values`].
     #[must_use]
+    #[track_caller]
     pub fn greedy(&self, head: usize, inputs: &[f32], entities: &[f32]) -> usize {
         argmax(&self.values(head, inputs, entities))
     }

@@ -76,7 +76,7 @@ use serde::{Deserialize, Serialize};
 pub(crate) use document::checked;
 pub use document::{Document, PolicyError, Starts, States, Training};
 
-use crate::augmented::{Labelled, Tables};
+use crate::augmented::{LabelTable, Labelled};
 use crate::certificate::{Certificate, Shielded, Start};
 use crate::mismatch::Mismatch;
 use crate::monitor::Acceptor as _;
@@ -112,12 +112,12 @@ pub struct Policy {
     task: Labelled,
     /// The action, indexed `q * states + s`.
     action: Vec<u32>,
-    record: Record,
+    record: Notes,
 }
 
 /// What a policy says of itself beside its actions.
 #[derive(Clone, Debug, Default, PartialEq)]
-struct Record {
+struct Notes {
     components: Vec<Vec<u32>>,
     training: Vec<Training>,
     certificate: Option<Certificate>,
@@ -139,8 +139,8 @@ impl TryFrom<Document> for Policy {
             _ => None,
         };
         let of: Vec<Option<End>> = (0..states).map(end).collect();
-        let distance = Tables::distances(&of, &document.next);
-        let tables = Tables {
+        let distance = LabelTable::distances(&of, &document.next);
+        let tables = LabelTable {
             name: document.task,
             formula: document.formula,
             actions: document.actions,
@@ -151,7 +151,7 @@ impl TryFrom<Document> for Policy {
             ends: Ends::new(of, distance),
             robustness: Vec::new(),
         };
-        let record = Record {
+        let record = Notes {
             components: document.components,
             training: document.training,
             certificate: document.certificate,
@@ -247,7 +247,7 @@ impl Policy {
 
     /// The policy of actions that are the world's, one for each pair.
     pub(crate) fn from_table(task: &Labelled, action: Vec<u32>) -> Self {
-        Self { task: task.clone(), action, record: Record::default() }
+        Self { task: task.clone(), action, record: Notes::default() }
     }
 
     /// The same policy, saying how it was learned; called once for each skill of a composition.
@@ -403,6 +403,6 @@ impl Policy {
 
     /// `Ok` if it is a policy for `task`.
     pub(crate) fn must_be_for(&self, task: &Labelled) -> Result<(), Mismatch> {
-        task.expect("a policy", &self.task)
+        task.check("a policy", &self.task)
     }
 }

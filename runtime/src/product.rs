@@ -64,7 +64,7 @@ struct Key {
 }
 
 /// Where a move of the product leads: to an end, or on with some operand running.
-enum Move {
+enum Landing {
     Accepted,
     Lost,
     To(usize),
@@ -255,9 +255,9 @@ impl<'a, S: ?Sized> Product<'a, S> {
         let start = self.judge(&alloc::vec![0; self.operands.len()], None);
         self.number(Key { running: 0, code: 0 }, &alloc::vec![0; self.operands.len()]);
         match start {
-            Move::Accepted => self.accepting = Some(0),
-            Move::Lost => self.trap = Some(0),
-            Move::To(_) => {}
+            Landing::Accepted => self.accepting = Some(0),
+            Landing::Lost => self.trap = Some(0),
+            Landing::To(_) => {}
         }
         let mut q = 0;
         while q < self.keys.len() {
@@ -293,12 +293,12 @@ impl<'a, S: ?Sized> Product<'a, S> {
     fn state(&mut self, tuple: Vec<u32>, running: usize) -> u32 {
         let code = self.code(&tuple);
         match self.judge(&tuple, Some(running)) {
-            Move::To(running) => self.number(Key { running, code }, &tuple),
-            Move::Accepted => self.accepting.unwrap_or_else(|| {
+            Landing::To(running) => self.number(Key { running, code }, &tuple),
+            Landing::Accepted => self.accepting.unwrap_or_else(|| {
                 let q = self.number(Key { running: usize::MAX, code }, &tuple);
                 *self.accepting.insert(q)
             }),
-            Move::Lost => self.trap.unwrap_or_else(|| {
+            Landing::Lost => self.trap.unwrap_or_else(|| {
                 let q = self.number(Key { running: usize::MAX, code }, &tuple);
                 *self.trap.insert(q)
             }),
@@ -328,23 +328,23 @@ impl<'a, S: ?Sized> Product<'a, S> {
 
     /// What the product makes of the operands' states. `running` is the operand of a sequence that
     /// has just moved, `None` before the first state is read.
-    fn judge(&self, tuple: &[u32], running: Option<usize>) -> Move {
+    fn judge(&self, tuple: &[u32], running: Option<usize>) -> Landing {
         let accepting = |i: usize| self.operands[i].is_accepting(tuple[i]);
         let lost = |i: usize| self.operands[i].is_trap(tuple[i]);
         let mut all = 0..tuple.len();
         match self.operator {
-            Operator::Conjunction if all.clone().any(lost) => Move::Lost,
-            Operator::Conjunction if all.all(accepting) => Move::Accepted,
-            Operator::Disjunction if all.clone().any(accepting) => Move::Accepted,
-            Operator::Disjunction if all.all(lost) => Move::Lost,
+            Operator::Conjunction if all.clone().any(lost) => Landing::Lost,
+            Operator::Conjunction if all.all(accepting) => Landing::Accepted,
+            Operator::Disjunction if all.clone().any(accepting) => Landing::Accepted,
+            Operator::Disjunction if all.all(lost) => Landing::Lost,
             Operator::Sequence => match running {
-                None if all.len() == 1 && accepting(0) => Move::Accepted,
-                _ if all.any(lost) => Move::Lost,
-                Some(i) if accepting(i) && i + 1 == tuple.len() => Move::Accepted,
-                Some(i) => Move::To(i + usize::from(accepting(i))),
-                None => Move::To(0),
+                None if all.len() == 1 && accepting(0) => Landing::Accepted,
+                _ if all.any(lost) => Landing::Lost,
+                Some(i) if accepting(i) && i + 1 == tuple.len() => Landing::Accepted,
+                Some(i) => Landing::To(i + usize::from(accepting(i))),
+                None => Landing::To(0),
             },
-            _ => Move::To(0),
+            _ => Landing::To(0),
         }
     }
 
@@ -480,9 +480,9 @@ impl<S: ?Sized> Monitor<S> for Product<'_, S> {
             }
         }
         Ok(match self.judge(&tuple, Some(running)) {
-            Move::To(running) => self.index[&Key { running, code: self.code(&tuple) }],
-            Move::Accepted => self.accepting.expect("acceptance was reachable"),
-            Move::Lost => self.trap.expect("the trap was reachable"),
+            Landing::To(running) => self.index[&Key { running, code: self.code(&tuple) }],
+            Landing::Accepted => self.accepting.expect("acceptance was reachable"),
+            Landing::Lost => self.trap.expect("the trap was reachable"),
         })
     }
 

@@ -69,7 +69,7 @@ impl Shield {
     /// # Errors
     /// If the experience is of another world.
     pub fn one_step(experience: &Experience, task: &Labelled) -> Result<Self, Mismatch> {
-        task.expect_world("experience", experience.states(), experience.actions())?;
+        task.check_world("experience", experience.states(), experience.actions())?;
         let mut actions = Actions::none(task.pairs(), task.actions());
         for q in task.live() {
             for s in 0..task.states() {
@@ -129,7 +129,7 @@ impl Shield {
     /// # Errors
     /// If the table is of another task or another world.
     pub fn policy(&self, table: &QTable) -> Result<Policy, Mismatch> {
-        self.task.expect("a table", table.task())?;
+        self.task.check("a table", table.task())?;
         let states = self.task.states();
         let greedy = |pair| self.greedy(table, (pair / states) as u32, pair % states) as u32;
         Ok(Policy::from_table(&self.task, (0..self.task.pairs()).map(greedy).collect()))
@@ -143,7 +143,7 @@ impl Optimum {
     /// If the shield or the table is of another task or another world.
     pub fn certify_shield(&self, shield: &Shield, table: &QTable) -> Result<Shielded, Mismatch> {
         let (problem, task) = (self.problem(), self.problem().task());
-        task.expect("a shield", &shield.task)?;
+        task.check("a shield", &shield.task)?;
         let (before, after) = (table.policy(), shield.policy(table)?);
         let (mut overruled, mut live) = (0, 0);
         for q in task.live() {

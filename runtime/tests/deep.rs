@@ -6,8 +6,6 @@ use tltl::compose::{self, Compose};
 use tltl::deep::{AsGiven, Checkpoint, Composition, Device, Error, Learner, Settings, Skill};
 use tltl::learn::{Schedule, Updates};
 use tltl::network::Features;
-use tltl::network::policy::NetworkPolicy;
-use tltl::policy::States;
 use tltl::prelude::{
     Acceptor, Combine, Env, FiniteModel, Labelled, ModelEnv, Monitor, Problem, Product, Rewards,
     Step, tltl,
@@ -114,10 +112,11 @@ fn a_chain_is_learned_to_its_exact_values() {
         assert!((a - b).abs() < 1e-5, "{a} {b}");
     }
     // And so does the policy that is saved and emitted.
-    let actions = vec!["left".into(), "right".into()];
-    let states = States::of(&task);
-    let text = task.formula().text();
-    let policy = NetworkPolicy::new("there_and_back", text, states, actions, network).unwrap();
+    let policy = learner.policy().unwrap();
+    assert_eq!(
+        (&*policy.document().task, policy.document().training[0].steps),
+        (task.name(), learner.steps())
+    );
     for (q, s) in (0..2).flat_map(|q| (0..6).map(move |s| (q, s))) {
         let mut inputs = [0.0; 6];
         inputs[s as usize] = 1.0;
@@ -152,7 +151,7 @@ fn a_learner_resumed_goes_on_bit_for_bit() {
     whole.train(&mut env, 500).unwrap();
     let saved = serde_json::to_string(&whole.checkpoint()).unwrap();
     let checkpoint: Checkpoint<i32> = serde_json::from_str(&saved).unwrap();
-    let mut resumed = Learner::resume(skill, checkpoint, &device).unwrap();
+    let mut resumed = Learner::resume(skill, &env, checkpoint, &device).unwrap();
     whole.train(&mut env, 1_000).unwrap();
     resumed.train(&mut env, 1_000).unwrap();
     assert_eq!(whole.checkpoint(), resumed.checkpoint());
@@ -160,17 +159,17 @@ fn a_learner_resumed_goes_on_bit_for_bit() {
     let mut broken: serde_json::Value = serde_json::from_str(&saved).unwrap();
     broken["moments"]["second"][0]["bias"].as_array_mut().unwrap().pop();
     let broken: Checkpoint<i32> = serde_json::from_value(broken).unwrap();
-    assert!(Learner::resume(skill, broken, &device).is_err(), "moments of another network");
+    assert!(Learner::resume(skill, &env, broken, &device).is_err(), "moments of another network");
     let once = tltl! { |x: &i32| F ({ *x } == 5) };
     let other = Skill::new(&once, OneHot);
-    let error = Learner::resume(other, whole.checkpoint(), &device).unwrap_err().to_string();
+    let error = Learner::resume(other, &env, whole.checkpoint(), &device).unwrap_err().to_string();
     for named in ["a checkpoint of `({* x} == 5) T", "2 heads", "does not fit `F ({", "1 heads"] {
         assert!(error.contains(named), "{error}");
     }
     // The same heads, but another task.
     let nearer = tltl! { |x: &i32| ({ *x } == 4) T ({ *x } == 0) };
     let other = Skill::new(&nearer, OneHot);
-    let error = Learner::resume(other, whole.checkpoint(), &device).unwrap_err().to_string();
+    let error = Learner::resume(other, &env, whole.checkpoint(), &device).unwrap_err().to_string();
     assert!(error.contains("== 4"), "{error}");
 }
 

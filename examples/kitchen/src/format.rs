@@ -78,10 +78,10 @@ const fn yes() -> bool {
 }
 
 /// A message and the byte offset that it is about.
-struct Mistake(String, Option<usize>);
+struct Fault(String, Option<usize>);
 
-fn mistake<T, V>(at: &Spanned<V>, message: String) -> Result<T, Mistake> {
-    Err(Mistake(message, Some(at.span().start)))
+fn mistake<T, V>(at: &Spanned<V>, message: String) -> Result<T, Fault> {
+    Err(Fault(message, Some(at.span().start)))
 }
 
 /// The kitchen that `text` describes.
@@ -90,7 +90,7 @@ pub(crate) fn parse(text: &str) -> Result<Layout, LayoutError> {
         place: error.span().map(|span| place(text, span.start)),
         ..LayoutError::new(error.message())
     })?;
-    read(&file).map_err(|Mistake(message, at)| LayoutError {
+    read(&file).map_err(|Fault(message, at)| LayoutError {
         place: at.map(|at| place(text, at)),
         ..LayoutError::new(message)
     })
@@ -103,7 +103,7 @@ fn place(text: &str, offset: usize) -> (usize, usize) {
     (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
 }
 
-fn read(file: &File) -> Result<Layout, Mistake> {
+fn read(file: &File) -> Result<Layout, Fault> {
     let mut names = Names::default();
     let objects = objects(file, &mut names)?;
     let receptacles = receptacles(file, &mut names, &objects)?;
@@ -115,16 +115,13 @@ fn read(file: &File) -> Result<Layout, Mistake> {
         let message = format!(
             "there is not enough room: of {all} objects only {placed} can be put somewhere at once"
         );
-        return Err(Mistake(message, None));
+        return Err(Fault(message, None));
     }
     Ok(layout)
 }
 
 /// The objects by name.
-fn objects<'a>(
-    file: &'a File,
-    names: &mut Names,
-) -> Result<Vec<(String, &'a ObjectEntry)>, Mistake> {
+fn objects<'a>(file: &'a File, names: &mut Names) -> Result<Vec<(String, &'a ObjectEntry)>, Fault> {
     let mut objects = Vec::new();
     for entry in &file.object {
         let ObjectEntry { r#type, name, first, count, .. } = entry;
@@ -133,7 +130,7 @@ fn objects<'a>(
     }
     if objects.is_empty() {
         let help = "write [[object]] with `type` and `fits`";
-        return Err(Mistake(format!("the kitchen has no object: {help}"), None));
+        return Err(Fault(format!("the kitchen has no object: {help}"), None));
     }
     Ok(objects)
 }
@@ -143,7 +140,7 @@ fn receptacles(
     file: &File,
     names: &mut Names,
     objects: &[(String, &ObjectEntry)],
-) -> Result<Vec<Receptacle>, Mistake> {
+) -> Result<Vec<Receptacle>, Fault> {
     let mut receptacles = Vec::new();
     for entry in &file.receptacle {
         let ReceptacleEntry { r#type, name, first, count, .. } = entry;
@@ -164,7 +161,7 @@ fn receptacles(
     }
     if receptacles.is_empty() {
         let help = "write [[receptacle]] with `type`, `capacity` and `horizon`";
-        return Err(Mistake(format!("the kitchen has no receptacle: {help}"), None));
+        return Err(Fault(format!("the kitchen has no receptacle: {help}"), None));
     }
     Ok(receptacles)
 }
@@ -185,7 +182,7 @@ struct Names {
 
 impl Names {
     /// The names of a group's members.
-    fn expand(&mut self, group: &Group<'_>) -> Result<Vec<String>, Mistake> {
+    fn expand(&mut self, group: &Group<'_>) -> Result<Vec<String>, Fault> {
         let base = group.name.as_ref().unwrap_or(group.r#type);
         let (word, most) = (base.get_ref(), MAX_IDS as i64);
         check_word(group.r#type)?;
@@ -217,7 +214,7 @@ fn in_range(
     word: &str,
     least: i64,
     most: i64,
-) -> Result<Option<i64>, Mistake> {
+) -> Result<Option<i64>, Fault> {
     let Some(spanned) = number else { return Ok(None) };
     let number = *spanned.get_ref();
     if (least..=most).contains(&number) {
@@ -233,7 +230,7 @@ fn duplicate(name: &str, numbered: bool) -> String {
 }
 
 /// Names are words of lower-case letters, digits and underscores.
-fn check_word(word: &Spanned<String>) -> Result<(), Mistake> {
+fn check_word(word: &Spanned<String>) -> Result<(), Fault> {
     let text = word.get_ref();
     let fine = text.starts_with(|c: char| c.is_ascii_lowercase())
         && text.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_');
@@ -246,7 +243,7 @@ fn check_word(word: &Spanned<String>) -> Result<(), Mistake> {
     )
 }
 
-fn level(horizon: &Spanned<i64>) -> Result<u8, Mistake> {
+fn level(horizon: &Spanned<i64>) -> Result<u8, Fault> {
     let degrees = *horizon.get_ref();
     match HORIZONS.iter().position(|&level| i64::from(level) == degrees) {
         Some(level) => Ok(level as u8),
@@ -257,14 +254,14 @@ fn level(horizon: &Spanned<i64>) -> Result<u8, Mistake> {
     }
 }
 
-fn capacity(entry: &ReceptacleEntry) -> Result<u8, Mistake> {
+fn capacity(entry: &ReceptacleEntry) -> Result<u8, Fault> {
     let name = entry.name.as_ref().unwrap_or(&entry.r#type).get_ref();
     let capacity = in_range("capacity", Some(&entry.capacity), name, 1, MAX_IDS as i64)?;
     Ok(capacity.unwrap_or(1) as u8)
 }
 
 /// Checks what fits where: all types that are named exist, and none is left out by mistake.
-fn check_types(file: &File) -> Result<(), Mistake> {
+fn check_types(file: &File) -> Result<(), Fault> {
     for entry in &file.object {
         let (name, fits) = (entry.r#type.get_ref(), entry.fits.get_ref());
         if fits.is_empty() {
@@ -295,7 +292,7 @@ fn check_types(file: &File) -> Result<(), Mistake> {
     Ok(())
 }
 
-fn check_fit(file: &File, kind: &Spanned<String>) -> Result<(), Mistake> {
+fn check_fit(file: &File, kind: &Spanned<String>) -> Result<(), Fault> {
     let name = kind.get_ref();
     let mut of_type =
         file.receptacle.iter().filter(|entry| entry.r#type.get_ref() == name).peekable();

@@ -155,7 +155,7 @@ impl<'a> Planner<'a> {
         let mut known = self.known(&relaxed.truth);
         self.reach(&mut frontier, relaxed.truth, q, None);
         while let Some(at) = frontier.pop() {
-            let Node { truth, q, .. } = frontier.nodes[at];
+            let Visited { truth, q, .. } = frontier.nodes[at];
             if self.monitor.is_accepting(q) {
                 return Ok(Some(frontier.plan(at)));
             }
@@ -193,7 +193,7 @@ impl Truth {
 
 /// A situation and an automaton state that were reached.
 #[derive(Clone, Copy)]
-struct Node {
+struct Visited {
     truth: Truth,
     q: u32,
     /// The number of steps so far.
@@ -206,7 +206,7 @@ struct Node {
 /// The nodes, and those that wait, by the least possible length of a plan through them.
 #[derive(Default)]
 struct Frontier {
-    nodes: Vec<Node>,
+    nodes: Vec<Visited>,
     index: FxHashMap<(Truth, u32), usize>,
     /// (node, steps at which it was pushed).
     buckets: Vec<Vec<(usize, u32)>>,
@@ -219,7 +219,7 @@ impl Frontier {
         let fresh = self.nodes.len();
         let at = *self.index.entry((truth, q)).or_insert(fresh);
         if at == fresh {
-            self.nodes.push(Node { truth, q, steps, by, done: false });
+            self.nodes.push(Visited { truth, q, steps, by, done: false });
         } else if self.nodes[at].steps > steps {
             (self.nodes[at].steps, self.nodes[at].by) = (steps, by);
         } else {

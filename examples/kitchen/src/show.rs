@@ -10,9 +10,9 @@ use crate::known::Known;
 use crate::layout::{Goal, Layout, NONE};
 use crate::world::Kitchen;
 
-/// A predicate of the specifications, with its arguments.
+/// A predicate of the specifications, with its arguments: what may hold in the kitchen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Predicate {
+pub enum Fact {
     /// `see(o)`.
     See(u8),
     /// `hold(o)`.
@@ -23,7 +23,7 @@ pub enum Predicate {
     Inside(u8, u8),
 }
 
-impl Predicate {
+impl Fact {
     /// The four of each goal.
     #[must_use]
     pub fn of(goals: &[Goal]) -> Vec<Self> {
@@ -94,7 +94,7 @@ pub struct Moment {
     /// The state of the automaton, which has read what is known now.
     pub q: u32,
     /// Why it moved: the predicates but for each of which it would have gone elsewhere.
-    pub reasons: Vec<Predicate>,
+    pub reasons: Vec<Fact>,
 }
 
 /// An episode and the specification's predicates.
@@ -211,10 +211,10 @@ fn reasons_for(
     goals: &[Goal],
     q: u32,
     known: &Known,
-) -> Result<Vec<Predicate>, Error> {
+) -> Result<Vec<Fact>, Error> {
     let to = monitor.next(q, known)?;
     let mut reasons = Vec::new();
-    for predicate in Predicate::of(goals) {
+    for predicate in Fact::of(goals) {
         if to != q && monitor.next(q, &predicate.denied(*known))? != to {
             reasons.push(predicate);
         }

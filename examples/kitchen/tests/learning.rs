@@ -117,7 +117,7 @@ fn a_learner_goes_on_from_its_file() {
     let read = checkpoint::read(&path, "kitchen").unwrap().unwrap();
     std::fs::remove_file(&path).unwrap();
     let saved = serde_json::from_slice(&read).unwrap();
-    let mut resumed = Learner::resume(skill(), saved, &device).unwrap();
+    let mut resumed = Learner::resume(skill(), &kitchen(), saved, &device).unwrap();
 
     through.train(&mut kitchen(), 900).unwrap();
     resumed.train(&mut kitchen(), 900).unwrap();

@@ -3,7 +3,7 @@
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use super::label::{LabelError, Labelled, Tables};
+use super::label::{LabelError, LabelTable, Labelled};
 use crate::factored::Factored;
 use crate::interner::Interner;
 use crate::reward::{End, Ends};
@@ -45,8 +45,8 @@ impl Labelled {
             q += 1;
         }
         let classes = letters.len();
-        let distance = Tables::distances(&joint.ends, &next);
-        Self::from_tables(Tables {
+        let distance = LabelTable::distances(&joint.ends, &next);
+        Self::from_tables(LabelTable {
             name: task.name().into(),
             formula: task.formula().text().into(),
             actions,
@@ -106,7 +106,7 @@ impl<'a> JointStates<'a> {
     fn read(&mut self, q: &[u32], letter: &[u32]) -> u32 {
         let mut next = Vec::with_capacity(q.len());
         for ((part, &q), &class) in self.parts.iter().zip(q).zip(letter) {
-            let Tables { next: table, classes, .. } = part.tables();
+            let LabelTable { next: table, classes, .. } = part.tables();
             next.push(table[q as usize * classes + class as usize]);
         }
         self.number(&next)

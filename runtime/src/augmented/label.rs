@@ -32,11 +32,11 @@ use crate::task::Error;
 /// # Ok::<(), tltl::augmented::LabelError>(())
 /// ```
 #[derive(Clone)]
-pub struct Labelled(Arc<Tables>);
+pub struct Labelled(Arc<LabelTable>);
 
 /// The tables of a [`Labelled`] task.
 #[derive(Clone)]
-pub(crate) struct Tables {
+pub(crate) struct LabelTable {
     pub(crate) name: String,
     pub(crate) formula: String,
     pub(crate) actions: Vec<String>,
@@ -103,7 +103,7 @@ impl Labelled {
         monitor: &(impl Monitor<S> + ?Sized),
     ) -> Result<Self, LabelError> {
         let ends = Ends::of(monitor);
-        let mut columns = Columns { class: Vec::new(), seen: Interner::new() };
+        let mut columns = ClassBuilder { class: Vec::new(), seen: Interner::new() };
         let mut column = alloc::vec![0; monitor.states() as usize];
         for (i, s) in states.into_iter().enumerate() {
             for (q, to) in column.iter_mut().enumerate() {
@@ -141,7 +141,7 @@ impl Labelled {
     }
 
     /// The table of these parts.
-    pub(crate) fn from_tables(tables: Tables) -> Result<Self, LabelError> {
+    pub(crate) fn from_tables(tables: LabelTable) -> Result<Self, LabelError> {
         let (states, actions) = (tables.class.len(), tables.actions.len());
         let sized = states > 0 && actions > 0 && u32::try_from(states).is_ok();
         if sized { Ok(Self(Arc::new(tables))) } else { Err(LabelError::Size { states, actions }) }
@@ -274,7 +274,7 @@ impl Labelled {
         q as usize * self.states() + s
     }
 
-    pub(crate) fn tables(&self) -> &Tables {
+    pub(crate) fn tables(&self) -> &LabelTable {
         &self.0
     }
 
@@ -306,7 +306,7 @@ impl Labelled {
 
     /// A payment for each move, as `pays(q, q')` says.
     pub(crate) fn payment_by(&self, pays: &dyn Fn(u32, u32) -> f64) -> Payment {
-        let Tables { next, classes, .. } = &*self.0;
+        let LabelTable { next, classes, .. } = &*self.0;
         let mut table = Vec::with_capacity(next.len());
         for (i, &to) in next.iter().enumerate() {
             table.push(pays((i / classes) as u32, to));
@@ -334,9 +334,9 @@ impl Labelled {
         )
     }
 
-    /// 64-bit FNV-1a over all that [`Self::expect`] compares: the same for tables of the same moves.
+    /// 64-bit FNV-1a over all that [`Self::check`] compares: the same for tables of the same moves.
     pub(crate) fn checksum(&self) -> u64 {
-        let Tables { initial, ends, .. } = self.tables();
+        let LabelTable { initial, ends, .. } = self.tables();
         let end = |end: Option<u32>| end.map_or(u32::MAX, |q| q);
         let sizes = [self.states() as u32, self.actions() as u32, ends.states()];
         let heads = [*initial, end(ends.accepting()), end(ends.trap())];
@@ -347,7 +347,7 @@ impl Labelled {
     }
 
     /// `Ok` if `found`, to which `what` belongs, is this task on this world.
-    pub(crate) fn expect(&self, what: &'static str, found: &Self) -> Result<(), Mismatch> {
+    pub(crate) fn check(&self, what: &'static str, found: &Self) -> Result<(), Mismatch> {
         if Arc::ptr_eq(&self.0, &found.0) {
             return Ok(());
         }
@@ -362,7 +362,7 @@ impl Labelled {
     }
 
     /// `Ok` if a world of these sizes, to which `what` belongs, can be the one of this table.
-    pub(crate) fn expect_world(
+    pub(crate) fn check_world(
         &self,
         what: &'static str,
         states: usize,
@@ -377,8 +377,8 @@ impl Labelled {
     /// In what the moves differ from those of another table, if they do.
     fn difference(&self, other: &Self) -> Option<String> {
         let (own, others) = (self.tables(), other.tables());
-        let sizes = |t: &Tables| (t.class.len(), t.actions.len(), t.ends.states());
-        let ends = |t: &Tables| (t.initial, t.ends.accepting(), t.ends.trap());
+        let sizes = |t: &LabelTable| (t.class.len(), t.actions.len(), t.ends.states());
+        let ends = |t: &LabelTable| (t.initial, t.ends.accepting(), t.ends.trap());
         if sizes(own) != sizes(others) || ends(own) != ends(others) {
             return Some("the automata start or end in different states".to_string());
         }
@@ -392,7 +392,7 @@ impl Labelled {
     }
 }
 
-impl Tables {
+impl LabelTable {
     #[inline]
     pub(crate) fn next(&self, q: u32, s: usize) -> u32 {
         self.next[q as usize * self.classes + self.class[s] as usize]
@@ -466,13 +466,13 @@ impl Payment {
     }
 }
 
-/// Columns of the transition table, hash-consed.
-struct Columns {
+/// ClassBuilder of the transition table, hash-consed.
+struct ClassBuilder {
     class: Vec<u32>,
     seen: Interner<u32>,
 }
 
-impl Columns {
+impl ClassBuilder {
     fn push(&mut self, column: &[u32]) {
         self.class.push(self.seen.number(column));
     }
@@ -492,7 +492,7 @@ impl Columns {
         }
         let (class, robustness) = (self.class, Vec::new());
         let initial = 0;
-        Labelled::from_tables(Tables {
+        Labelled::from_tables(LabelTable {
             name,
             formula,
             actions,

@@ -7,18 +7,18 @@ use serde::{Deserialize, Serialize};
 use std::string::{String, ToString};
 use std::vec::Vec;
 
-use super::model::{AdamMoments, Batch, Descent, Model};
+use super::model::{AdamMoments, Batch, Model, Optimiser};
 use super::popart::PopArt;
 use super::replay::Replay;
 use super::settings::Settings;
-use super::trainer::{Heads, Optimum, Trainer, bounds};
+use super::trainer::{Heads, TaskObjective, Trainer, bounds};
 use super::{Error, Learned, Relabel, Skill};
 use crate::augmented::Moves;
 use crate::env::{Env, Step, below, unit};
 use crate::learn::episode::{self, Agent, Elapsed, Monitored, Move, Transition};
 use crate::mismatch::Mismatch;
 use crate::monitor::{Acceptor, Monitor};
-use crate::network::policy::NetworkTraining;
+use crate::network::policy::{NetworkPolicy, NetworkPolicyError, NetworkTraining};
 use crate::network::{Dense, Features, Network, NetworkError, Shape};
 use crate::q::argmax;
 use crate::task;
@@ -73,7 +73,8 @@ pub struct Learner<S, M, F, G> {
 /// All that learning changes, but for the random generator.
 struct Core<S> {
     settings: Settings,
-    actions: usize,
+    /// What the actions are called.
+    actions: Vec<String>,
     /// The actions that exploration draws from, each as often as it is listed.
     explored: Vec<usize>,
     /// For each automaton state the most that its task pays from there on.
@@ -182,7 +183,7 @@ where
         }
         let Skill { task, features, goals } = self.skill;
         let bounds = bounds(&core.most, &rewards, core.paid);
-        let objective = Optimum { task, moves: self.moves, bounds: &bounds };
+        let objective = TaskObjective { task, moves: self.moves, bounds: &bounds };
         let from = (features, goals);
         core.trainer.update(&mut core.replay, from, &objective, &core.settings, rng)?;
         Ok(())
@@ -193,12 +194,13 @@ impl<S> Core<S> {
     /// Q(s, q, ·); zeros where the task is decided.
     fn values(&mut self, features: &impl Features<S>, q: u32, s: &S) -> Result<Vec<f32>, Error> {
         let Some(head) = self.trainer.heads.of(q) else {
-            return Ok(std::vec![0.0; self.actions]);
+            return Ok(std::vec![0.0; self.actions.len()]);
         };
         self.single.clear();
         self.single.push(features, s).map_err(Error::Feature)?;
         let values = self.trainer.values(&self.trainer.model, &self.single);
-        Ok(values[head * self.actions..][..self.actions].to_vec())
+        let actions = self.actions.len();
+        Ok(values[head * actions..][..actions].to_vec())
     }
 }
 
@@ -236,7 +238,7 @@ where
             most: moves.most(&skill.task),
             paid: (0.0, 0.0),
             settings,
-            actions,
+            actions: names(env),
             single: Batch::default(),
         };
         Self { skill, moves, core, rng, elapsed: Elapsed::default(), seed }
@@ -250,7 +252,7 @@ where
     #[must_use]
     #[track_caller]
     pub fn exploring(mut self, actions: Vec<usize>) -> Self {
-        let all = actions.iter().all(|&a| a < self.core.actions);
+        let all = actions.iter().all(|&a| a < self.core.actions.len());
         assert!(!actions.is_empty() && all, "exploration draws from the world's actions");
         self.core.explored = actions;
         self
@@ -264,11 +266,7 @@ where
     /// If the environment has other actions, or a predicate, a feature, a reward or the loss is not
     /// a finite number. Where no action can be chosen, no step is taken.
     pub fn train<E: Env<State = S>>(&mut self, env: &mut E, total: u64) -> Result<(), Error> {
-        if env.actions() != self.core.actions {
-            let count = |actions| std::format!("a world of {actions} actions");
-            let (found, expected) = (count(env.actions()), count(self.core.actions));
-            return Err(Error::Mismatch(Mismatch::new("an environment", found, expected)));
-        }
+        check_actions(env, self.core.actions.len())?;
         let Self { skill, moves, core, rng, elapsed, .. } = self;
         let horizon = core.settings.horizon();
         let mut world = Beside { env, task: &skill.task, moves };
@@ -307,6 +305,16 @@ where
     pub fn learned(&self) -> Result<Learned<'_, S>, NetworkError> {
         let Skill { task, features, .. } = &self.skill;
         Ok(Learned { network: self.network()?, features, task, experience: &self.core.replay })
+    }
+
+    /// The greedy policy so far, saying how it was learned: to be saved, and emitted as Rust.
+    ///
+    /// # Errors
+    /// As [`Self::network`].
+    pub fn policy(&self) -> Result<NetworkPolicy, NetworkPolicyError> {
+        let actions = self.core.actions.clone();
+        let policy = NetworkPolicy::new(&self.skill.task, actions, self.network()?)?;
+        Ok(policy.trained(self.training()))
     }
 
     /// How the network was learned so far, as policies say it.
@@ -369,27 +377,29 @@ where
             replay: self.core.replay.clone(),
             rng: self.rng.clone(),
             done: self.elapsed,
-            task: Some(Identity::of(&self.skill.task)),
+            task: Some(TaskName::of(&self.skill.task)),
             seed: self.seed,
         }
     }
 
-    /// A learner that goes on as the one would have that the checkpoint is of: between episodes, on
-    /// the same kind of device, with the same numbers.
+    /// A learner of `skill` in the world of `env` that goes on as the one would have that the
+    /// checkpoint is of: between episodes, on the same kind of device, with the same numbers.
     ///
     /// # Errors
-    /// If the checkpoint is of another task, or of a network of another shape.
+    /// If the checkpoint is of another task or world, or of a network of another shape.
     pub fn resume(
         skill: Skill<M, F, G>,
+        env: &impl Env<State = S>,
         checkpoint: Checkpoint<S>,
         device: &Device,
     ) -> Result<Self, Mismatch> {
         let Checkpoint { settings, shape, network, target, .. } = &checkpoint;
         let moves = Moves::new(&skill.task, settings.rewards());
         let heads = Heads::new(&moves, skill.task.states());
-        let actions = shape.actions;
-        let wanted = Shape::of(&skill.features, settings.hidden(), heads.states.len(), actions);
-        let own = Identity::of(&skill.task);
+        check_actions(env, shape.actions)?;
+        let (live, actions) = (heads.states.len(), shape.actions);
+        let wanted = Shape::of(&skill.features, settings.hidden(), live, actions);
+        let own = TaskName::of(&skill.task);
         let same = checkpoint.task.as_ref().is_none_or(|task| task.formula == own.formula);
         let model = |layers| Model::resume(wanted.clone(), layers, device);
         let fit = checkpoint.moments.as_ref().is_none_or(|moments| moments.fit(network));
@@ -403,14 +413,14 @@ where
         let mut trainer = Trainer::new(model, heads, settings.normalisation());
         trainer.target = target;
         if let Some(moments) = &checkpoint.moments {
-            trainer.descent = Descent::resume(moments, device);
+            trainer.descent = Optimiser::resume(moments, device);
         }
         (trainer.popart, trainer.updates) = (checkpoint.popart, checkpoint.updates);
         let core = Core {
             most: moves.most(&skill.task),
             paid: checkpoint.paid,
             settings: checkpoint.settings,
-            actions,
+            actions: names(env),
             explored: checkpoint.explored,
             trainer,
             replay: checkpoint.replay,
@@ -438,22 +448,36 @@ pub struct Checkpoint<S> {
     done: Elapsed,
     /// Not there in files of earlier versions, which are known by their shape alone.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    task: Option<Identity>,
+    task: Option<TaskName>,
     #[serde(default)]
     seed: u64,
 }
 
 /// Which task a checkpoint is of.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-struct Identity {
+struct TaskName {
     name: String,
     formula: String,
 }
 
-impl Identity {
+impl TaskName {
     fn of(task: &impl Acceptor) -> Self {
         Self { name: task.name().to_string(), formula: task.formula().text().to_string() }
     }
+}
+
+/// What the actions of a world are called.
+fn names(env: &impl Env) -> Vec<String> {
+    (0..env.actions()).map(|a| env.action_name(a)).collect()
+}
+
+/// `Ok` if the world has so many actions.
+fn check_actions(env: &impl Env, expected: usize) -> Result<(), Mismatch> {
+    if env.actions() == expected {
+        return Ok(());
+    }
+    let count = |actions| std::format!("a world of {actions} actions");
+    Err(Mismatch::new("an environment", count(env.actions()), count(expected)))
 }
 
 /// A task and the network that it is learned with, as errors show them.

@@ -274,7 +274,7 @@ impl Model {
 }
 
 /// Adam (Kingma and Ba 2015) on all layers of a model, with a bound on the norm of the gradient.
-pub(super) struct Descent {
+pub(super) struct Optimiser {
     adam: Adam,
     moments: Vec<(Option<AdamState<2>>, Option<AdamState<1>>)>,
 }
@@ -297,7 +297,7 @@ impl AdamMoments {
     }
 }
 
-impl Descent {
+impl Optimiser {
     pub(super) fn new(layers: usize) -> Self {
         let moments = core::iter::repeat_with(|| (None, None)).take(layers).collect();
         Self { adam: AdamConfig::new().with_epsilon(1e-8).build(), moments }

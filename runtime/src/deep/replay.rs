@@ -65,7 +65,7 @@ impl SumTree {
 
 /// A state that was met, and what was done there.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct Moment<S> {
+pub(super) struct Visit<S> {
     /// The state.
     pub(super) state: S,
     /// The automaton state then, of the task that was being learned; of a last state 0.
@@ -86,7 +86,7 @@ pub(super) struct Moment<S> {
 /// no step and the priority 0.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Replay<S> {
-    moments: Vec<Moment<S>>,
+    moments: Vec<Visit<S>>,
     capacity: usize,
     /// Where the current state is.
     head: usize,
@@ -120,7 +120,7 @@ impl<S> Replay<S> {
     }
 
     fn put(&mut self, state: S) {
-        let moment = Moment { state, q: 0, action: 0, reward: 0.0, terminated: false, last: 0 };
+        let moment = Visit { state, q: 0, action: 0, reward: 0.0, terminated: false, last: 0 };
         self.head = if self.moments.is_empty() { 0 } else { (self.head + 1) % self.capacity };
         if self.head == self.moments.len() {
             self.moments.push(moment);
@@ -165,7 +165,7 @@ impl<S> Replay<S> {
     }
 
     /// What is at a place.
-    pub(super) fn moment(&self, place: usize) -> &Moment<S> {
+    pub(super) fn moment(&self, place: usize) -> &Visit<S> {
         &self.moments[place]
     }
 
@@ -218,7 +218,7 @@ impl<S> Replay<S> {
     }
 
     /// The states, oldest episode first is not promised; with what was done there.
-    pub(super) fn moments(&self) -> &[Moment<S>] {
+    pub(super) fn moments(&self) -> &[Visit<S>] {
         &self.moments
     }
 
@@ -237,7 +237,7 @@ impl<S> Replay<S> {
             }
             begun = other.priorities.get(place) > 0.0;
             if begun {
-                let Moment { q, action, reward, terminated, .. } = *moment;
+                let Visit { q, action, reward, terminated, .. } = *moment;
                 let state = other.moments[(place + 1) % n].state.clone();
                 let step = Step { state, reward, terminated, truncated: false };
                 self.push(q, action as usize, step);

@@ -6,7 +6,7 @@ use burn::tensor::Device;
 use rand::SeedableRng;
 use rand::rngs::Xoshiro256PlusPlus;
 
-use super::model::{Batch, Descent, Model, Target};
+use super::model::{Batch, Model, Optimiser, Target};
 use super::popart::PopArt;
 use super::replay::{Replay, SumTree};
 use crate::env::{Step, below, unit};
@@ -158,15 +158,15 @@ fn descent_goes_on_from_its_moments() {
     let Case { network, batch, .. } = case(4, &[6], 7);
     let device = Device::flex();
     let targets = [Target { value: 1.0, weight: 1.0 }; 8];
-    let step = |model: &mut Model, descent: &mut Descent| {
+    let step = |model: &mut Model, descent: &mut Optimiser| {
         let (_, _, gradients) = model.gradients(&batch, &[0, 1, 2, 3], &targets, 0.0);
         descent.step(model, gradients, 1e-2, 10.0)
     };
     let mut model = Model::new(&network, &device);
-    let mut descent = Descent::new(2);
+    let mut descent = Optimiser::new(2);
     (0..3).for_each(|_| assert!(step(&mut model, &mut descent) > 0.0));
     let mut again = Model::resume(model.shape().clone(), &model.dense(), &device).unwrap();
-    let mut resumed = Descent::resume(&descent.moments().unwrap(), &device);
+    let mut resumed = Optimiser::resume(&descent.moments().unwrap(), &device);
     (0..3).for_each(|_| assert!(step(&mut model, &mut descent) > 0.0));
     (0..3).for_each(|_| assert!(step(&mut again, &mut resumed) > 0.0));
     assert_eq!(model.dense(), again.dense());

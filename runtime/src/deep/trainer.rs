@@ -3,7 +3,7 @@
 use rand::Rng;
 use std::vec::Vec;
 
-use super::model::{Batch, Descent, Model, Target};
+use super::model::{Batch, Model, Optimiser, Target};
 use super::popart::PopArt;
 use super::replay::Replay;
 use super::settings::Settings;
@@ -83,14 +83,14 @@ pub(super) trait Objective<S> {
 }
 
 /// The optimum of one task.
-pub(super) struct Optimum<'a, M> {
+pub(super) struct TaskObjective<'a, M> {
     pub task: &'a M,
     pub moves: &'a Moves,
     /// For each automaton state the least and the most that can be had.
     pub bounds: &'a [(f64, f64)],
 }
 
-impl<S, M: Monitor<S>> Objective<S> for Optimum<'_, M> {
+impl<S, M: Monitor<S>> Objective<S> for TaskObjective<'_, M> {
     fn read(&self, q: u32, step: &Step<S>) -> Result<Move, task::Error> {
         self.moves.read(self.task, q, step)
     }
@@ -146,7 +146,7 @@ pub(super) struct Trainer {
     pub heads: Heads,
     pub model: Model,
     pub target: Model,
-    pub descent: Descent,
+    pub descent: Optimiser,
     pub popart: PopArt,
     pub updates: u64,
     before: Batch,
@@ -157,7 +157,7 @@ impl Trainer {
     pub(super) fn new(model: Model, heads: Heads, rate: f64) -> Self {
         Self {
             target: model.clone(),
-            descent: Descent::new(model.dense().len()),
+            descent: Optimiser::new(model.dense().len()),
             popart: PopArt::new(heads.states.len(), rate),
             updates: 0,
             before: Batch::default(),

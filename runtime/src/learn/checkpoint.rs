@@ -21,7 +21,7 @@ use crate::mismatch::Mismatch;
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Checkpoint {
     pub(super) settings: Settings,
-    pub(super) q: Values,
+    pub(super) q: SavedValues,
     pub(super) visits: Vec<u32>,
     pub(super) experience: Experience,
     pub(super) rng: Xoshiro256PlusPlus,
@@ -36,7 +36,7 @@ pub struct Checkpoint {
 /// Action values as they are saved.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
-pub(super) struct Values {
+pub(super) struct SavedValues {
     pub(super) values: Vec<f64>,
     pub(super) states: usize,
     pub(super) actions: usize,
@@ -85,7 +85,7 @@ impl Checkpoint {
     }
 
     fn describe(&self) -> String {
-        let Values { values, states, actions } = &self.q;
+        let SavedValues { values, states, actions } = &self.q;
         let (name, automaton) = match &self.task {
             Some(task) => (alloc::format!("`{}`", task.name), task.automaton_states as usize),
             None => ("a task".into(), values.len() / states.saturating_mul(*actions).max(1)),

@@ -6,7 +6,7 @@ use rand::SeedableRng;
 use rand::rngs::Xoshiro256PlusPlus;
 
 use super::mask::{Mask, Masked};
-use super::table::{Fixed, Numbered, Tabular, Width};
+use super::table::{Fixed, IndexedWorld, Tabular, Width};
 use super::{Checkpoint, Experience, Settings, TrainError};
 use crate::augmented::Labelled;
 use crate::env::FiniteEnv;
@@ -122,7 +122,7 @@ impl Learner {
         total: u64,
     ) -> Result<(), TrainError> {
         match mask {
-            Mask::Shield(shield) => self.task().expect("a shield", shield.task())?,
+            Mask::Shield(shield) => self.task().check("a shield", shield.task())?,
             Mask::OneStep => {
                 let remembers = self.settings.remembers();
                 assert!(remembers, "looking one step ahead needs `Memory::Experience`");
@@ -150,8 +150,8 @@ impl Learner {
         wrap: impl FnOnce(Tabular<'a, W, PLAIN>) -> A,
     ) -> Result<(), TrainError> {
         let task = self.q.task().clone();
-        task.expect_world("an environment", env.states(), env.actions())?;
-        let mut world = Numbered::new(env, &task, &self.settings.rewards());
+        task.check_world("an environment", env.states(), env.actions())?;
+        let mut world = IndexedWorld::new(env, &task, &self.settings.rewards());
         // Copies of its own stay in registers.
         let (mut rng, mut elapsed, settings) = (self.rng.clone(), self.elapsed, self.settings);
         let mut agent = wrap(Tabular {
@@ -264,7 +264,7 @@ impl Learner {
         let task = self.task();
         Checkpoint {
             settings: self.settings,
-            q: super::checkpoint::Values {
+            q: super::checkpoint::SavedValues {
                 values: self.q.values().to_vec(),
                 states: task.states(),
                 actions: task.actions(),

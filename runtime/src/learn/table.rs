@@ -13,7 +13,7 @@ use crate::q::{argmax, largest};
 use crate::reward::Rewards;
 
 /// A finite environment beside a task, states as numbers: reading one is a single look-up.
-pub(super) struct Numbered<'a, E> {
+pub(super) struct IndexedWorld<'a, E> {
     env: &'a mut E,
     task: Labelled,
     states: usize,
@@ -25,7 +25,7 @@ pub(super) struct Numbered<'a, E> {
     environment: f64,
 }
 
-impl<'a, E> Numbered<'a, E> {
+impl<'a, E> IndexedWorld<'a, E> {
     pub(super) fn new(env: &'a mut E, task: &Labelled, rewards: &Rewards) -> Self {
         let (payment, class) = (task.payment(rewards), &task.tables().class);
         let moves = (0..task.pairs()).map(|pair| {
@@ -51,7 +51,7 @@ impl<'a, E> Numbered<'a, E> {
     }
 }
 
-impl<E: FiniteEnv> Monitored for Numbered<'_, E> {
+impl<E: FiniteEnv> Monitored for IndexedWorld<'_, E> {
     type State = usize;
     type Error = Infallible;
 

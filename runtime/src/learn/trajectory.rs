@@ -109,7 +109,7 @@ impl TrajectoryLearner {
         total: u64,
     ) -> Result<(), TrainError> {
         let task = self.q.task().clone();
-        task.expect_world("an environment", env.states(), env.actions())?;
+        task.check_world("an environment", env.states(), env.actions())?;
         let (terminal, horizon) = (self.terminal, self.settings.horizon());
         let (bound, trajectory) = (self.settings.rewards().bound(), Vec::new());
         let mut world = Whole { env, monitor, task, terminal, bound, horizon, trajectory, q: 0 };

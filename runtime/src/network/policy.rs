@@ -66,7 +66,8 @@ use core::fmt;
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
-use super::Network;
+use super::{Network, NetworkError};
+use crate::monitor::Acceptor;
 use crate::policy::States;
 use crate::q::argmax;
 use crate::reward::End;
@@ -159,6 +160,8 @@ pub enum NetworkPolicyError {
         /// How many there should be.
         expected: usize,
     },
+    /// The network that was learned is none.
+    Network(NetworkError),
     /// A worth is not one: a probability outside of \[0, 1\], or a negative number of steps.
     Worth {
         /// The field.
@@ -188,6 +191,7 @@ impl fmt::Display for NetworkPolicyError {
             Self::Names { field, found, expected } => {
                 write!(f, "`{field}` has {found} names, and the network has {expected} {field}")
             }
+            Self::Network(error) => error.fmt(f),
             Self::Worth { field } => {
                 write!(f, "`{field}` is not a probability, or not a number of steps")
             }
@@ -196,6 +200,12 @@ impl fmt::Display for NetworkPolicyError {
 }
 
 impl core::error::Error for NetworkPolicyError {}
+
+impl From<NetworkError> for NetworkPolicyError {
+    fn from(error: NetworkError) -> Self {
+        Self::Network(error)
+    }
+}
 
 /// A policy for a task on a world whose states are features: for each automaton state a network of
 /// action values.
@@ -286,26 +296,23 @@ impl NetworkPolicy {
     /// The version that this library writes and reads.
     pub const VERSION: u32 = 1;
 
-    /// The policy that is greedy in `network`, for the task with that `automaton`
-    /// ([`States::of`] has it); `name` and `formula` say which task that is, `actions` what the
-    /// actions are called.
+    /// The policy that is greedy in `network`, whose heads are the states in which `task` goes on;
+    /// `actions` are what the world's actions are called.
     ///
     /// # Errors
-    /// If the network does not fit the automaton or the names.
+    /// If the network does not fit the task or the names.
     pub fn new(
-        name: &str,
-        formula: &str,
-        automaton: States,
+        task: &(impl Acceptor + ?Sized),
         actions: Vec<String>,
         network: Network,
     ) -> Result<Self, NetworkPolicyError> {
         Self::try_from(NetworkDocument {
             format: Self::FORMAT.to_string(),
             version: Self::VERSION,
-            task: name.to_string(),
-            formula: formula.to_string(),
+            task: task.name().to_string(),
+            formula: task.formula().text().to_string(),
             actions,
-            automaton,
+            automaton: States::of(task),
             inputs: Vec::new(),
             channels: Vec::new(),
             training: Vec::new(),
@@ -371,6 +378,7 @@ impl NetworkPolicy {
     /// # Panics
     /// If `q` is not a state of the automaton.
     #[must_use]
+    #[track_caller]
     pub fn head(&self, q: u32) -> Option<usize> {
         assert!(q < self.0.automaton.states, "a state of the automaton");
         let live = |&q: &u32| self.end(q).is_none();
@@ -383,6 +391,7 @@ impl NetworkPolicy {
     /// # Panics
     /// If `q` is not a state of the automaton, or the features do not fit the network.
     #[must_use]
+    #[track_caller]
     pub fn values(&self, q: u32, inputs: &[f32], entities: &[f32]) -> Vec<f32> {
         let network = self.network();
         match self.head(q) {
@@ -397,6 +406,7 @@ impl NetworkPolicy {
     /// # Panics
     /// As [`Self::values`].
     #[must_use]
+    #[track_caller]
     pub fn act(&self, q: u32, inputs: &[f32], entities: &[f32]) -> usize {
         argmax(&self.values(q, inputs, entities))
     }

@@ -32,7 +32,7 @@ const RELAXED: f64 = 1e-13;
 const SWEEPS: usize = 1_000_000;
 
 /// What over-relaxed sweeps change.
-struct Relaxed<'a> {
+struct Relaxation<'a> {
     values: &'a mut [f64],
     arrivals: &'a mut [f64],
     /// The pairs of which a successor has changed.
@@ -218,7 +218,7 @@ impl<'a> Block<'a> {
         rule: &Rule<'_>,
     ) {
         let stale = alloc::vec![true; self.members.len() * self.states()];
-        let mut relaxed = Relaxed { values, arrivals, stale, gathered: Vec::new(), top: 1.0 };
+        let mut relaxed = Relaxation { values, arrivals, stale, gathered: Vec::new(), top: 1.0 };
         let step = (ADVANCE * pairs.len().isqrt()).max(1);
         for end in (step..pairs.len()).step_by(step) {
             let start = end.saturating_sub(OVERLAP * step);
@@ -240,10 +240,10 @@ impl<'a> Block<'a> {
         &self,
         pairs: &[(u32, u32)],
         range: core::ops::Range<usize>,
-        relaxed: &mut Relaxed<'_>,
+        relaxed: &mut Relaxation<'_>,
         rule: &Rule<'_>,
     ) -> f64 {
-        let Relaxed { values, arrivals, stale, gathered, top } = relaxed;
+        let Relaxation { values, arrivals, stale, gathered, top } = relaxed;
         let (mut change, small): (f64, f64) = (0.0, RELAXED * *top);
         for i in range {
             let (k, s) = pairs[i];

@@ -3,14 +3,14 @@
 use alloc::vec::Vec;
 
 use super::Problem;
-use crate::augmented::{Labelled, Tables};
+use crate::augmented::{LabelTable, Labelled};
 use crate::reward::End;
 
 /// The strongly connected components of the live automaton states, those that others lead to
 /// first (Tarjan 1972, without recursion).
 pub(super) fn components(labelled: &Labelled) -> Vec<Vec<u32>> {
     let n = labelled.automaton_states() as usize;
-    let mut search = Search {
+    let mut search = Tarjan {
         labelled,
         index: alloc::vec![u32::MAX; n],
         low: alloc::vec![0; n],
@@ -31,7 +31,7 @@ pub(super) fn components(labelled: &Labelled) -> Vec<Vec<u32>> {
     components
 }
 
-struct Search<'a> {
+struct Tarjan<'a> {
     labelled: &'a Labelled,
     index: Vec<u32>,
     low: Vec<u32>,
@@ -42,12 +42,12 @@ struct Search<'a> {
     components: usize,
 }
 
-impl Search<'_> {
+impl Tarjan<'_> {
     fn visit(&mut self, root: u32) {
         let mut path = alloc::vec![(root, 0)];
         self.enter(root);
         while let Some((q, at)) = path.pop() {
-            let Tables { classes, next, .. } = self.labelled.tables();
+            let LabelTable { classes, next, .. } = self.labelled.tables();
             let row = &next[q as usize * classes..][..*classes];
             let Some(&to) = row.get(at) else {
                 self.leave(q, path.last().map(|&(parent, _)| parent));

@@ -85,7 +85,7 @@ impl Problem {
     /// # Errors
     /// If they have different numbers of states or actions.
     pub fn new(dynamics: &Dynamics, task: &Labelled) -> Result<Self, Mismatch> {
-        task.expect_world("dynamics", dynamics.states(), dynamics.actions())?;
+        task.check_world("dynamics", dynamics.states(), dynamics.actions())?;
         Ok(Self::of_own_world(dynamics.clone(), task.clone()))
     }
 

@@ -1,7 +1,7 @@
 //! What a pair is worth, given what arriving at its successors is worth.
 
 use super::Actions;
-use super::settle::{Guess, Known};
+use super::settle::{Guess, Lookahead};
 
 /// How the value of a pair follows from those of its actions.
 pub(super) enum Rule<'a> {
@@ -34,7 +34,7 @@ impl Rule<'_> {
 
     /// A first value of `pair`. Costs are not discounted.
     #[inline]
-    pub(super) fn guess(&self, pair: usize, known: &Known<'_>, discount: f64) -> Guess {
+    pub(super) fn guess(&self, pair: usize, known: &Lookahead<'_>, discount: f64) -> Guess {
         match *self {
             Self::Largest => known.best(discount),
             Self::Least => known.least(0.0, |_| true),

@@ -19,7 +19,7 @@ use super::block::Block;
 use super::rule::Rule;
 
 /// What is known about the successors of a state while pairs are settled.
-pub(super) struct Known<'a> {
+pub(super) struct Lookahead<'a> {
     pub(super) matrix: &'a [f64],
     /// What arriving is worth; NaN: not known yet.
     pub(super) arrivals: &'a [f64],
@@ -41,7 +41,7 @@ struct Blend {
     most: f64,
 }
 
-impl Known<'_> {
+impl Lookahead<'_> {
     fn blend(&self, action: usize) -> Blend {
         let n = self.arrivals.len();
         let row = &self.matrix[action * n..][..n];
@@ -186,7 +186,8 @@ impl Front<'_> {
         self.gathered.clear();
         self.gathered.extend(successors.iter().map(|&to| layer[to as usize]));
         let own = successors.binary_search(&s).unwrap_or(usize::MAX);
-        let known = Known { matrix: dynamics.matrix(s as usize), arrivals: &self.gathered, own };
+        let known =
+            Lookahead { matrix: dynamics.matrix(s as usize), arrivals: &self.gathered, own };
         let pair = block.pair(k, s);
         let Guess { value, over } = self.rule.guess(pair, &known, block.discount);
         let key = self.rule.key(pair, value);

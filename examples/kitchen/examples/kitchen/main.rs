@@ -22,7 +22,7 @@ use tltl_kitchen::strip;
 
 use record::Record;
 use report::Report;
-use trial::{Budget, Outcome, Trials};
+use trial::{Budget, Experiment, Outcome};
 
 /// A specification: task and number, both from 0, and whether failed actions cost something.
 type Specification = (usize, usize, bool);
@@ -62,7 +62,7 @@ impl Plan {
         1 + self.specifications.len() as u64
     }
 
-    fn run(&self, trials: &Trials, case: u64) -> Result<Outcome, String> {
+    fn run(&self, trials: &Experiment, case: u64) -> Result<Outcome, String> {
         let (seed, which) = (case / self.per_seed(), case % self.per_seed());
         let outcome = match which.checked_sub(1) {
             None => trials.compose(seed),
@@ -81,10 +81,10 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
             Ok(seeds) if seeds > 0 => (Plan::full(seeds), studies()),
             _ => return Err(format!("`{n}` is no number of seeds, from 1").into()),
         },
-        ["--redraw"] => return draw(&Trials::new(Plan::full(5).budget)?, &studies()),
+        ["--redraw"] => return draw(&Experiment::new(Plan::full(5).budget)?, &studies()),
         _ => return Err("usage: kitchen [--full [--seeds N] | --redraw]".into()),
     };
-    let trials = Trials::new(plan.budget)?;
+    let trials = Experiment::new(plan.budget)?;
     let study = Study::at(folder.clone(), "kitchen", &(&plan.specifications, plan.budget))
         .every(plan.per_seed());
     let results = study.run(plan.cases(), |case| plan.run(&trials, case));
@@ -109,7 +109,7 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
 }
 
 /// Draws the figures in `folder` from what is recorded there.
-fn draw(trials: &Trials, folder: &Path) -> Result<(), Box<dyn Error + Send + Sync>> {
+fn draw(trials: &Experiment, folder: &Path) -> Result<(), Box<dyn Error + Send + Sync>> {
     let read = |name| fs::read_to_string(folder.join(name));
     let record = Record::read(&read("kitchen.csv")?)?;
     let figure = figure::svg(&record, &report::references(trials)?);

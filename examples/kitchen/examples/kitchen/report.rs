@@ -13,7 +13,7 @@ use tltl_kitchen::searcher::Searcher;
 
 use crate::figure::{Content, ROWS};
 use crate::record::Record;
-use crate::trial::{Curve, Trials, Worth, specification};
+use crate::trial::{Curve, Experiment, Worth, specification};
 
 /// Starts that the planner and the searcher are tried on.
 const STARTS: u64 = 500;
@@ -25,7 +25,9 @@ pub(crate) struct Reference {
 }
 
 /// The references of all problems.
-pub(crate) fn references(trials: &Trials) -> Result<[Reference; 3], Box<dyn Error + Send + Sync>> {
+pub(crate) fn references(
+    trials: &Experiment,
+) -> Result<[Reference; 3], Box<dyn Error + Send + Sync>> {
     Ok([reference(trials, 0)?, reference(trials, 1)?, reference(trials, 2)?])
 }
 
@@ -151,7 +153,10 @@ for each. An episode is cut at 100 steps in task 1 and at 200 elsewhere, and cou
 length. \
 Written by `cargo run --release -p tltl-kitchen --example kitchen -- --full`.\n\n## Results\n";
 
-fn reference(trials: &Trials, problem: usize) -> Result<Reference, Box<dyn Error + Send + Sync>> {
+fn reference(
+    trials: &Experiment,
+    problem: usize,
+) -> Result<Reference, Box<dyn Error + Send + Sync>> {
     let tasks = [specification(0, 2), specification(1, 2)];
     let both = Product::conjunction(&[&*tasks[0], &*tasks[1]]);
     let task: &dyn Monitor<_> = if problem == 2 { &both } else { &*tasks[problem] };

@@ -8,9 +8,6 @@ use tltl::OutOfRange;
 use tltl::compose::Compose;
 use tltl::deep::{Composition, Device, Learner, Settings, Skill};
 use tltl::learn::Schedule;
-use tltl::network::Network;
-use tltl::network::policy::NetworkPolicy;
-use tltl::policy::States;
 use tltl::prelude::{Combine, Env, Monitor, Product};
 use tltl::rand::{SeedableRng, rngs::Xoshiro256PlusPlus};
 use tltl_kitchen::features::{FeasibleGoals, View, exploration};
@@ -72,7 +69,7 @@ pub(crate) struct Outcome {
 }
 
 /// What the trials share.
-pub(crate) struct Trials {
+pub(crate) struct Experiment {
     pub(crate) layout: Arc<Layout>,
     pub(crate) apple: Goal,
     pub(crate) budget: Budget,
@@ -81,7 +78,7 @@ pub(crate) struct Trials {
 type DeepLearner<'a> = Learner<Known, &'a dyn Monitor<Known>, View, FeasibleGoals>;
 pub(crate) type Failure = Box<dyn Error + Send + Sync>;
 
-impl Trials {
+impl Experiment {
     pub(crate) fn new(budget: Budget) -> Result<Self, Failure> {
         let layout = Arc::new(Layout::floorplan24());
         let id = |name| layout.id(name).ok_or("the kitchen has an apple and a fridge");
@@ -248,7 +245,7 @@ impl Trials {
         }
         let shown = vec![
             ("_episode.txt".into(), self.episode(|q, s| composition.act(q, s))?),
-            ("_policy.json".into(), self.policy(&*monitors[1], skills[1].network.clone())?),
+            ("_policy.json".into(), serde_json::to_string(&trained[1].policy()?)?),
         ];
         curves.extend([sum, refined, self.learned_whole(&product, seed)?]);
         Ok(Outcome { curves, shown })
@@ -280,15 +277,6 @@ impl Trials {
         let mut kitchen = self.kitchen(2)?;
         let told = kitchen.reset(&mut Xoshiro256PlusPlus::seed_from_u64(4_000)).goal();
         Episode::record(&mut kitchen, &product, &[self.apple, told], act)
-    }
-
-    /// The network of task 2 as a policy that `tltlc policy` turns into Rust.
-    fn policy(&self, task: &dyn Monitor<Known>, network: Network) -> Result<String, Failure> {
-        let kitchen = self.kitchen(1)?;
-        let actions = (0..kitchen.actions()).map(|a| kitchen.action_name(a)).collect();
-        let text = task.formula().text();
-        let policy = NetworkPolicy::new("phi_3", text, States::of(task), actions, network)?;
-        Ok(serde_json::to_string(&policy)?)
     }
 
     /// A curve of one point.
