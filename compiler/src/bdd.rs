@@ -37,15 +37,15 @@
 //!
 //! # Cost
 //!
-//! An operation costs at most the product of the numbers of nodes of its operands, never the number
-//! of paths, and recurses once a level. Levels are never reordered: a bad order can make a diagram
+//! An operation costs at most the product of the numbers of nodes of its operands, as long as the
+//! cache remembers, never the number of paths, and recurses once a level. Levels are never reordered: a bad order can make a diagram
 //! exponential in them. Nodes are never freed; a diagram is dropped as a whole. Nothing depends on
 //! the order of a hash table.
 //!
 //! # Why not a crate
 //!
-//! Every user of the macros would build it: on the machine where a build of this crate takes
-//! 3 seconds of CPU time, `biodivine-lib-bdd` 0.6 takes 9 (17 packages) and `oxidd` 0.13 with its
+//! Every user of the macros would build it: on the machine where this crate and what it needs take
+//! 6 seconds of CPU time, `biodivine-lib-bdd` 0.6 takes 9 (17 packages) and `oxidd` 0.13 with its
 //! features for MTBDDs alone 17 (42 packages). The first has Boolean functions only, each with
 //! nodes of its own. The second has leaves that are numbers, with arithmetic as its operations;
 //! products of automata need [`apply`](Diagram::apply) with an operation of their own.
@@ -180,8 +180,17 @@ impl Diagram {
     /// are arbitrary and [`is_exhausted`](Self::is_exhausted) says so. No operation can run away.
     #[must_use]
     pub fn with_limit(limit: usize) -> Self {
+        // A kilobyte: the automata of most tasks have fewer than 128 nodes.
         let unique = vec![Bdd::FALSE; 1 << 8];
         Self { nodes: Vec::new(), unique, cache: Vec::new(), covers: Covers::default(), limit }
+    }
+
+    /// Forgets all functions, and keeps the memory.
+    pub fn clear(&mut self) {
+        self.nodes.clear();
+        self.unique.fill(Bdd::FALSE);
+        self.cache.clear();
+        self.covers = Covers::default();
     }
 
     /// Whether the limit has been passed, and results are arbitrary.
@@ -268,11 +277,12 @@ impl Diagram {
         fresh
     }
 
-    /// Makes room in the unique table, and as much in the operation cache.
+    /// Makes room in the unique table, and in the operation cache, which forgets.
     ///
-    /// Ten reach-avoid goals took 1.8 times as long with tables twice as large each time, for they
-    /// grow more often, or with a cache half as large, and 1.3 times as long with tables filled to
-    /// three quarters; a cache twice as large gained nothing.
+    /// Each size was measured on the families of the translation bench: tables twice as large each
+    /// time take 25 to 65 % more time than four times as large, for all nodes move more often;
+    /// a table filled to three quarters takes 10 to 35 % more than one filled to half; a cache half
+    /// as large 5 to 25 % more, and one twice as large no less.
     fn grow(&mut self) {
         let size = self.unique.len() * 4;
         self.unique = vec![Bdd::FALSE; size];
@@ -283,27 +293,16 @@ impl Diagram {
             }
             self.unique[slot] = Bdd(index);
         }
-        if !self.cache.is_empty() {
-            let old = self.empty_cache().into_iter();
-            for known in old.filter(|known| known.f != known.g) {
-                self.remember(hash(known.f.0, known.g.0, known.operation.0), known);
-            }
-        }
+        self.cache.clear();
     }
 
-    /// Replaces the operation cache by an empty one of the size of the unique table; returns the
-    /// old one.
-    fn empty_cache(&mut self) -> Vec<Known> {
-        // Two equal operands are terminal: an entry of theirs is a free one.
-        let [f, g, result] = [Bdd::FALSE; 3];
-        let empty = Known { operation: Operation::AND, f, g, result };
-        std::mem::replace(&mut self.cache, vec![empty; self.unique.len()])
-    }
-
-    /// The remembered result of an operation.
+    /// The remembered result of an operation, whose [`hash`] is `key`.
     fn known(&mut self, key: usize, operation: Operation, f: Bdd, g: Bdd) -> Option<Bdd> {
         if self.cache.is_empty() {
-            self.empty_cache();
+            // ⊥ ∧ ⊥ = ⊥ holds, and is never looked up.
+            let [f, g, result] = [Bdd::FALSE; 3];
+            let free = Known { operation: Operation::AND, f, g, result };
+            self.cache.resize(self.unique.len(), free);
         }
         let known = self.cache[key & (self.cache.len() - 1)];
         (known.operation == operation && known.f == f && known.g == g).then_some(known.result)
@@ -311,8 +310,11 @@ impl Diagram {
 
     /// Remembers a result in the slot of its key; an older one there is lost.
     fn remember(&mut self, key: usize, known: Known) {
-        let slot = key & (self.cache.len() - 1);
-        self.cache[slot] = known;
+        let slot = key & (self.unique.len() - 1);
+        // The table may have grown since the operation began.
+        if let Some(entry) = self.cache.get_mut(slot) {
+            *entry = known;
+        }
     }
 
     /// f ∧ g

@@ -78,9 +78,11 @@ pub fn canonical_order(dfa: &Dfa) -> (Dfa, Vec<State>) {
 fn classes(dfa: &Dfa) -> Vec<State> {
     let order = dfa.diagram.postorder(&dfa.transitions);
     let mut classes = distances(dfa);
+    let mut rewritten = Diagram::default();
     let mut count = 0;
     loop {
-        let (refined, refined_count) = refine(dfa, &order, &classes);
+        rewritten.clear();
+        let (refined, refined_count) = refine(dfa, &order, &classes, &mut rewritten);
         if refined_count == count {
             return refined;
         }
@@ -183,9 +185,13 @@ fn above(dfa: &Dfa) -> Above {
 }
 
 /// One round: the classes after it, and their number. Classes are numbered in the order in which
-/// states meet them, so the numbering is a function of the automaton.
-fn refine(dfa: &Dfa, order: &[u32], classes: &[State]) -> (Vec<State>, usize) {
-    let mut rewritten = Diagram::default();
+/// states meet them, so the numbering is a function of the automaton. `rewritten` is an empty diagram.
+fn refine(
+    dfa: &Dfa,
+    order: &[u32],
+    classes: &[State],
+    rewritten: &mut Diagram,
+) -> (Vec<State>, usize) {
     let class = |state: State| Bdd::leaf(classes[state as usize]);
     let images = dfa
         .diagram
