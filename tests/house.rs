@@ -79,7 +79,7 @@ fn what_users_build_is_counted() {
 const ORDER: [(&str, &str); 4] = [
     (
         "compiler",
-        "source error arena token reserved ast unit proposition bdd dfa grammar parse spec predicate linear \
+        "source error arena reserved token ast unit proposition bdd dfa grammar parse spec predicate linear \
          arithmetic resolve check translate minimize factor judge compile hoa tables emit",
     ),
     ("macros", "tokens expand"),

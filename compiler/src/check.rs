@@ -41,7 +41,7 @@ mod spec;
 mod unit;
 mod value;
 
-use crate::ast::{Ast, ItemKind};
+use crate::ast::{Ast, Item, ItemKind};
 use crate::error::{Error, Errors, Kind};
 use crate::parse;
 use crate::predicate::{
@@ -82,7 +82,7 @@ pub fn file(source: &Source) -> Result<Module, Errors> {
     finish(parse::recover_file(source), Names::Declared)
 }
 
-/// Parses and checks the input of `tltl!{ … }`.
+/// Parses and checks the input of `tltl!{ … }`; with a state of its own, it is a task file.
 ///
 /// ```
 /// use tltl_compiler::{check, predicate::Condition, source::Source};
@@ -97,7 +97,10 @@ pub fn file(source: &Source) -> Result<Module, Errors> {
 /// # Errors
 /// All mistakes that it has, of form and of meaning.
 pub fn fragment(source: &Source) -> Result<Module, Errors> {
-    finish(parse::recover_fragment(source), Names::Host)
+    let parsed = parse::recover_fragment(source);
+    let is_state = |item: &Item| matches!(item.kind, ItemKind::State(_));
+    let names = if parsed.0.items().iter().any(is_state) { Names::Declared } else { Names::Host };
+    finish(parsed, names)
 }
 
 /// Resolves and checks the items that could be parsed, together with the mistakes of form in the

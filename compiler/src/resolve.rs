@@ -118,9 +118,8 @@ pub(crate) enum Name {
     Function,
     /// A proposition or a variable of a bare formula.
     Free,
-    /// A Rust expression; with the place of the same text if a state is declared beside it, for its
-    /// unit.
-    Rust(Option<Box<Place>>),
+    /// A Rust expression.
+    Rust,
     /// Nothing, with the error that says so. Shared: a path hands the error of its base on.
     Unknown(Rc<Error>),
 }

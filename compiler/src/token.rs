@@ -9,6 +9,7 @@
 //! Any text is a sequence of tokens, broken ones included: an unclosed comment ends with the text,
 //! and an unknown character is a token by itself. Nothing here fails.
 
+use crate::reserved::bare;
 use crate::source::Span;
 
 /// The words with which an item begins. None of them is reserved, so a name after them is what
@@ -135,7 +136,8 @@ pub(crate) fn renamed(text: &str, words: &[(&str, String)]) -> String {
 /// Whether the Rust expression `text` has the word `name` in it. A field or a method of that name
 /// counts too: without a parser for Rust the two cannot be told apart.
 pub(crate) fn mentions(text: &str, name: &str) -> bool {
-    Tokens::new(text, 0).any(|token| &text[token.start..token.end] == name)
+    let is_named = |token: Span| bare(&text[token.start..token.end]) == bare(name);
+    Tokens::new(text, 0).any(is_named)
 }
 
 /// Whether the token is the word of an item: a name follows it.
@@ -186,8 +188,11 @@ impl Iterator for Tokens<'_> {
         self.skip_trivia();
         let rest = &self.text[self.at..];
         let first = rest.chars().next()?;
+        let raw = rest.strip_prefix("r#").filter(|word| word.starts_with(is_word_start));
         let length = if is_word_start(first) || first.is_ascii_digit() {
-            rest.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(rest.len())
+            let word = raw.unwrap_or(rest);
+            let end = word.find(|c: char| !c.is_alphanumeric() && c != '_');
+            rest.len() - word.len() + end.unwrap_or(word.len())
         } else {
             let symbol = SYMBOLS.iter().find(|symbol| rest.starts_with(**symbol));
             symbol.map_or(first.len_utf8(), |symbol| symbol.len())

@@ -175,9 +175,7 @@ impl Measuring<'_> {
                 self.resolved.scope.parameters(self.item)[*number as usize].unit.clone().into()
             }
             Expression::Name(Name::Item(item, _)) => self.constants[*item].clone(),
-            Expression::Name(Name::Place(place, _) | Name::Rust(Some(place))) => {
-                place.unit.clone().into()
-            }
+            Expression::Name(Name::Place(place, _)) => place.unit.clone().into(),
             _ => Measure::Free,
         }
     }

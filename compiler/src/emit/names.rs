@@ -12,7 +12,7 @@ use quote::{format_ident, quote};
 use rustc_hash::FxHashSet;
 
 use crate::compile::Compiled;
-use crate::reserved::{is_keyword, rust_name};
+use crate::reserved::{is_constructor, is_keyword, rust_name};
 
 /// The place in which generated code stands. It decides how locals are named and which lints are
 /// allowed.
@@ -64,10 +64,6 @@ pub fn module(stem: &str) -> Ident {
     }
     ident(&name)
 }
-
-/// Names that every scope of Rust has and that a pattern must therefore not bind: it would match
-/// the constructor instead.
-pub(crate) const CONSTRUCTORS: [&str; 4] = ["Some", "None", "Ok", "Err"];
 
 /// The names of parameters and locals in generated code.
 pub(super) struct Names {
@@ -123,7 +119,7 @@ impl Names {
         if !self.prefix.is_empty() {
             return format_ident!("{}{}", self.prefix, known, span = Span::mixed_site());
         }
-        if CONSTRUCTORS.contains(&&*known) {
+        if is_constructor(&known) {
             return format_ident!("{}", self.free(known.into_owned()));
         }
         ident(name)

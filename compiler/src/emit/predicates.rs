@@ -21,7 +21,7 @@ use crate::predicate::{
     Binding, Condition, ConditionId, Module, Number, Numeric, ParameterType, PredicateId, Scalar,
     State, Step, Term, TermId,
 };
-use crate::reserved::rust_name;
+use crate::reserved::bare;
 use crate::source::Span;
 
 /// Expressions deeper than this are cut by a `let`: rustc reads nested expressions by recursion.
@@ -555,14 +555,14 @@ fn whole(value: f64, name: &str) -> TokenStream {
 /// The word `name` as it stands in the author's Rust: two words of the same letters may be
 /// different names if a macro made them.
 fn word(code: &TokenStream, name: &str) -> Ident {
-    find(code, &rust_name(name)).unwrap_or_else(|| ident(name))
+    find(code, bare(name)).unwrap_or_else(|| ident(name))
 }
 
 /// The first identifier of this name in some tokens.
 fn find(code: &TokenStream, name: &str) -> Option<Ident> {
     code.clone().into_iter().find_map(|tree| match tree {
         TokenTree::Group(group) => find(&group.stream(), name),
-        TokenTree::Ident(known) if rust_name(&known.to_string()) == name => Some(known),
+        TokenTree::Ident(known) if bare(&known.to_string()) == name => Some(known),
         _ => None,
     })
 }

@@ -5,16 +5,17 @@
 //! constants. A declaration with a mistake is left out, and its name is remembered as broken, so
 //! that its uses are not reported as well.
 
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::name::suggestion;
-use super::scope::{Declared, Scope, duplicate};
+use super::scope::{Declared, Scope, Spans};
 use super::{Names, Value};
 use crate::ast::{Ast, Declaration, FieldType, Item, ItemKind, WrittenUnit, quoted};
 use crate::error::{Error, Kind};
 use crate::predicate::{
     Enum, Field, Numeric, Parameter, ParameterType, Scalar, Struct, TaskId, Type,
 };
+use crate::reserved::rust_name;
 use crate::source::Span;
 use crate::unit::{MOST_NAMES, MOST_POWER, Unit, Units};
 
@@ -29,7 +30,8 @@ pub(super) fn declare(ast: &Ast, names: Names) -> Scope<'_> {
         structs: Vec::new(),
         enums: Vec::new(),
         state: None,
-        fields: FxHashMap::default(),
+        first: Spans::default(),
+        fields: FxHashSet::default(),
         variants: FxHashMap::default(),
         known: Vec::new(),
         units: Units::default(),
@@ -49,7 +51,7 @@ impl<'a> Scope<'a> {
     /// Collects the names of the items, and refuses names that are declared twice. The first
     /// declaration counts.
     fn declare_names(&mut self) {
-        let mut first: FxHashMap<&str, Span> = FxHashMap::default();
+        let mut first = Spans::default();
         for (index, item) in self.ast.items().iter().enumerate() {
             let text = self.text(item.name);
             self.incomplete |= is_broken_type(self.ast, item);
@@ -57,15 +59,15 @@ impl<'a> Scope<'a> {
                 self.declared[index].task = Some(TaskId(self.tasks));
                 self.tasks += 1;
             }
-            if text.is_empty() {
+            if text.is_empty() || !self.is_new(&mut first, item.name) {
                 continue;
             }
-            if let Some(before) = first.get(text) {
-                self.mistakes.push(duplicate(text, item.name, *before));
-                continue;
+            if matches!(item.kind, ItemKind::Host(_)) {
+                self.first.insert(rust_name(text), item.name);
+                self.mistakes.extend(self.unmentionable(item.name));
             }
-            first.insert(text, item.name);
             if is_value(&item.kind) {
+                self.first.insert(rust_name(text), item.name);
                 self.items.insert(text, index);
                 self.known.push(text);
             }
@@ -101,7 +103,7 @@ impl<'a> Scope<'a> {
             );
         }
         let of = index(self.enums.len());
-        let mut first: FxHashMap<&str, Span> = FxHashMap::default();
+        let mut first = Spans::default();
         for (number, span) in (0..).zip(names) {
             let name = self.text(*span);
             self.is_new(&mut first, *span);
@@ -128,12 +130,14 @@ impl<'a> Scope<'a> {
             let ItemKind::State(fields) = &item.kind else { continue };
             for field in fields {
                 let name = self.text(field.name);
-                self.fields.insert(name, field.name);
+                self.fields.insert(name);
                 self.known.push(name);
-                if let Some(other) = self.items.get(name) {
-                    let other = self.ast.items()[*other].name;
-                    self.mistakes.push(duplicate(name, other, field.name));
+                if let Some(other) = self.first.get(&rust_name(name)) {
+                    self.mistakes.push(self.duplicate(*other, field.name));
                 }
+            }
+            for field in fields {
+                self.first.entry(rust_name(self.text(field.name))).or_insert(field.name);
             }
             self.state = Some(self.declare_struct(item, fields));
         }
@@ -141,7 +145,7 @@ impl<'a> Scope<'a> {
 
     /// Reads the fields of a struct or of the state.
     fn declare_struct(&mut self, item: &Item, declarations: &[Declaration]) -> Struct {
-        let mut first: FxHashMap<&str, Span> = FxHashMap::default();
+        let mut first = Spans::default();
         let mut fields = Vec::new();
         for field in declarations {
             let text = self.text(field.name);
@@ -160,10 +164,13 @@ impl<'a> Scope<'a> {
 
     /// Whether the name at `span` is new among `names`, to which it is added; reports it if it is
     /// not.
-    fn is_new(&mut self, names: &mut FxHashMap<&'a str, Span>, span: Span) -> bool {
-        let before = names.insert(self.text(span), span);
-        self.mistakes.extend(before.map(|before| duplicate(self.text(span), span, before)));
-        before.is_none()
+    fn is_new(&mut self, names: &mut Spans<'a>, span: Span) -> bool {
+        let first = *names.entry(rust_name(self.text(span))).or_insert(span);
+        let is_new = first == span;
+        if !is_new {
+            self.mistakes.push(self.duplicate(span, first));
+        }
+        is_new
     }
 
     /// Reads the parameters of predicates and tasks. One whose type has a mistake is unclear:
@@ -176,13 +183,13 @@ impl<'a> Scope<'a> {
             else {
                 continue;
             };
-            let mut first: FxHashMap<&str, Span> = FxHashMap::default();
+            let mut first = Spans::default();
             for declaration in declared {
                 let (text, span) = (self.text(declaration.name), declaration.name);
                 if !self.is_new(&mut first, span) {
                     continue;
                 }
-                self.mistakes.extend(self.shadowed(span));
+                self.mistakes.extend(self.shadowed(span).or_else(|| self.unmentionable(span)));
                 let ty = self.parameter_type(&declaration.ty);
                 let is_number = match &ty {
                     Ok(ty) => matches!(ty.scalar(), Some(Scalar::Number(_))),

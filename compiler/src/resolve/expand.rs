@@ -16,6 +16,7 @@ use super::place::Part;
 use super::{Entry, Expression, ExpressionId, Name, Resolved, Value};
 use crate::ast::{Ast, Infix, Item, ItemKind, Node, NodeId, Quantifier, quoted};
 use crate::error::{Error, Kind};
+use crate::reserved::rust_name;
 use crate::source::Span;
 
 /// The most operators and operands that all quantifiers of a source may have, written out; the same
@@ -294,14 +295,16 @@ impl Expansion<'_, '_> {
     /// The error for a name that cannot be bound: it is bound already, or means something else.
     fn refused(&self, name: Span, environment: Environment) -> Option<Error> {
         let text = self.resolved.ast.source().slice(name);
-        if self.resolved.binders(environment).any(|(known, _)| known == text) {
+        let same = |known: &str| rust_name(known) == rust_name(text);
+        if self.resolved.binders(environment).any(|(known, _)| same(known)) {
             let message = format!("`{text}` is bound twice");
             return Some(
                 Error::new(Kind::DuplicateName, message, name)
                     .help("give the inner one another name"),
             );
         }
-        self.resolved.scope.shadowed(name)
+        let scope = &self.resolved.scope;
+        scope.shadowed(name).or_else(|| scope.unmentionable(name))
     }
 
     /// Whether a bound is passed, which is reported once.

@@ -18,7 +18,7 @@ impl Resolved<'_> {
         let text = self.ast.text(node);
         if !matches!(self.ast.node(node), Node::Name) {
             return match self.names {
-                Names::Host => Name::Rust(None),
+                Names::Host => Name::Rust,
                 _ => Name::Unknown(Rc::new(self.only_rust(node))),
             };
         }
@@ -38,7 +38,7 @@ impl Resolved<'_> {
             (Names::Declared, Some(place)) if is_scalar => Name::Place(Box::new(place), values),
             _ if !values.is_empty() => Name::Values(values),
             _ if text == "none" => Name::Absent,
-            (Names::Host, place) => Name::Rust(place.map(Box::new)),
+            (Names::Host, _) => Name::Rust,
             (_, Some(place)) => Name::Place(Box::new(place), values),
             (_, None) if Function::named(text).is_some() => Name::Function,
             (_, None) => Name::Unknown(Rc::new(self.unknown(self.ast.span(node), item))),
@@ -57,7 +57,7 @@ impl Resolved<'_> {
         };
         let function = Function::named(self.text(id)).filter(|_| is_free);
         match (item, function, self.names) {
-            (None, None, Names::Host) => Err(Name::Rust(None)),
+            (None, None, Names::Host) => Err(Name::Rust),
             (None, None, _) => Err(Name::Unknown(Rc::new(self.unknown_function(id)))),
             _ => Ok(Callee { item, function }),
         }

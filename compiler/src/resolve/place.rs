@@ -53,11 +53,7 @@ impl Resolved<'_> {
         match (self.names, &self[base].expression) {
             (_, Expression::Name(Name::Free)) => Name::Free,
             (Names::Host, Expression::Number(_)) => Name::Unknown(Rc::new(self.no_place(base))),
-            (Names::Host, _) if !self.scope.has_state() => Name::Rust(None),
-            (Names::Host, _) => {
-                let place = self.place(base, item).and_then(|base| self.extended(base, part));
-                Name::Rust(place.ok().map(Box::new))
-            }
+            (Names::Host, _) => Name::Rust,
             _ => match self.place(base, item).and_then(|base| self.extended(base, part)) {
                 Ok(place) => Name::Place(Box::new(place), Vec::new()),
                 Err(error) => Name::Unknown(error),
@@ -68,9 +64,7 @@ impl Resolved<'_> {
     /// The place that an expression of `item` names, or the error that it names none.
     pub(crate) fn place(&self, id: ExpressionId, item: usize) -> Result<Place, Rc<Error>> {
         let error = match (&self[id].expression, self.ast.node(self[id].node)) {
-            (Expression::Name(Name::Place(place, _) | Name::Rust(Some(place))), _) => {
-                return Ok((**place).clone());
-            }
+            (Expression::Name(Name::Place(place, _)), _) => return Ok((**place).clone()),
             (Expression::Name(Name::Unknown(error)), _) => return Err(error.clone()),
             (Expression::Name(Name::Value(_)), _) => self.no_place(id),
             (Expression::Name(_), Node::Name) => {
@@ -124,8 +118,6 @@ impl Resolved<'_> {
             return Err(Error::new(Kind::Type, message, self.ast.span(node)));
         };
         let segment = match base.ty {
-            // Rust reads the brackets; the unit is that of any element.
-            _ if self.names == Names::Host => Segment::Index(0),
             Type::Table(_, of) => self.table_segment(index, of)?,
             Type::Array(_, length) => self.array_segment(index, length)?,
             _ => return Ok(base),

@@ -3,12 +3,15 @@
 //! Filled once by `declare` and only read afterwards. Hash maps are for lookups alone; whatever is
 //! listed or iterated is a vector in source order.
 
-use rustc_hash::FxHashMap;
+use std::borrow::Cow;
+
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::{Names, Value};
 use crate::ast::{Ast, ItemKind};
 use crate::error::{Error, Kind};
 use crate::predicate::{Enum, Field, Parameter, State, Struct, TaskId, Type};
+use crate::reserved::{is_taken, rust_name};
 use crate::source::Span;
 use crate::unit::{Unit, Units};
 
@@ -29,8 +32,11 @@ pub(crate) struct Scope<'a> {
     pub(crate) enums: Vec<Enum>,
     /// The state, if the source declares its fields.
     pub(super) state: Option<Struct>,
-    /// The places of the declarations of the state's fields, broken ones included.
-    pub(super) fields: FxHashMap<&'a str, Span>,
+    /// The place of the first declaration of each name that a formula can mention: items, fields of
+    /// the state, the state itself.
+    pub(super) first: Spans<'a>,
+    /// The names of the state's fields, broken ones included.
+    pub(super) fields: FxHashSet<&'a str>,
     /// The values with each name; several enumerations may share one.
     pub(super) variants: FxHashMap<&'a str, Vec<Value>>,
     /// All names that can stand in a formula, for suggestions; in source order within each kind.
@@ -44,6 +50,9 @@ pub(crate) struct Scope<'a> {
     /// The mistakes in the declarations.
     pub(super) mistakes: Vec<Error>,
 }
+
+/// Places by the names that stand there, as Rust has them: two names of a source may be one there.
+pub(super) type Spans<'a> = FxHashMap<Cow<'a, str>, Span>;
 
 /// The declaration of one item.
 #[derive(Clone, Default)]
@@ -114,7 +123,7 @@ impl<'a> Scope<'a> {
 
     /// Whether `name` is unknown only because its declaration has a mistake.
     pub(crate) fn is_broken(&self, name: &str) -> bool {
-        self.incomplete || self.fields.contains_key(name)
+        self.incomplete || self.fields.contains(name)
     }
 
     /// Whether the source declares the fields of the state.
@@ -157,26 +166,34 @@ impl<'a> Scope<'a> {
 
     /// The error for a parameter or a bound name that something else has too.
     pub(super) fn shadowed(&self, span: Span) -> Option<Error> {
+        let first = self.first.get(&rust_name(self.text(span)))?;
+        Some(self.duplicate(span, *first).help("give this one another name"))
+    }
+
+    /// The error for a name that Rust of the author's could not mention: the code around it has
+    /// another meaning for it.
+    pub(super) fn unmentionable(&self, span: Span) -> Option<Error> {
         let name = self.text(span);
-        let item = self.items.get(name).map(|item| self.ast.items()[*item].name);
-        let host = || {
-            let mut items = self.ast.items().iter();
-            let is_host = |kind: &ItemKind| matches!(kind, ItemKind::Host(_));
-            items.find(|item| is_host(&item.kind) && self.text(item.name) == name)
-        };
-        let first = item.or(self.fields.get(name).copied()).or_else(|| Some(host()?.name))?;
-        Some(duplicate(name, span, first).help("give this one another name"))
+        let message = format!("`{name}` is a word of Rust's own, and cannot be a name in a macro");
+        (self.names == Names::Host && is_taken(name))
+            .then(|| Error::new(Kind::Keyword, message, span).help("give it another name"))
+    }
+
+    /// The error for a name that is declared at `first` already.
+    pub(super) fn duplicate(&self, span: Span, first: Span) -> Error {
+        let (name, before) = (self.text(span), self.text(first));
+        let known = if name == before { name.into() } else { rust_name(name) };
+        let error = Error::new(Kind::DuplicateName, format!("`{known}` is declared twice"), span)
+            .label("declared again here")
+            .related(first, "first declared here");
+        if name == before {
+            return error;
+        }
+        error.help(format!("`{before}` and `{name}` are one name in Rust"))
     }
 
     /// The text at a place.
     pub(super) fn text(&self, span: Span) -> &'a str {
         self.ast.source().slice(span)
     }
-}
-
-/// The error for a name that was declared at `first` already.
-pub(super) fn duplicate(name: &str, span: Span, first: Span) -> Error {
-    Error::new(Kind::DuplicateName, format!("`{name}` is declared twice"), span)
-        .label("declared again here")
-        .related(first, "first declared here")
 }

@@ -46,7 +46,7 @@ fn name(resolved: &Resolved<'_>, name: &Name) -> String {
         Name::Absent => "none".to_owned(),
         Name::Function => "function".to_owned(),
         Name::Free => "free".to_owned(),
-        Name::Rust(_) => "rust".to_owned(),
+        Name::Rust => "rust".to_owned(),
         Name::Unknown(error) => error.message().to_owned(),
     }
 }
@@ -194,6 +194,13 @@ fn declarations_and_quantifiers_have_mistakes_of_their_own() {
             &["the enumeration `E` has no values", "`no` is not a length"],
         ),
         ("state S { x: f64 } predicate p(x: u8) = x < 1", &["`x` is declared twice"]),
+        ("state S { r#in: f64, in: f64 }", &["`in` is declared twice"]),
+        ("state S { self: f64, self_: f64 }", &["`self_` is declared twice"]),
+        ("enum E { Self, a, Self_ }", &["`Self_` is declared twice"]),
+        ("predicate type = true task r#type = true", &["`type` is declared twice"]),
+        ("state S { in: f64 } predicate p(r#in: u8) = true", &["`in` is declared twice"]),
+        ("task crate = for all crate_ in 0..2: crate_ < 1", &["`crate_` is declared twice"]),
+        ("task t = for all a in {b}: for all r#a in {c}: a", &["`r#a` is bound twice"]),
         ("task t(a: f32) = a < 1", &["`f32` cannot be the type of a parameter"]),
         ("task t = for all x in No: x", &["`No` is not an enumeration that is declared here"]),
         ("task t = for all i in 2..1: i < 1", &["no number is in `2..1`"]),
@@ -218,4 +225,18 @@ fn indices_nest_no_deeper_than_they_are_read() {
     };
     assert_eq!(sort(4), Some(Sort::Enum { of: 0, optional: false }));
     assert_eq!(sort(5), None);
+}
+
+#[test]
+fn names_in_a_macro_are_names_in_rust() {
+    let taken = |name| format!("`{name}` is a word of Rust's own, and cannot be a name in a macro");
+    for (text, name) in [
+        ("|self: &S| F self.x > 1", "self"),
+        ("state _: S; task t = F { true }", "_"),
+        ("state s: S; predicate p(Ok: f64) = s.x < Ok", "Ok"),
+        ("for all None in 0..2: F near(None)", "None"),
+    ] {
+        let ((), mistakes) = read(Names::Host, text, |_, _, _| ());
+        assert_eq!(messages(mistakes), [taken(name)], "{text}");
+    }
 }
