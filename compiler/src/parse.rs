@@ -89,6 +89,12 @@ pub fn fragment(source: &Source) -> Result<Ast, Errors> {
     finish(recover_fragment(source))
 }
 
+/// Whether a word is an operator or a constant where a formula stands, and no name.
+#[must_use]
+pub fn is_keyword(word: &str) -> bool {
+    token::keyword(word).is_some()
+}
+
 /// Parses a bare formula as far as possible, with its mistakes.
 pub(crate) fn recover_formula(source: &Source) -> (Ast, Vec<Error>) {
     one(source, Rule::formula)

@@ -13,6 +13,8 @@ use tltl_compiler::compile::{self, Compiled};
 use tltl_compiler::emit::foreign;
 use tltl_compiler::emit::rust::{self, Options, Place};
 use tltl_compiler::error::{Error, Errors, Kind, Style};
+use tltl_compiler::parse;
+use tltl_compiler::predicate::{Condition, Function, Term};
 use tltl_compiler::source::Source;
 use tltl_compiler::translate::Budget;
 
@@ -24,10 +26,15 @@ use crate::tokens::{Flat, visible};
 /// them: without one, rustc would add a mistake of its own at each use.
 pub(crate) fn inline(input: TokenStream) -> TokenStream {
     let (runtime, input) = runtime_path(input);
-    let flat = Flat::new(input);
-    let source = Source::new("tltl!", flat.text.clone());
+    let mut flat = Flat::new(input.clone());
+    let (mut source, mut compiled) = fragment(&flat);
+    let names = compiled.as_ref().ok().filter(|compiled| rust::is_bare(compiled)).map(variables);
+    if let Some(apart) = names.and_then(|names| flat.told_apart(input, &names)) {
+        flat = apart;
+        (source, compiled) = fragment(&flat);
+    }
     let host = |span| flat.tokens(span);
-    match compile::fragment(&source, Budget::default()) {
+    match compiled {
         Ok(compiled) => {
             let options = Options { runtime, state: None, host: &host, place: Place::Scope };
             rust::code(&compiled, &options)
@@ -44,6 +51,32 @@ pub(crate) fn inline(input: TokenStream) -> TokenStream {
             }
         }
     }
+}
+
+fn fragment(flat: &Flat) -> (Source, Result<Compiled, Errors>) {
+    let source = Source::new("tltl!", flat.text.clone());
+    let compiled = compile::fragment(&source, Budget::default());
+    (source, compiled)
+}
+
+/// The words in the Rust of a formula, some of which are variables; those of the language are not.
+fn variables(compiled: &Compiled) -> Vec<String> {
+    let arena = &compiled.module.arena;
+    let conditions = arena.conditions().iter().filter_map(|condition| match condition {
+        Condition::Value { text, .. } => Some(text),
+        _ => None,
+    });
+    let terms = arena.terms().iter().filter_map(|term| match term {
+        Term::Host { text, .. } => Some(text),
+        _ => None,
+    });
+    let words = conditions.chain(terms).flat_map(|text| text.split(|c| !is_of_a_word(c)));
+    let is_known = |word: &str| parse::is_keyword(word) || Function::named(word).is_some();
+    words.filter(|word| !is_known(word)).map(str::to_owned).collect()
+}
+
+fn is_of_a_word(c: char) -> bool {
+    c.is_alphanumeric() || c == '_'
 }
 
 /// Expands `include_tltl!("path")` of a task file or of an automaton in HOA, with `state = Type`,

@@ -9,7 +9,9 @@
 //! `TokenStream::to_string` would give a text too, but its blanks are unspecified and it says
 //! nothing of places.
 
-use proc_macro2::{Delimiter, Group, Spacing, Span, TokenStream, TokenTree};
+use std::collections::BTreeMap;
+
+use proc_macro2::{Delimiter, Group, Ident, Spacing, Span, TokenStream, TokenTree};
 use tltl_compiler::source;
 
 /// The text of a token stream, and the place of each token in it.
@@ -21,19 +23,51 @@ pub(crate) struct Flat {
     places: Vec<(usize, usize, TokenTree)>,
     /// Whether the text is the content of a string literal, whose parts have no spans of their own.
     literal: bool,
+    /// What words are called in the text that others of the same letters stand before.
+    renamed: BTreeMap<(String, String), String>,
 }
 
 impl Flat {
     /// Flattens the input of a macro: a formula, or one string literal that holds it.
     pub(crate) fn new(input: TokenStream) -> Self {
+        Self::renaming(input, BTreeMap::new())
+    }
+
+    /// The text in which names of the same letters that are different variables have different
+    /// letters; `None` if none of `names` is one of these.
+    ///
+    /// A `macro_rules!` macro and its caller may each have a variable `near`. Rust knows them apart
+    /// by their hygiene, which a text has not; the compiler would take them for one proposition.
+    pub(crate) fn told_apart(&self, input: TokenStream, names: &[String]) -> Option<Self> {
+        let mut origins: BTreeMap<String, Vec<String>> = BTreeMap::new();
+        for (.., tree) in &self.places {
+            let TokenTree::Ident(word) = tree else { continue };
+            let known = origins.entry(word.to_string()).or_default();
+            let origin = origin(word);
+            if !known.contains(&origin) {
+                known.push(origin);
+            }
+        }
+        let mut renamed = BTreeMap::new();
+        for (word, origins) in origins.into_iter().filter(|(word, _)| names.contains(word)) {
+            let mut free = (2..).map(|i| format!("{word}_{i}"));
+            for origin in origins.into_iter().skip(1) {
+                let other = free.find(|other| !self.text.contains(other.as_str()))?;
+                renamed.insert((word.clone(), origin), other);
+            }
+        }
+        (!renamed.is_empty()).then(|| Self::renaming(input, renamed))
+    }
+
+    fn renaming(input: TokenStream, renamed: BTreeMap<(String, String), String>) -> Self {
         let mut trees = visible(input.clone());
         if let [TokenTree::Literal(literal)] = trees.as_slice()
             && let Some(text) = unquote(&literal.to_string())
         {
             let whole = (0, text.len().max(1), trees.remove(0));
-            return Self { text, places: vec![whole], literal: true };
+            return Self { text, places: vec![whole], literal: true, renamed };
         }
-        let mut flat = Self { text: String::new(), places: Vec::new(), literal: false };
+        let mut flat = Self { text: String::new(), places: Vec::new(), literal: false, renamed };
         flat.stream(input);
         flat
     }
@@ -68,6 +102,10 @@ impl Flat {
                 self.text.push_str(open);
                 self.stream(group.stream());
                 self.text.push_str(close);
+            }
+            TokenTree::Ident(word) if !self.renamed.is_empty() => {
+                let word = (word.to_string(), origin(word));
+                self.text.push_str(self.renamed.get(&word).unwrap_or(&word.0));
             }
             other => self.text.push_str(&other.to_string()),
         }
@@ -123,6 +161,14 @@ fn marks((start, end, tree): &(usize, usize, TokenTree)) -> [((usize, usize), Op
         TokenTree::Group(_) => [((*start, *start), None); 2],
         leaf => [((*start, *end), Some(leaf.span())), ((*end, *end), None)],
     }
+}
+
+/// Which macro a word comes from, by what rustc shows of its span. Stable Rust compares no spans,
+/// but prints `#7 bytes(10..14)`, and words of the same letters are one variable only if their
+/// numbers are the same. Where spans are shown otherwise, all words are of one origin.
+fn origin(word: &Ident) -> String {
+    let shown = format!("{:?}", word.span());
+    shown.split_once(" bytes").map(|(origin, _)| origin.to_owned()).unwrap_or_default()
 }
 
 /// Whether a token is a `#`.

@@ -38,13 +38,17 @@ impl Lowering<'_> {
         }
         let declared = may_be_place && resolved.names == Names::Declared;
         let is_place = declared && self.find_place(id).is_ok();
+        // Beside Rust alone, `none` is a name of Rust.
+        let is_known = expected.is_some() || resolved.names != Names::Host;
         match (values, expected) {
             ([first, second, ..], None) if !is_place => {
                 self.refuse(self.ambiguous(id, *first, *second))
             }
             ([first, ..], _) if !is_place => Some(self.variant(*first)),
+            _ if is_known && resolved[id].expression == Expression::Name(Name::Absent) => {
+                Some(self.arena.add_term(Term::Absent))
+            }
             _ if resolved.names == Names::Host => self.rust(id, true),
-            _ if resolved.text(id) == "none" => Some(self.arena.add_term(Term::Absent)),
             (_, Some(of)) if !is_place => self.refuse(self.not_a_value(id, of)),
             _ => self.place_of_value(id),
         }
