@@ -11,6 +11,7 @@ mod forms;
 mod front;
 mod grammar;
 mod hoa;
+mod hostile;
 mod house;
 mod language;
 mod network;

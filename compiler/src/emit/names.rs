@@ -34,7 +34,14 @@ impl Place {
         match self {
             Self::Scope | Self::Module => quote! { #[allow(clippy::all, clippy::pedantic)] },
             Self::File => quote! {
-                #[allow(missing_docs, nonstandard_style, unused, clippy::all, clippy::pedantic)]
+                #[allow(
+                    missing_docs,
+                    nonstandard_style,
+                    unused,
+                    bindings_with_variant_name,
+                    clippy::all,
+                    clippy::pedantic
+                )]
             },
         }
     }

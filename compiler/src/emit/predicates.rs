@@ -67,12 +67,12 @@ impl<'a> Scope<'a> {
         Self { module, runtime, host, names, state }
     }
 
-    /// The state as an argument. To rustc, the author's own word is the author's code, so an unused
-    /// one would be reported; the attribute prevents that.
+    /// The state as an argument. The author's own word is code of the author's to rustc, which
+    /// would say of it that it is not used, or not in snake case.
     pub(super) fn argument(&self) -> TokenStream {
         let name = &self.state;
         match &self.module.state {
-            State::Host { .. } => quote! { #[allow(unused_variables)] #name },
+            State::Host { .. } => quote! { #[allow(non_snake_case, unused_variables)] #name },
             _ => quote! { #name },
         }
     }
