@@ -67,8 +67,8 @@ impl<'a> Scope<'a> {
         Self { module, runtime, host, names, state }
     }
 
-    /// The state as an argument. The author's own word is code of the author's to rustc, which
-    /// would say of it that it is not used, or not in snake case.
+    /// The state as an argument. To rustc, the author's own word is the author's code, so an unused
+    /// one, or one that is not in snake case, would be reported; the attribute prevents that.
     pub(super) fn argument(&self) -> TokenStream {
         let name = &self.state;
         match &self.module.state {
