@@ -34,14 +34,7 @@ impl Place {
         match self {
             Self::Scope | Self::Module => quote! { #[allow(clippy::all, clippy::pedantic)] },
             Self::File => quote! {
-                #[allow(
-                    missing_docs,
-                    nonstandard_style,
-                    unused,
-                    bindings_with_variant_name,
-                    clippy::all,
-                    clippy::pedantic
-                )]
+                #[allow(missing_docs, nonstandard_style, unused, clippy::all, clippy::pedantic)]
             },
         }
     }
@@ -79,6 +72,8 @@ pub(super) struct Names {
     prefix: String,
     /// The names of the source's parameters and predicates.
     taken: FxHashSet<String>,
+    /// The names of its values, which rustc takes for a slip where they are bound.
+    values: FxHashSet<String>,
 }
 
 impl Names {
@@ -91,19 +86,22 @@ impl Names {
         let names = parameters.map(|known| &known.name);
         let predicates = module.predicates.iter().filter(|known| known.declared);
         let names = names.chain(predicates.map(|known| &known.name));
-        let taken = names.map(|name| rust_name(name).into_owned()).collect();
-        Self::beside(taken, place)
+        let values = module.enums.iter().flat_map(|known| &known.variants);
+        let set = |names: &mut dyn Iterator<Item = &String>| {
+            names.map(|name| rust_name(name).into_owned()).collect()
+        };
+        Self::beside(set(&mut names.into_iter()), set(&mut values.into_iter()), place)
     }
 
     /// The names in code without a source.
     #[cfg(feature = "hoa")]
     pub(super) fn of_ours(place: Place) -> Self {
-        Self::beside(FxHashSet::default(), place)
+        Self::beside(FxHashSet::default(), FxHashSet::default(), place)
     }
 
-    /// The names beside `taken`. The prefix is made longer until no name of the source begins with
-    /// it.
-    fn beside(taken: FxHashSet<String>, place: Place) -> Self {
+    /// The names beside those of a source. The prefix is made longer until none of `taken` begins
+    /// with it.
+    fn beside(taken: FxHashSet<String>, values: FxHashSet<String>, place: Place) -> Self {
         let mut prefix = String::new();
         if place == Place::Scope {
             prefix.push_str("__tltl_");
@@ -111,7 +109,7 @@ impl Names {
                 prefix.push('_');
             }
         }
-        Self { prefix, taken }
+        Self { prefix, taken, values }
     }
 
     /// A generated local.
@@ -126,7 +124,7 @@ impl Names {
         if !self.prefix.is_empty() {
             return format_ident!("{}{}", self.prefix, known, span = Span::mixed_site());
         }
-        if is_constructor(&known) {
+        if is_constructor(&known) || self.values.contains(&*known) {
             return format_ident!("{}", self.free(known.into_owned()));
         }
         ident(name)
@@ -134,7 +132,7 @@ impl Names {
 
     /// The name, with as many `_` after it as make it different from all names of the source.
     fn free(&self, mut name: String) -> String {
-        while self.taken.contains(&name) {
+        while self.taken.contains(&name) || self.values.contains(&name) {
             name.push('_');
         }
         name
