@@ -388,11 +388,24 @@ impl Ast {
         }
     }
 
+    /// The first operand of an expression, where [`operands`](Self::operands) has one.
+    pub(crate) fn leftmost(&self, id: NodeId) -> Option<NodeId> {
+        match self.node(id) {
+            Node::Field { base, .. } | Node::Index { base, .. } => Some(*base),
+            Node::Call { callee, .. } => Some(*callee),
+            Node::Prefix(_, a) | Node::Infix(_, a, _) => Some(*a),
+            Node::Quantified(Quantifier { elements, body, .. }) => {
+                Some(*self.arguments(elements).first().unwrap_or(body))
+            }
+            _ => None,
+        }
+    }
+
     /// The first node of the expression `root`; its nodes are `first..=root`.
     #[must_use]
     pub fn first(&self, root: NodeId) -> NodeId {
         let mut id = root;
-        while let Some(&operand) = self.operands(id).first() {
+        while let Some(operand) = self.leftmost(id) {
             id = operand;
         }
         id

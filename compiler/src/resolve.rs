@@ -107,7 +107,7 @@ pub(crate) enum Name {
     /// expected.
     Item(usize, Vec<Value>),
     /// A place within the declared state, with the values of the same name.
-    Place(Box<Place>, Vec<Value>),
+    Place(Rc<Place>, Vec<Value>),
     /// One of the values with this name; the expected enumeration decides which.
     Values(Vec<Value>),
     /// The value that a quantifier binds to the name.
@@ -341,16 +341,6 @@ impl Resolved<'_> {
             Name::Values(_) => Some(Sort::Variant),
             Name::Absent => Some(Sort::Absent),
             _ => None,
-        }
-    }
-
-    /// The operands of an expression, left to right; none of a name, whatever its path is made of.
-    pub(crate) fn operands(&self, id: ExpressionId) -> Vec<ExpressionId> {
-        match &self[id].expression {
-            Expression::Call(_, arguments) => arguments.clone(),
-            Expression::Prefix(_, a) => vec![*a],
-            Expression::Infix(_, a, b) => vec![*a, *b],
-            _ => Vec::new(),
         }
     }
 

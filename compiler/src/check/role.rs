@@ -97,7 +97,16 @@ impl Descent<'_> {
 
     /// Gives all operands of `id` the same role.
     fn give(&mut self, id: ExpressionId, role: Role) {
-        self.resolved.operands(id).into_iter().for_each(|operand| self.set(operand, role));
+        let resolved = self.resolved;
+        match &resolved[id].expression {
+            Expression::Call(_, arguments) => arguments.iter().for_each(|id| self.set(*id, role)),
+            Expression::Prefix(_, a) => self.set(*a, role),
+            Expression::Infix(_, a, b) => {
+                self.set(*a, role);
+                self.set(*b, role);
+            }
+            _ => {}
+        }
     }
 
     /// Notes a mistake, and silences everything below it.

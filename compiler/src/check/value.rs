@@ -229,7 +229,7 @@ impl Lowering<'_> {
 
     /// The place `id` and the type there, or its error; `Err(None)` if that follows from a mistake
     /// in a declaration.
-    fn find_place(&self, id: ExpressionId) -> Result<(Place, Scalar), Option<Error>> {
+    fn find_place(&self, id: ExpressionId) -> Result<(Rc<Place>, Scalar), Option<Error>> {
         let resolved = self.resolved;
         let error = match resolved.place(id, self.item) {
             Ok(place) => match place.scalar() {

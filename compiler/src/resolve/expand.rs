@@ -197,7 +197,7 @@ impl Expansion<'_, '_> {
         self.copied += usize::from(environment.is_some());
         let entry = ast.entry(node);
         let outer = if entry.is_bracketed() { entry.outer } else { ast.span(place) };
-        let first = ast.operands(place).first().map(|operand| self.resolved[of(*operand)].first);
+        let first = ast.leftmost(place).map(|operand| self.resolved[of(operand)].first);
         self.push(expression, place, outer, first, environment)
     }
 

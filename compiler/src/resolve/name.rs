@@ -35,11 +35,11 @@ impl Resolved<'_> {
         let is_scalar = place.as_ref().is_some_and(|place| place.scalar().is_some());
         match (self.names, place) {
             (Names::Free, _) => Name::Free,
-            (Names::Declared, Some(place)) if is_scalar => Name::Place(Box::new(place), values),
+            (Names::Declared, Some(place)) if is_scalar => Name::Place(Rc::new(place), values),
             _ if !values.is_empty() => Name::Values(values),
             _ if text == "none" => Name::Absent,
             (Names::Host, _) => Name::Rust,
-            (_, Some(place)) => Name::Place(Box::new(place), values),
+            (_, Some(place)) => Name::Place(Rc::new(place), values),
             (_, None) if Function::named(text).is_some() => Name::Function,
             (_, None) => Name::Unknown(Rc::new(self.unknown(self.ast.span(node), item))),
         }

@@ -41,9 +41,9 @@ impl Place {
     }
 
     /// The place one step further, with the type there.
-    fn then(mut self, segment: Segment, ty: Type) -> Self {
-        self.segments.push(segment);
-        Self { ty, ..self }
+    fn then(&self, segment: Segment, ty: Type) -> Self {
+        let segments = self.segments.iter().cloned().chain([segment]).collect();
+        Self { segments, ty, unit: self.unit.clone(), depth: self.depth }
     }
 }
 
@@ -54,23 +54,23 @@ impl Resolved<'_> {
             (_, Expression::Name(Name::Free)) => Name::Free,
             (Names::Host, Expression::Number(_)) => Name::Unknown(Rc::new(self.no_place(base))),
             (Names::Host, _) => Name::Rust,
-            _ => match self.place(base, item).and_then(|base| self.extended(base, part)) {
-                Ok(place) => Name::Place(Box::new(place), Vec::new()),
+            _ => match self.place(base, item).and_then(|base| self.extended(&base, part)) {
+                Ok(place) => Name::Place(Rc::new(place), Vec::new()),
                 Err(error) => Name::Unknown(error),
             },
         }
     }
 
     /// The place that an expression of `item` names, or the error that it names none.
-    pub(crate) fn place(&self, id: ExpressionId, item: usize) -> Result<Place, Rc<Error>> {
+    pub(crate) fn place(&self, id: ExpressionId, item: usize) -> Result<Rc<Place>, Rc<Error>> {
         let error = match (&self[id].expression, self.ast.node(self[id].node)) {
-            (Expression::Name(Name::Place(place, _)), _) => return Ok((**place).clone()),
+            (Expression::Name(Name::Place(place, _)), _) => return Ok(place.clone()),
             (Expression::Name(Name::Unknown(error)), _) => return Err(error.clone()),
             (Expression::Name(Name::Value(_)), _) => self.no_place(id),
-            (Expression::Name(_), Node::Name) => {
-                let place = self.field_of_state(self.span(id));
-                return place.ok_or_else(|| Rc::new(self.unknown(self.span(id), item)));
-            }
+            (Expression::Name(_), Node::Name) => match self.field_of_state(self.span(id)) {
+                Some(place) => return Ok(Rc::new(place)),
+                None => self.unknown(self.span(id), item),
+            },
             (Expression::Call(..), _) => self.unknown_function(self[id].first),
             _ => self.no_place(id),
         };
@@ -86,7 +86,7 @@ impl Resolved<'_> {
     }
 
     /// The place that a part leads to.
-    fn extended(&self, base: Place, part: Part) -> Result<Place, Rc<Error>> {
+    fn extended(&self, base: &Place, part: Part) -> Result<Place, Rc<Error>> {
         let place = match part {
             Part::Field(name) => self.field(base, name),
             Part::Index(node, index) => self.element(base, node, index),
@@ -95,7 +95,7 @@ impl Resolved<'_> {
     }
 
     /// The place of a field.
-    fn field(&self, base: Place, span: Span) -> Result<Place, Error> {
+    fn field(&self, base: &Place, span: Span) -> Result<Place, Error> {
         let name = self.ast.source().slice(span);
         let fields = self.scope.fields_of(Some(&base.ty));
         if let Some(field) = fields.iter().find(|field| field.name == name) {
@@ -112,7 +112,7 @@ impl Resolved<'_> {
     }
 
     /// The place of an element.
-    fn element(&self, base: Place, node: NodeId, index: ExpressionId) -> Result<Place, Error> {
+    fn element(&self, base: &Place, node: NodeId, index: ExpressionId) -> Result<Place, Error> {
         let (Type::Table(element, _) | Type::Array(element, _)) = &base.ty else {
             let message = format!("`{}` indexes what is not an array", self.ast.quote(node));
             return Err(Error::new(Kind::Type, message, self.ast.span(node)));
@@ -120,7 +120,7 @@ impl Resolved<'_> {
         let segment = match base.ty {
             Type::Table(_, of) => self.table_segment(index, of)?,
             Type::Array(_, length) => self.array_segment(index, length)?,
-            _ => return Ok(base),
+            _ => return Ok(base.clone()),
         };
         let (element, depth) = (Type::clone(element), base.depth.max(self.depth(&segment)));
         Ok(Place { depth, ..base.then(segment, element) })
