@@ -45,7 +45,7 @@ use crate::ast::{Ast, Item, ItemKind};
 use crate::error::{Error, Errors, Kind};
 use crate::parse;
 use crate::predicate::{
-    ConditionId, Constant, Module, ParameterType, Predicate, PredicateId, Scalar, Task,
+    ConditionId, Constant, Module, ParameterType, Predicate, PredicateId, Scalar, Task, TermId,
 };
 use crate::resolve::{ExpressionId, Names, Resolved, resolve};
 use crate::source::{Source, Span};
@@ -53,7 +53,7 @@ use crate::spec::Spec;
 use atom::Atoms;
 use lower::Lowering;
 use proposition::Propositions;
-use role::Role;
+use role::{Role, Roles};
 use unit::{Measure, Measuring};
 
 /// Parses and checks a bare formula: a module of one task without a name.
@@ -168,42 +168,50 @@ impl<'r> Checker<'r> {
         self.lowering.item = item;
         let roles = role::roles(resolved, (first, root), role, &mut self.lowering.mistakes);
         let terms = self.lowering.terms(&roles);
-        let measuring = Measuring {
-            resolved,
-            item,
-            constants: &self.measures,
-            roles: &roles,
-            terms: &terms,
-            known: Vec::new(),
-            mistakes: &mut self.lowering.mistakes,
-        };
-        let measure = measuring.measure(root);
-        let mut atoms = Atoms {
-            resolved,
-            lowering: &mut self.lowering,
-            propositions: &mut self.propositions,
-            tasks: &self.tasks,
-            roles: &roles,
-            terms: &terms,
-        };
+        let measure = self.measure(root, &roles, &terms);
         match role {
-            Role::Number => {
-                if terms.last().is_some_and(Option::is_some) {
-                    self.constant(item, root, measure);
-                }
+            Role::Number if terms.last().is_some_and(Option::is_some) => {
+                self.constant(item, root, measure);
             }
             Role::Condition => {
-                if let Some(condition) = atoms.condition() {
+                if let Some(condition) = self.atoms(&roles, &terms).condition() {
                     self.predicate(item, condition);
                 }
             }
-            _ => {
-                if let Some((spec, predicates)) = spec::spec(atoms) {
+            Role::Formula { .. } => {
+                if let Some((spec, predicates)) = spec::spec(self.atoms(&roles, &terms)) {
                     self.task(item, root, spec, predicates);
                 }
             }
+            _ => {}
         }
         self.forget_unclear(item, known);
+    }
+
+    /// Checks the units of an item, and returns that of its root.
+    fn measure(&mut self, root: ExpressionId, roles: &Roles, terms: &[Option<TermId>]) -> Measure {
+        let measuring = Measuring {
+            resolved: self.resolved,
+            item: self.lowering.item,
+            constants: &self.measures,
+            roles,
+            terms,
+            known: Vec::new(),
+            mistakes: &mut self.lowering.mistakes,
+        };
+        measuring.measure(root)
+    }
+
+    /// What the leaves of an item are made from.
+    fn atoms<'c>(&'c mut self, roles: &'c Roles, terms: &'c [Option<TermId>]) -> Atoms<'c, 'r> {
+        Atoms {
+            resolved: self.resolved,
+            lowering: &mut self.lowering,
+            propositions: &mut self.propositions,
+            tasks: &self.tasks,
+            roles,
+            terms,
+        }
     }
 
     /// Drops the mistakes of an item about parameters whose types have mistakes: they follow from

@@ -34,7 +34,7 @@ mod scope;
 use std::ops::Index;
 use std::rc::Rc;
 
-use crate::ast::{Ast, Infix, Item, ItemKind, Node, NodeId, Prefix};
+use crate::ast::{Ast, Comparison, Infix, Item, ItemKind, Node, NodeId, Prefix};
 use crate::error::{Error, Kind};
 use crate::predicate::{Function, ParameterType, Scalar, Type};
 use crate::source::Span;
@@ -245,6 +245,16 @@ pub fn resolve<'a>(ast: &'a Ast, names: Names, mistakes: &mut Vec<Error>) -> Res
     resolved
 }
 
+/// One comparison of a chain.
+pub(crate) struct Link {
+    /// The comparison.
+    pub(crate) op: Comparison,
+    /// Its two sides.
+    pub(crate) sides: [ExpressionId; 2],
+    /// The place of its symbol.
+    pub(crate) operator: Span,
+}
+
 impl Index<ExpressionId> for Resolved<'_> {
     type Output = Entry;
 
@@ -348,6 +358,25 @@ impl Resolved<'_> {
     pub(crate) fn is_chained(&self, left: ExpressionId) -> bool {
         matches!(&self[left].expression, Expression::Infix(Infix::Compare(_), ..))
             && !self.is_bracketed(left)
+    }
+
+    /// The comparisons of a chain, left to right.
+    pub(crate) fn chain(&self, id: ExpressionId) -> Vec<Link> {
+        let mut links = Vec::new();
+        let mut at = id;
+        while let Expression::Infix(Infix::Compare(op), left, right) = self[at].expression {
+            let before = match self[left].expression {
+                Expression::Infix(_, _, middle) if self.is_chained(left) => middle,
+                _ => left,
+            };
+            links.push(Link { op, sides: [before, right], operator: self.operator(at) });
+            if before == left {
+                break;
+            }
+            at = left;
+        }
+        links.reverse();
+        links
     }
 
     /// The declaration of an item.

@@ -88,37 +88,37 @@ impl Atoms<'_, '_> {
     /// term.
     fn truth_argument(&mut self, id: ExpressionId) -> Option<TermId> {
         let resolved = self.resolved;
-        match (&resolved[id].expression, resolved.names) {
+        let term = match (&resolved[id].expression, resolved.names) {
             (Expression::Truth(value), _) => {
-                return Some(self.lowering.arena.add_term(Term::Truth(*value)));
+                Some(self.lowering.arena.add_term(Term::Truth(*value)))
             }
             (Expression::Name(Name::Parameter { ty, .. }), _)
                 if *ty == ParameterType::Scalar(Scalar::Bool) =>
             {
-                return Some(self.lowering.parameter(id, *ty));
+                Some(self.lowering.parameter(id, *ty))
             }
             (
                 Expression::Name(Name::Item(item, _) | Name::Parameter { item: Some(item), .. }),
                 _,
-            ) => self.lowering.used[*item] = true,
-            (Expression::Name(Name::Value(_) | Name::Parameter { .. }), _) => {}
+            ) => {
+                self.lowering.used[*item] = true;
+                None
+            }
+            (Expression::Name(Name::Value(_) | Name::Parameter { .. }), _) => None,
             (Expression::Name(_) | Expression::Call(Callee { item: None, .. }, _), Names::Host) => {
                 return self.lowering.rust(id, false);
             }
             (Expression::Name(_), Names::Declared) if resolved.is_path(id) => {
                 let (term, scalar) = self.lowering.place(id)?;
-                if scalar == Scalar::Bool {
-                    return Some(term);
-                }
+                (scalar == Scalar::Bool).then_some(term)
             }
-            _ => {}
-        }
-        let message = format!("a `bool` is needed here, and `{}` is none", resolved.quote(id));
-        self.lowering.refuse(
-            resolved
-                .type_error(id, message)
-                .help("it is `true`, `false`, or a parameter or a field of that type"),
-        )
+            _ => None,
+        };
+        term.or_else(|| {
+            let message = format!("a `bool` is needed here, and `{}` is none", resolved.quote(id));
+            let help = "it is `true`, `false`, or a parameter or a field of that type";
+            self.lowering.refuse(resolved.type_error(id, message).help(help))
+        })
     }
 
     /// The predicate or the task `item` with the terms `given` in place of its parameters.
@@ -133,19 +133,19 @@ impl Atoms<'_, '_> {
         let names = resolved.scope.parameters(item).iter().map(|parameter| parameter.name.clone());
         let bound: Arguments = names.zip(given.iter().copied()).collect();
         let known = self.lowering.arena.terms().len();
+        let propositions = &mut *self.propositions;
         let atom = match resolved.item(item).kind {
             ItemKind::Predicate(..) => {
-                let predicate = self.propositions.declared[item]?;
-                let condition = self.propositions.predicate(predicate).condition;
-                let meaning =
-                    self.propositions.substituted(self.lowering, condition, &bound, id)?;
+                let predicate = propositions.declared[item]?;
+                let condition = propositions.predicate(predicate).condition;
+                let meaning = propositions.substituted(self.lowering, condition, &bound, id)?;
                 let applied = self.lowering.arena.apply(predicate, given.to_vec(), meaning);
                 Atom::Conditions(vec![self.lowering.placed(applied, resolved.span(id))])
             }
             ItemKind::Task(..) => {
                 let task = resolved.scope.task_id(item)?;
                 if let Some(task) = &self.tasks[task.0 as usize] {
-                    self.propositions.literals(self.lowering, task, &bound, id);
+                    propositions.literals(self.lowering, task, &bound, id);
                 }
                 Atom::Task(task, bound)
             }

@@ -12,8 +12,7 @@ use crate::error::{Error, Kind};
 use crate::predicate::{
     Arguments, Condition, ConditionId, ParameterType, Scalar, Task, TaskId, Term, TermId,
 };
-use crate::resolve::{Callee, Expression, ExpressionId, Name, Names, Resolved};
-use crate::source::Span;
+use crate::resolve::{Callee, Expression, ExpressionId, Link, Name, Names, Resolved};
 use crate::token::mentions;
 
 /// A leaf of a formula.
@@ -155,7 +154,7 @@ impl Atoms<'_, '_> {
             let condition = self.lowering.compare_values(id, op, sides)?;
             return Some(vec![self.lowering.placed(condition, self.resolved.span(id))]);
         }
-        let links = self.links(id);
+        let links = self.resolved.chain(id);
         if let Some(error) = mixed(&links) {
             return self.lowering.refuse(error);
         }
@@ -169,26 +168,6 @@ impl Atoms<'_, '_> {
         Some(self.without_constants(conditions))
     }
 
-    /// The comparisons of a chain, left to right.
-    fn links(&self, id: ExpressionId) -> Vec<Link> {
-        let resolved = self.resolved;
-        let mut links = Vec::new();
-        let mut at = id;
-        while let Expression::Infix(Infix::Compare(op), left, right) = resolved[at].expression {
-            let before = match resolved[left].expression {
-                Expression::Infix(_, _, middle) if resolved.is_chained(left) => middle,
-                _ => left,
-            };
-            links.push(Link { op, sides: [before, right], operator: resolved.operator(at) });
-            if before == left {
-                break;
-            }
-            at = left;
-        }
-        links.reverse();
-        links
-    }
-
     /// Drops conditions that are always true from a conjunction; one that is never true is all of
     /// it.
     fn without_constants(&mut self, mut conditions: Vec<ConditionId>) -> Vec<ConditionId> {
@@ -200,16 +179,6 @@ impl Atoms<'_, '_> {
         conditions.retain(|condition| *condition != always);
         if conditions.is_empty() { vec![always] } else { conditions }
     }
-}
-
-/// One comparison of a chain.
-struct Link {
-    /// The comparison.
-    op: Comparison,
-    /// Its two sides.
-    sides: [ExpressionId; 2],
-    /// The place of its symbol.
-    operator: Span,
 }
 
 /// The error for a chain that points both ways. `a < b > c` would be read as `a < c`, which it does

@@ -28,33 +28,36 @@ impl Atoms<'_, '_> {
         id: ExpressionId,
         of: &dyn Fn(ExpressionId) -> Option<ConditionId>,
     ) -> Option<ConditionId> {
-        let resolved = self.resolved;
-        match resolved[id].expression {
-            Expression::Prefix(Prefix::Not, operand) => Some(self.lowering.arena.not(of(operand)?)),
-            Expression::Infix(Infix::And, left, right) => {
-                Some(self.lowering.arena.and(of(left)?, of(right)?))
+        let arena = &mut self.lowering.arena;
+        match self.resolved[id].expression {
+            Expression::Prefix(Prefix::Not, operand) => Some(arena.not(of(operand)?)),
+            Expression::Infix(op @ (Infix::And | Infix::Or | Infix::Implies), left, right) => {
+                let (left, right) = (of(left)?, of(right)?);
+                Some(match op {
+                    Infix::And => arena.and(left, right),
+                    Infix::Or => arena.or(left, right),
+                    _ => {
+                        let left = arena.not(left);
+                        arena.or(left, right)
+                    }
+                })
             }
-            Expression::Infix(Infix::Or, left, right) => {
-                Some(self.lowering.arena.or(of(left)?, of(right)?))
+            _ => self.leaf(id),
+        }
+    }
+
+    /// The condition of a leaf; a task is none.
+    fn leaf(&mut self, id: ExpressionId) -> Option<ConditionId> {
+        match self.atom(id)? {
+            Atom::Conditions(all) => {
+                all.into_iter().reduce(|left, right| self.lowering.arena.and(left, right))
             }
-            Expression::Infix(Infix::Implies, left, right) => {
-                let left = self.lowering.arena.not(of(left)?);
-                Some(self.lowering.arena.or(left, of(right)?))
+            Atom::Task(..) => {
+                let text = self.resolved.quote(id);
+                let message = format!("`{text}` is a task, and a predicate speaks of one state");
+                let error = self.resolved.type_error(id, message);
+                self.lowering.refuse(error.help("declare this item as a `task` too"))
             }
-            _ => match self.atom(id)? {
-                Atom::Conditions(all) => {
-                    let arena = &mut self.lowering.arena;
-                    all.into_iter().reduce(|left, right| arena.and(left, right))
-                }
-                Atom::Task(..) => {
-                    let text = resolved.quote(id);
-                    let message =
-                        format!("`{text}` is a task, and a predicate speaks of one state");
-                    self.lowering.refuse(
-                        resolved.type_error(id, message).help("declare this item as a `task` too"),
-                    )
-                }
-            },
         }
     }
 }

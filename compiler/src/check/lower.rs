@@ -144,14 +144,14 @@ impl<'r> Lowering<'r> {
     /// A number that is not calculated: a constant, a place, a variable, a Rust expression.
     fn leaf(&mut self, id: ExpressionId) -> Option<TermId> {
         match &self.resolved[id].expression {
-            Expression::Call(Callee { item: Some(item), .. }, _) => {
-                if self.resolved.is_constant(*item) {
-                    self.mistakes.extend(miscounted(self.resolved, id, *item, 0));
-                    return None;
-                }
-                return self.number_item(id, *item);
+            Expression::Call(Callee { item: Some(item), .. }, _)
+                if self.resolved.is_constant(*item) =>
+            {
+                self.mistakes.extend(miscounted(self.resolved, id, *item, 0));
+                return None;
             }
-            Expression::Name(Name::Item(item, _)) => return self.number_item(id, *item),
+            Expression::Call(Callee { item: Some(item), .. }, _)
+            | Expression::Name(Name::Item(item, _)) => return self.number_item(id, *item),
             Expression::Name(Name::Parameter {
                 ty: ty @ ParameterType::Scalar(scalar), ..
             }) => match scalar {

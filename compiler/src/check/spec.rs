@@ -37,18 +37,7 @@ pub(super) fn spec(mut atoms: Atoms<'_, '_>) -> Option<(Spec, Vec<PredicateId>)>
         leaves.push(leaf(&mut atoms, id, atom));
     }
     let Atoms { lowering, propositions, .. } = atoms;
-    let (mut predicates, mut positions) = (Vec::new(), Memo::default());
-    for leaf in leaves.iter().flatten() {
-        let (Leaf::Conditions(literals) | Leaf::Task(_, literals)) = leaf;
-        for literal in literals {
-            if let Literal::Proposition(predicate, _) = *literal
-                && positions.get(predicate).is_none()
-            {
-                positions.insert(predicate, predicates.len() as u32);
-                predicates.push(predicate);
-            }
-        }
-    }
+    let (predicates, positions) = numbered(&leaves);
     let named = |id: &PredicateId| propositions.named(&lowering.arena, *id);
     let spec = Spec::new(predicates.iter().map(named).collect());
     let mut builder = Builder { lowering, roles, spec, positions, built: Vec::new() };
@@ -62,6 +51,23 @@ pub(super) fn spec(mut atoms: Atoms<'_, '_>) -> Option<(Spec, Vec<PredicateId>)>
     let root = builder.built.pop().flatten()?;
     builder.spec.set_root(root);
     Some((builder.spec, predicates))
+}
+
+/// The predicates of all leaves in the order of their first appearance, and the place of each.
+fn numbered(leaves: &[Option<Leaf<'_>>]) -> (Vec<PredicateId>, Memo<PredicateId, u32>) {
+    let (mut predicates, mut positions) = (Vec::new(), Memo::default());
+    for leaf in leaves.iter().flatten() {
+        let (Leaf::Conditions(literals) | Leaf::Task(_, literals)) = leaf;
+        for literal in literals {
+            if let Literal::Proposition(predicate, _) = *literal
+                && positions.get(predicate).is_none()
+            {
+                positions.insert(predicate, predicates.len() as u32);
+                predicates.push(predicate);
+            }
+        }
+    }
+    (predicates, positions)
 }
 
 /// A leaf with its literals.

@@ -90,8 +90,11 @@ impl Measuring<'_> {
     fn atom(&mut self, id: ExpressionId) -> Measure {
         match &self.resolved[id].expression {
             Expression::Infix(Infix::Compare(_), ..) => {
-                let chain = self.compared(id);
-                self.agree(&chain, "they cannot be compared");
+                let sides = self.resolved.chain(id).into_iter().flat_map(|link| link.sides);
+                let mut operands: Vec<_> = sides.collect();
+                // Neighbours in a chain share an operand.
+                operands.dedup();
+                self.agree(&operands, "they cannot be compared");
             }
             Expression::Call(Callee { item: Some(item), .. }, arguments) => {
                 self.arguments(*item, arguments);
@@ -99,22 +102,6 @@ impl Measuring<'_> {
             _ => {}
         }
         Measure::Free
-    }
-
-    /// The operands of a chain of comparisons, left to right.
-    fn compared(&self, id: ExpressionId) -> Vec<ExpressionId> {
-        let mut operands = Vec::new();
-        let mut at = id;
-        while let Expression::Infix(Infix::Compare(_), left, right) = self.resolved[at].expression {
-            operands.push(right);
-            if !self.resolved.is_chained(left) {
-                operands.push(left);
-                break;
-            }
-            at = left;
-        }
-        operands.reverse();
-        operands
     }
 
     /// Checks arguments against the units of the parameters.
@@ -278,8 +265,8 @@ impl Measuring<'_> {
                     measure => measure,
                 }
             }
-            (Function::Pow, base) => match arguments {
-                [_, exponent] => self.power(id, first, base, *exponent),
+            (Function::Pow, _) => match arguments {
+                [_, exponent] => self.power(id, first, *exponent),
                 _ => Measure::Free,
             },
             (Function::Sqrt, Measure::In(unit)) => self.root(id, first, &unit),
@@ -324,52 +311,30 @@ impl Measuring<'_> {
         })
     }
 
-    /// The unit of a power.
-    fn power(
-        &mut self,
-        id: ExpressionId,
-        base: ExpressionId,
-        measure: Measure,
-        exponent: ExpressionId,
-    ) -> Measure {
-        match (measure, self.of(exponent)) {
-            (_, Measure::Broken) => Measure::Broken,
+    /// The unit of a power. The exponent of a base that has a unit must be a known integer, for the
+    /// unit depends on its value.
+    fn power(&mut self, id: ExpressionId, base: ExpressionId, exponent: ExpressionId) -> Measure {
+        let unit = match (self.of(base), self.of(exponent)) {
+            (_, Measure::Broken) => return Measure::Broken,
             (_, Measure::In(unit)) if !unit.is_plain() => {
                 let (text, is) = (self.resolved.quote(exponent), self.is_in(&unit));
                 let message = format!("an exponent is a plain number, but `{text}` {is}");
-                self.refuse(self.error(exponent, message))
+                return self.refuse(self.error(exponent, message));
             }
-            (Measure::In(unit), _) if !unit.is_plain() => {
-                self.power_of(id, [base, exponent], &unit)
-            }
-            (Measure::Written, above) => above,
-            (measure, _) => measure,
-        }
-    }
-
-    /// The unit of a power whose base is in `unit`. The exponent must be a known integer, for the
-    /// unit depends on its value.
-    fn power_of(
-        &mut self,
-        id: ExpressionId,
-        [base, exponent]: [ExpressionId; 2],
-        unit: &Unit,
-    ) -> Measure {
+            (Measure::In(unit), _) if !unit.is_plain() => unit,
+            (Measure::Written, above) => return above,
+            (measure, _) => return measure,
+        };
         let power = self.resolved[exponent].value;
         if let Some(value) = power.filter(|value| value.fract() == 0.0) {
-            #[allow(
-                clippy::cast_possible_truncation,
-                reason = "beyond the bounds before and after"
-            )]
+            #[allow(clippy::cast_possible_truncation, reason = "beyond the bounds either way")]
             return self.bounded(id, unit.power(value as i32));
         }
-        let (text, is) = (self.resolved.quote(base), self.is_in(unit));
+        let (text, is) = (self.resolved.quote(base), self.is_in(&unit));
         let message = format!("the unit of this power is not known, for `{text}` {is}");
-        self.refuse(
-            self.error(base, message)
-                .related(self.resolved[exponent].outer, "this is not a whole number")
-                .help("what has a unit is raised to a known whole number"),
-        )
+        let error =
+            self.error(base, message).help("what has a unit is raised to a known whole number");
+        self.refuse(error.related(self.resolved[exponent].outer, "this is not a whole number"))
     }
 
     /// Adds a help on how to write `id`, which is in the unit `found`, in the unit `wanted`, if the

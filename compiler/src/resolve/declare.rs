@@ -185,27 +185,25 @@ impl<'a> Scope<'a> {
             };
             let mut first = Spans::default();
             for declaration in declared {
-                let (text, span) = (self.text(declaration.name), declaration.name);
-                if !self.is_new(&mut first, span) {
-                    continue;
+                if self.is_new(&mut first, declaration.name) {
+                    self.declare_parameter(item, declaration);
                 }
-                self.mistakes.extend(self.shadowed(span).or_else(|| self.unmentionable(span)));
-                let ty = self.parameter_type(&declaration.ty);
-                let is_number = match &ty {
-                    Ok(ty) => matches!(ty.scalar(), Some(Scalar::Number(_))),
-                    Err(_) => true,
-                };
-                let unit = self.declared_unit(declaration, is_number);
-                let name = text.to_owned();
-                match ty {
-                    Ok(ty) => {
-                        self.declared[item].parameters.push(Parameter { name, ty, unit, span });
-                    }
-                    Err(error) => {
-                        self.mistakes.push(error);
-                        self.declared[item].unclear.push(name);
-                    }
-                }
+            }
+        }
+    }
+
+    fn declare_parameter(&mut self, item: usize, declaration: &Declaration) {
+        let span = declaration.name;
+        self.mistakes.extend(self.shadowed(span).or_else(|| self.unmentionable(span)));
+        let ty = self.parameter_type(&declaration.ty);
+        let scalar = |ty: &ParameterType| matches!(ty.scalar(), Some(Scalar::Number(_)));
+        let unit = self.declared_unit(declaration, ty.as_ref().map_or(true, scalar));
+        let name = self.text(span).to_owned();
+        match ty {
+            Ok(ty) => self.declared[item].parameters.push(Parameter { name, ty, unit, span }),
+            Err(error) => {
+                self.mistakes.push(error);
+                self.declared[item].unclear.push(name);
             }
         }
     }

@@ -272,9 +272,7 @@ impl Expansion<'_, '_> {
             if self.no_room(operator, environment) {
                 break;
             }
-            let depth = self.depth(environment) + 1;
-            let inner = u32::try_from(self.resolved.binders.len()).ok();
-            self.resolved.binders.push(Binder { name, bound, outer: environment, depth });
+            let inner = self.bind(name, bound, environment);
             let copy = self.copy(body, inner);
             joined = Some(match joined {
                 None => copy,
@@ -285,6 +283,13 @@ impl Expansion<'_, '_> {
             });
         }
         joined.unwrap_or_else(|| self.push(Expression::Truth(all), id, span, None, None))
+    }
+
+    /// The environment within another in which a name is bound.
+    fn bind(&mut self, name: Span, bound: Bound, outer: Environment) -> Environment {
+        let depth = self.depth(outer) + 1;
+        self.resolved.binders.push(Binder { name, bound, outer, depth });
+        u32::try_from(self.resolved.binders.len() - 1).ok()
     }
 
     /// The number of names bound in an environment.
