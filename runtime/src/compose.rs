@@ -118,28 +118,20 @@ impl Compose for Stepwise<'_> {
 ///
 #[cfg_attr(feature = "macros", doc = "```")]
 #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// use tltl::model;
 /// use tltl::prelude::*;
-/// # struct Row;
-/// # impl FiniteModel for Row {
-/// #     type State = i32;
-/// #     fn states(&self) -> usize { 5 }
-/// #     fn actions(&self) -> usize { 2 }
-/// #     fn state(&self, s: usize) -> i32 { s as i32 }
-/// #     fn transitions(&self, s: usize, a: usize, mut outcome: impl FnMut(usize, f64)) {
-/// #         outcome([s.saturating_sub(1), (s + 1).min(4)][a], 1.0);
-/// #     }
-/// # }
 ///
-/// // `Row` is five cells in a row. Two skills: reach the left end, reach the right end.
-/// let left = tltl! { |x: &i32| F ({ *x } == 0) };
-/// let right = tltl! { |x: &i32| F ({ *x } == 4) };
-/// let (world, rewards) = (Dynamics::new(&Row)?, Rewards::default());
-/// let one = Problem::new(&world, &Labelled::of_model(&Row, &left)?)?.optimal_q(&rewards);
-/// let two = Problem::new(&world, &Labelled::of_model(&Row, &right)?)?.optimal_q(&rewards);
+/// // Five cells in a row: action 0 goes left, action 1 right. Two skills: reach an end each.
+/// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+/// let left = tltl! { |s: &usize| F ({ *s } == 0) };
+/// let right = tltl! { |s: &usize| F ({ *s } == 4) };
+/// let (world, rewards) = (Dynamics::new(&row)?, Rewards::default());
+/// let one = Problem::new(&world, &Labelled::of_model(&row, &left)?)?.optimal_q(&rewards);
+/// let two = Problem::new(&world, &Labelled::of_model(&row, &right)?)?.optimal_q(&rewards);
 ///
 /// // Both, by what the skills have learned alone.
 /// let product = Product::conjunction(&[&left, &right]);
-/// let task = Labelled::of_model(&Row, &product)?;
+/// let task = Labelled::of_model(&row, &product)?;
 /// let composition = Composition::new(&product, &task, &[&one, &two], rewards)?;
 /// let refined = composition.refined(&world, &composition.initial(Combine::Sum))?;
 /// let certificate = Problem::new(&world, &task)?.optimum(&rewards).certify(&refined.policy())?;

@@ -1,8 +1,15 @@
 //! Environments: what an agent acts in, as in Gymnasium.
 //!
-//! [`Env`] is any world; [`FiniteEnv`] one whose states are numbered; [`ModelEnv`] turns a
-//! [`FiniteModel`] into an environment that samples it from alias tables, at a few nanoseconds a
-//! step. All randomness comes through the `Rng` argument, so a seed fixes a run.
+//! [`Env`] is any world; [`FiniteEnv`] is one whose states are numbered; [`ModelEnv`] turns a
+//! [`FiniteModel`] into an environment that samples it; [`TimeLimit`] truncates the episodes of
+//! another environment. All randomness comes through the `Rng` argument, so a seed fixes a run.
+//!
+//! `ModelEnv` samples from alias tables (Walker 1977, built as by Vose 1991): a step costs one random
+//! word and one look-up, a few nanoseconds, however many outcomes an action has. Probabilities are
+//! kept to 2^-32.
+//!
+//! An environment never knows the task; [`Augmented`](crate::augmented::Augmented) brings the two
+//! together.
 
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -12,6 +19,13 @@ use rand::Rng;
 use crate::model::{Dynamics, FiniteModel, ModelError};
 
 /// What one step of an environment gives.
+///
+/// ```
+/// use tltl::env::Step;
+///
+/// let bump = Step { reward: -1.0, ..Step::to("a wall") };
+/// assert!(!bump.terminated && !bump.truncated);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step<S> {
     /// The state after the step, s'.
@@ -32,6 +46,37 @@ impl<S> Step<S> {
 }
 
 /// An environment.
+///
+/// ```
+/// use tltl::prelude::*;
+/// use tltl::rand::{Rng, SeedableRng, rngs::Xoshiro256PlusPlus};
+///
+/// /// A lift with floors 0 to 3; every move costs something, and the cellar ends the ride.
+/// struct Lift(i32);
+///
+/// impl Env for Lift {
+///     type State = i32;
+///     fn actions(&self) -> usize {
+///         2
+///     }
+///     fn reset<R: Rng + ?Sized>(&mut self, rng: &mut R) -> i32 {
+///         self.0 = (rng.next_u32() % 4) as i32;
+///         self.0
+///     }
+///     fn step<R: Rng + ?Sized>(&mut self, action: usize, _: &mut R) -> Step<i32> {
+///         self.0 = (self.0 + [-1, 1][action]).min(3);
+///         Step { reward: -0.1, terminated: self.0 < 0, ..Step::to(self.0) }
+///     }
+///     fn action_name(&self, a: usize) -> String {
+///         ["down", "up"][a].into()
+///     }
+/// }
+///
+/// let (mut lift, mut rng) = (Lift(0), Xoshiro256PlusPlus::seed_from_u64(1));
+/// let floor = lift.reset(&mut rng);
+/// let rest = (0..=floor).map(|_| lift.step(0, &mut rng)).last();
+/// assert!(rest.is_some_and(|step| step.terminated));
+/// ```
 pub trait Env {
     /// What an agent observes and predicates read.
     type State;
@@ -51,7 +96,49 @@ pub trait Env {
     }
 }
 
-/// An environment with numbered states.
+/// An environment with numbered states: what tabular learners need.
+///
+/// [`ModelEnv`] is one. An environment of one's own says which state it is in, and what the state of
+/// a number is:
+///
+/// ```
+/// use tltl::prelude::*;
+/// use tltl::rand::{Rng, SeedableRng, rngs::Xoshiro256PlusPlus};
+///
+/// /// A dial with ten positions.
+/// struct Dial(usize);
+///
+/// impl Env for Dial {
+///     type State = f64;
+///     fn actions(&self) -> usize {
+///         2
+///     }
+///     fn reset<R: Rng + ?Sized>(&mut self, _: &mut R) -> f64 {
+///         self.0 = 0;
+///         self.state(0)
+///     }
+///     fn step<R: Rng + ?Sized>(&mut self, action: usize, _: &mut R) -> Step<f64> {
+///         self.0 = (self.0 + [9, 1][action]) % 10;
+///         Step::to(self.state(self.0))
+///     }
+/// }
+///
+/// impl FiniteEnv for Dial {
+///     fn states(&self) -> usize {
+///         10
+///     }
+///     fn state(&self, s: usize) -> f64 {
+///         s as f64 / 10.0
+///     }
+///     fn state_index(&self) -> usize {
+///         self.0
+///     }
+/// }
+///
+/// let (mut dial, mut rng) = (Dial(0), Xoshiro256PlusPlus::seed_from_u64(1));
+/// dial.reset(&mut rng);
+/// assert_eq!(dial.step_index(0, &mut rng).state, 9);
+/// ```
 pub trait FiniteEnv: Env {
     /// The number of states; they are numbered `0..states()`.
     fn states(&self) -> usize;
@@ -62,8 +149,8 @@ pub trait FiniteEnv: Env {
     /// The number of the state that the environment is in.
     fn state_index(&self) -> usize;
 
-    /// [`Env::reset`], giving the state's number only: what tabular learners read. To override
-    /// where states are costly to make.
+    /// [`Env::reset`], giving the state's number only: what tabular learners read. Override it where
+    /// states are costly to make.
     #[inline]
     fn reset_index<R: Rng + ?Sized>(&mut self, rng: &mut R) -> usize {
         self.reset(rng);
@@ -79,6 +166,23 @@ pub trait FiniteEnv: Env {
 }
 
 /// An environment whose episodes are truncated after a number of steps.
+///
+/// A learner's own horizon does the same for its training; this is for environments that are run by
+/// hand, or that several learners share.
+///
+/// ```
+/// use tltl::env::TimeLimit;
+/// use tltl::model;
+/// use tltl::prelude::*;
+/// use tltl::rand::{SeedableRng, rngs::Xoshiro256PlusPlus};
+///
+/// let still = ModelEnv::new(model::from_fn(1, 1, |_, _| [(0, 1.0)]))?;
+/// let (mut env, mut rng) = (TimeLimit::new(still, 3), Xoshiro256PlusPlus::seed_from_u64(1));
+/// env.reset(&mut rng);
+/// let truncated = [1, 2, 3].map(|_| env.step(0, &mut rng).truncated);
+/// assert_eq!(truncated, [false, false, true]);
+/// # Ok::<(), tltl::model::ModelError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct TimeLimit<E> {
     env: E,
@@ -141,7 +245,8 @@ impl<E: FiniteEnv> FiniteEnv for TimeLimit<E> {
     }
 }
 
-/// A number in `0..n`, uniform up to a relative error of `n / 2^32`.
+/// A number in `0..n`, uniform up to a relative error of `n / 2^32`: a multiplication in place of a
+/// division (Lemire 2019), without its rejection step, for actions are few.
 #[inline]
 pub(crate) fn below(n: usize, rng: &mut (impl Rng + ?Sized)) -> usize {
     ((u64::from(rng.next_u32()) * n as u64) >> 32) as usize
@@ -208,7 +313,8 @@ struct Outcomes {
 }
 
 impl Outcomes {
-    /// At most this many columns are laid out: 48 MiB.
+    /// At most this many columns are laid out, 48 MiB. Larger worlds sample from the shared tables,
+    /// which costs one look-up more a step.
     const MOST: usize = 1 << 22;
 
     /// The columns of `dynamics`; none if they are too many.
@@ -241,27 +347,21 @@ impl Outcomes {
     }
 }
 
-/// A [`FiniteModel`] as an environment.
+/// A [`FiniteModel`] as an environment: it samples the model's outcomes, never terminates, and pays
+/// nothing of its own.
 ///
 /// ```
-/// # use tltl::{env::{Env, ModelEnv}, model::FiniteModel};
-/// # use tltl::rand::{SeedableRng, rngs::Xoshiro256PlusPlus};
-/// struct Coin;
-/// impl FiniteModel for Coin {
-///     type State = usize;
-///     fn states(&self) -> usize { 2 }
-///     fn actions(&self) -> usize { 1 }
-///     fn state(&self, s: usize) -> usize { s }
-///     fn transitions(&self, _: usize, _: usize, mut outcome: impl FnMut(usize, f64)) {
-///         outcome(0, 0.5);
-///         outcome(1, 0.5);
-///     }
-/// }
-/// let mut env = ModelEnv::new(Coin).unwrap();
+/// use tltl::model;
+/// use tltl::prelude::*;
+/// use tltl::rand::{SeedableRng, rngs::Xoshiro256PlusPlus};
+///
+/// let mut coin = ModelEnv::new(model::from_fn(2, 1, |_, _| [(0, 0.5), (1, 0.5)]))?;
 /// let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
-/// env.reset(&mut rng);
-/// assert!(env.step(0, &mut rng).state < 2);
-/// assert_eq!(env.steps(), 1);
+/// coin.reset(&mut rng);
+/// let heads: usize = (0..1_000).map(|_| coin.step(0, &mut rng).state).sum();
+/// assert!((450..550).contains(&heads));
+/// assert_eq!(coin.steps(), 1_000);
+/// # Ok::<(), tltl::model::ModelError>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct ModelEnv<M> {

@@ -17,7 +17,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::env::Step;
 
-/// Episodes in a row that are over at reset before [`run`] gives up.
+/// Episodes in a row that are over at reset before [`run`] gives up: a task that is decided at every
+/// start would run for ever. Where one start in a thousand is not decided, the chance of giving up
+/// by mistake is e^-100.
 const IDLE: u32 = 100_000;
 
 /// Where one step leads an automaton state, and what the step pays there.
@@ -80,6 +82,53 @@ pub struct Transition<'a, S> {
 /// What acts and learns.
 ///
 /// An agent that cannot choose an action says so by an error, and then no step is taken.
+///
+/// Here one that learns nothing and always takes the same action:
+///
+#[cfg_attr(feature = "macros", doc = "```")]
+#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// use tltl::augmented::Augmented;
+/// use tltl::episode::{self, Agent, Elapsed, Monitored, Transition};
+/// use tltl::model;
+/// use tltl::prelude::*;
+/// use tltl::rand::{Rng, SeedableRng, rngs::Xoshiro256PlusPlus};
+///
+/// struct Always(usize);
+///
+/// impl Agent for Always {
+///     type State = usize;
+///     type Error = tltl::task::Error;
+///
+///     fn act<R: Rng + ?Sized>(
+///         &mut self,
+///         _: u32,
+///         _: &usize,
+///         _: u64,
+///         _: &mut R,
+///     ) -> Result<usize, Self::Error> {
+///         Ok(self.0)
+///     }
+///
+///     fn learn<W: Monitored<State = usize, Error: Into<Self::Error>>, R: Rng + ?Sized>(
+///         &mut self,
+///         _: &W,
+///         transition: &Transition<'_, usize>,
+///         _: &mut R,
+///     ) -> Result<(), Self::Error> {
+///         println!("{} -> {}", transition.s, transition.step.state);
+///         Ok(())
+///     }
+/// }
+///
+/// // Five cells in a row: action 0 goes left, action 1 right. Reach the right end.
+/// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+/// let end = tltl! { |s: &usize| F ({ *s } == 4) };
+/// let mut world = Augmented::new(ModelEnv::new(row).unwrap(), end, Rewards::default());
+/// let (mut elapsed, mut rng) = (Elapsed::default(), Xoshiro256PlusPlus::seed_from_u64(1));
+/// episode::run(&mut world, &mut Always(1), &mut elapsed, 100, 1_000, &mut rng)?;
+/// assert!(elapsed.steps >= 1_000 && elapsed.steps <= 4 * elapsed.episodes);
+/// # Ok::<(), tltl::task::Error>(())
+/// ```
 pub trait Agent {
     /// What it tells situations apart by, beside q.
     type State;
@@ -113,7 +162,7 @@ pub trait Agent {
     ) -> Result<(), Self::Error>;
 }
 
-/// How much was done.
+/// How much was done: what training in slices goes on from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]

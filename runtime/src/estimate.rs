@@ -139,24 +139,16 @@ impl Default for Trials {
 #[cfg_attr(feature = "macros", doc = "```")]
 #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
 /// use tltl::estimate::{Trials, estimate};
+/// use tltl::model;
 /// use tltl::prelude::*;
 /// use tltl::rand::{SeedableRng, rngs::Xoshiro256PlusPlus};
-/// # struct Row;
-/// # impl FiniteModel for Row {
-/// #     type State = i32;
-/// #     fn states(&self) -> usize { 5 }
-/// #     fn actions(&self) -> usize { 2 }
-/// #     fn state(&self, s: usize) -> i32 { s as i32 }
-/// #     fn transitions(&self, s: usize, a: usize, mut outcome: impl FnMut(usize, f64)) {
-/// #         outcome([s.saturating_sub(1), (s + 1).min(4)][a], 1.0);
-/// #     }
-/// # }
 ///
-/// // `Row` is five cells in a row; reach the last one by always going right.
-/// let end = tltl! { |x: &i32| F ({ *x } == 4) };
+/// // Five cells in a row: action 0 goes left, action 1 right. Reach the right end.
+/// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+/// let end = tltl! { |s: &usize| F ({ *s } == 4) };
 /// let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
-/// let right = |_: u32, _: &i32| Ok::<_, tltl::task::Error>(1);
-/// let seen = estimate(&mut ModelEnv::new(Row)?, &end, Trials::default(), &mut rng, right)?;
+/// let right = |_: u32, _: &usize| Ok::<_, tltl::task::Error>(1);
+/// let seen = estimate(&mut ModelEnv::new(row)?, &end, Trials::default(), &mut rng, right)?;
 /// assert_eq!(seen.satisfied.mean, 1.0);
 /// assert!(seen.steps.is_some_and(|steps| steps.low < 2.0 && 2.0 < steps.high));
 /// # Ok::<(), Box<dyn core::error::Error>>(())

@@ -1,4 +1,8 @@
 //! What was seen of a world: a replay log that does not grow with its length.
+//!
+//! Replay of a tabular log needs no order, only counts; so the log of a million steps on the paper's
+//! grid is 1,200 counts. Solving the counted world gives at once what endless replay of the log would
+//! converge to.
 
 use alloc::vec::Vec;
 
@@ -9,6 +13,22 @@ use crate::mismatch::{self, Mismatch};
 use crate::model::FiniteModel;
 
 /// How often each (s, a, s') and each start was seen.
+///
+/// ```
+/// use tltl::learn::Experience;
+/// use tltl::prelude::*;
+///
+/// let mut seen = Experience::new(3, 2);
+/// seen.push_start(0);
+/// for to in [1, 1, 2] {
+///     seen.push(0, 1, to);
+/// }
+/// assert_eq!(seen.tried(0, 1), 3);
+/// let world = Dynamics::new(&seen)?;
+/// assert!(world.outcomes(0, 1).eq([(1, 2.0 / 3.0), (2, 1.0 / 3.0)]));
+/// assert!(world.outcomes(0, 0).eq([(0, 1.0)]), "never tried: it stays");
+/// # Ok::<(), tltl::model::ModelError>(())
+/// ```
 ///
 /// A log of transitions, order forgotten. It names no automaton state: any task can be relabelled
 /// onto it, so the experience of one skill serves every other. As a [`FiniteModel`] it is the
@@ -40,9 +60,9 @@ impl Experience {
             && self.outcomes.iter().all(inside)
     }
 
-    /// Adds a start in `s`.
+    /// Adds a start in `s`. Counts stay at their largest value when they reach it.
     #[inline]
-    pub fn start(&mut self, s: usize) {
+    pub fn push_start(&mut self, s: usize) {
         self.starts[s] = self.starts[s].saturating_add(1);
     }
 
@@ -61,7 +81,8 @@ impl Experience {
         }
     }
 
-    /// Adds all of another experience of the same world.
+    /// Adds all of another experience of the same world: that of another learner, say, whatever its
+    /// task was.
     ///
     /// # Errors
     /// If the worlds differ in size.

@@ -1,9 +1,16 @@
 //! Numbers for slices: equal ones get the same number.
+//!
+//! Transition tables, matrices of probabilities and joint states are hash-consed by it. The numbers
+//! are handed out in the order in which slices come first, so the same input gives the same numbers,
+//! which a hash map with a random state would not promise.
 
 use alloc::vec::Vec;
 
-/// Slices, numbered in the order in which they came first. A hash table with linear probing, for
-/// `alloc` has none.
+/// Slices, numbered in the order in which they came first.
+///
+/// A hash table with linear probing, for `alloc` has none; at most half full, so a look-up tries two
+/// slots in the mean. The hash is that of Firefox (rotate, xor, multiply), which needs no key: what
+/// is hashed is the user's own world.
 pub(crate) struct Interner<T> {
     items: Vec<Vec<T>>,
     /// The number of an item, near the place that its hash says; a power of two of them, of which

@@ -1,4 +1,8 @@
 //! The error of bringing together what belongs to different tasks or worlds.
+//!
+//! Tables are indexed by automaton states, world states and actions. A table of another task may have
+//! the same sizes, and then reading it gives nonsense without a panic; so whatever takes two things
+//! compares their tasks first, and says which two did not fit.
 
 use alloc::string::String;
 use core::fmt;

@@ -1,10 +1,16 @@
-//! Finite models: a world whose transition probabilities are known, compiled into tables.
+//! Finite models: worlds whose transition probabilities are known, compiled into tables.
 //!
-//! A user describes a world by [`FiniteModel`] (about 20 lines for a grid). [`Dynamics`] is the
-//! form in which solvers and [`ModelEnv`](crate::env::ModelEnv) read it: each state has one list
-//! of successors that its actions share, and the matrix of their probabilities is hash-consed, for
-//! in most worlds few are different (a grid with slip has 9: inside, edges, corners). So a state
-//! costs about 30 bytes, and a backup reads each successor's value once for all actions.
+//! A user describes a world by [`FiniteModel`] (about 20 lines for a grid), or by a function
+//! ([`from_fn`]). [`Dynamics`] is the form in which solvers and [`ModelEnv`](crate::env::ModelEnv)
+//! read it.
+//!
+//! Why tables of this form: each state has one list of successors that its actions share, and the
+//! matrix of their probabilities is hash-consed, for in most worlds few matrices differ (a grid with
+//! slip has 9: inside, edges, corners). So a state costs about 30 bytes, and a backup reads each
+//! successor's value once for all actions.
+//!
+//! A model never pays rewards: they come from the task. A state in which the world ends is an
+//! absorbing one, whose actions all stay there.
 
 use alloc::string::{String, ToString};
 use alloc::sync::Arc;
@@ -15,6 +21,37 @@ use crate::interner::Interner;
 
 /// A finite Markov decision process with known probabilities p(s' | s, a); its rewards come from
 /// the task.
+///
+/// ```
+/// use tltl::prelude::*;
+///
+/// /// A light with a switch that fails one time in ten.
+/// struct Light;
+///
+/// impl FiniteModel for Light {
+///     type State = bool;
+///     fn states(&self) -> usize {
+///         2
+///     }
+///     fn actions(&self) -> usize {
+///         2
+///     }
+///     fn state(&self, s: usize) -> bool {
+///         s == 1
+///     }
+///     fn transitions(&self, s: usize, a: usize, mut outcome: impl FnMut(usize, f64)) {
+///         outcome(a, 0.9);
+///         outcome(s, 0.1);
+///     }
+///     fn action_name(&self, a: usize) -> String {
+///         ["off", "on"][a].into()
+///     }
+/// }
+///
+/// let dynamics = Dynamics::new(&Light)?;
+/// assert!(dynamics.outcomes(0, 1).eq([(0, 0.1), (1, 0.9)]));
+/// # Ok::<(), tltl::model::ModelError>(())
+/// ```
 pub trait FiniteModel {
     /// What predicates read.
     type State;
@@ -72,7 +109,78 @@ impl<M: FiniteModel> FiniteModel for &M {
     }
 }
 
-/// A [`FiniteModel`] that is not one.
+/// A model whose states are their own numbers: `outcomes(s, a)` are the pairs (s', p) of action `a` in
+/// state `s`. Episodes start in every state with the same probability.
+///
+/// ```
+/// use tltl::model;
+/// use tltl::prelude::*;
+///
+/// // Five cells in a row: action 0 goes left, action 1 right.
+/// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+/// assert!(Dynamics::new(&row)?.outcomes(4, 0).eq([(3, 1.0)]));
+/// # Ok::<(), tltl::model::ModelError>(())
+/// ```
+pub const fn from_fn<F, I>(states: usize, actions: usize, outcomes: F) -> FromFn<F>
+where
+    F: Fn(usize, usize) -> I,
+    I: IntoIterator<Item = (usize, f64)>,
+{
+    FromFn { states, actions, outcomes }
+}
+
+/// A model that a function describes; see [`from_fn`].
+#[derive(Clone, Copy)]
+pub struct FromFn<F> {
+    states: usize,
+    actions: usize,
+    outcomes: F,
+}
+
+impl<F> fmt::Debug for FromFn<F> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("FromFn")
+            .field("states", &self.states)
+            .field("actions", &self.actions)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<F, I> FiniteModel for FromFn<F>
+where
+    F: Fn(usize, usize) -> I,
+    I: IntoIterator<Item = (usize, f64)>,
+{
+    type State = usize;
+
+    fn states(&self) -> usize {
+        self.states
+    }
+
+    fn actions(&self) -> usize {
+        self.actions
+    }
+
+    fn state(&self, s: usize) -> usize {
+        s
+    }
+
+    fn transitions(&self, s: usize, a: usize, mut outcome: impl FnMut(usize, f64)) {
+        (self.outcomes)(s, a).into_iter().for_each(|(to, p)| outcome(to, p));
+    }
+}
+
+/// Why a [`FiniteModel`] is not one.
+///
+/// ```
+/// use tltl::model::{self, ModelError};
+/// use tltl::prelude::*;
+///
+/// let leaky = model::from_fn(2, 1, |_, _| [(0, 0.5), (1, 0.25)]);
+/// let error = Dynamics::new(&leaky).unwrap_err();
+/// assert_eq!(error, ModelError::Outcomes { state: 0, action: 0, sum: 0.75 });
+/// assert!(error.to_string().starts_with("action 0 in state 0: the outcomes are not a distribution"));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum ModelError {
     /// There are no states, no actions, or more than `u32::MAX` states.
@@ -117,25 +225,45 @@ impl core::error::Error for ModelError {}
 ///
 /// Invariants: successors are sorted and distinct within a state; every row of probabilities sums
 /// to one. Cheap to clone: clones share the tables.
+///
+/// ```
+/// use tltl::model;
+/// use tltl::prelude::*;
+///
+/// // Two cells; action 0 waits, action 1 changes sides, three times out of four.
+/// let cells = model::from_fn(2, 2, |s, a| match a {
+///     0 => vec![(s, 1.0)],
+///     _ => vec![(s, 0.25), (1 - s, 0.75)],
+/// });
+/// let dynamics = Dynamics::new(&cells)?;
+/// assert_eq!((dynamics.states(), dynamics.actions()), (2, 2));
+/// assert!(dynamics.outcomes(1, 0).eq([(1, 1.0)]));
+/// assert!(dynamics.outcomes(1, 1).eq([(0, 0.75), (1, 0.25)]));
+/// assert_eq!(dynamics.starts(), [0.5, 0.5]);
+/// # Ok::<(), tltl::model::ModelError>(())
+/// ```
 #[derive(Clone)]
 pub struct Dynamics(Arc<Kernel>);
 
-/// The tables of a [`Dynamics`].
+/// The tables of a [`Dynamics`]: the transition kernel.
 #[derive(Default)]
 struct Kernel {
     actions: usize,
+    /// Where the successors of each state begin in `successors`, and where the last ones end.
     first: Vec<u32>,
     successors: Vec<u32>,
+    /// Where the matrix of each state begins in `probabilities`; states share matrices.
     matrix: Vec<u32>,
+    /// The distinct matrices, each with a row of as many numbers as successors for each action.
     probabilities: Vec<f64>,
     starts: Vec<f64>,
 }
 
 impl Dynamics {
-    /// The tables of `model`.
+    /// The tables of `model`. All its states are asked for all their actions once.
     ///
     /// # Errors
-    /// If its outcomes or starts are not distributions.
+    /// If its outcomes or starts are not distributions, or it has no states or actions.
     pub fn new<M: FiniteModel>(model: &M) -> Result<Self, ModelError> {
         let (states, actions) = (model.states(), model.actions());
         if states == 0 || actions == 0 || u32::try_from(states).is_err() {
@@ -233,7 +361,7 @@ impl fmt::Debug for Dynamics {
     }
 }
 
-/// `weights`, scaled to sum to one.
+/// `weights`, scaled to sum to one: a user gives weights, and solvers need probabilities.
 fn distribution(mut weights: Vec<f64>) -> Result<Vec<f64>, ModelError> {
     let sum: f64 = weights.iter().sum();
     if !(sum > 0.0 && sum.is_finite() && weights.iter().all(|&w| w >= 0.0)) {
@@ -246,7 +374,8 @@ fn distribution(mut weights: Vec<f64>) -> Result<Vec<f64>, ModelError> {
 /// Collects the tables state by state.
 struct Builder {
     tables: Kernel,
-    /// The distinct matrices, as bits.
+    /// The distinct matrices, as bits: equal numbers of a model are computed alike, so no tolerance is
+    /// needed.
     matrices: Interner<u64>,
     /// Where each of them starts.
     offsets: Vec<u32>,

@@ -115,7 +115,7 @@ pub struct Policy {
     record: Notes,
 }
 
-/// What a policy says of itself beside its actions.
+/// What a policy says of itself beside its actions. Nothing of it changes what the policy does.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Notes {
     components: Vec<Vec<u32>>,
@@ -210,6 +210,19 @@ impl Policy {
     /// The policy of these `actions`: for each automaton state in turn, the action in each state of
     /// the world.
     ///
+    #[cfg_attr(feature = "macros", doc = "```")]
+    #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+    /// use tltl::prelude::*;
+    ///
+    /// // Two automaton states, three world states.
+    /// let task = Labelled::new(0..3, ["stay", "go"], &tltl! { |x: &i32| F ({ *x } == 2) })?;
+    /// let policy = Policy::new(&task, [1, 1, 0, 0, 0, 0])?;
+    /// assert_eq!((policy.act(0, 1), policy.act(1, 1)), (1, 0));
+    /// let error = Policy::new(&task, [1, 1, 2, 0, 0, 0]).unwrap_err();
+    /// assert_eq!(error.to_string(), "`action`, entry 2: 2 is not less than 2");
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
     /// # Errors
     /// If there is not one action for each (q, s), or one that the world does not have.
     pub fn new(
@@ -232,7 +245,7 @@ impl Policy {
         }
     }
 
-    /// The policy that takes the action `act(q, s)`.
+    /// The policy that takes the action `act(q, s)`: a rule, or another policy with exceptions.
     ///
     /// # Errors
     /// If that is not an action of the world for some (q, s).
@@ -251,13 +264,31 @@ impl Policy {
     }
 
     /// The same policy, saying how it was learned; called once for each skill of a composition.
+    /// [`Learner::policy`](crate::learn::Learner::policy) says it already.
     #[must_use]
     pub fn trained(mut self, training: Training) -> Self {
         self.record.training.push(training);
         self
     }
 
-    /// The same policy, saying what it is worth.
+    /// The same policy, saying what it is worth: so that whoever loads it need not solve the world
+    /// again.
+    ///
+    #[cfg_attr(feature = "macros", doc = "```")]
+    #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+    /// use tltl::model;
+    /// use tltl::prelude::*;
+    ///
+    /// // Five cells in a row: action 0 goes left, action 1 right. Reach the right end.
+    /// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+    /// let task = Labelled::of_model(&row, &tltl! { |s: &usize| F ({ *s } == 4) })?;
+    /// let problem = Problem::new(&Dynamics::new(&row)?, &task)?;
+    /// let optimum = problem.optimum(&Rewards::default());
+    /// let policy = optimum.q().policy();
+    /// let policy = policy.clone().certified(optimum.certify(&policy)?);
+    /// assert!(policy.certificate().is_some_and(|worth| worth.regret_steps == Some(0.0)));
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn certified(mut self, certificate: Certificate) -> Self {
         self.record.certificate = Some(certificate);
@@ -280,7 +311,7 @@ impl Policy {
         self
     }
 
-    /// The same policy, saying what it was seen to be worth.
+    /// The same policy, saying what it was seen to be worth, in a world without a model.
     #[cfg(feature = "std")]
     #[must_use]
     pub fn estimated(mut self, estimate: crate::estimate::Estimate) -> Self {
@@ -289,7 +320,20 @@ impl Policy {
     }
 
     /// The same policy, saying which states of the operands of `product` its own automaton states
-    /// are.
+    /// are: a reader of the file then knows which skill is done.
+    ///
+    #[cfg_attr(feature = "macros", doc = "```")]
+    #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+    /// use tltl::prelude::*;
+    ///
+    /// let (left, right) = (tltl! { |x: &i32| F ({ *x } == 0) }, tltl! { |x: &i32| F ({ *x } == 4) });
+    /// let both = Product::conjunction(&[&left, &right]);
+    /// let task = Labelled::new(0..5, ["left", "right"], &both)?;
+    /// let policy = Policy::from_fn(&task, |q, _| both.components(q)[0] as usize)?; // left end first
+    /// let document = policy.composed(&both)?.document();
+    /// assert_eq!(document.components.len(), 4);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
     ///
     /// # Errors
     /// If the product has another number of states.
@@ -310,7 +354,7 @@ impl Policy {
         &self.task
     }
 
-    /// All that the policy says, as it is saved.
+    /// All that the policy says, as it is saved: the fields of the schema above.
     #[must_use]
     pub fn document(&self) -> Document {
         self.clone().into()
@@ -347,7 +391,8 @@ impl Policy {
         self.record.estimate.as_ref()
     }
 
-    /// The automaton state after reading the first state of an episode.
+    /// The automaton state after reading the first state of an episode. The episode may be over by
+    /// then; see [`Self::end`].
     ///
     /// # Panics
     /// If `s` is not a state of the world.

@@ -1,4 +1,8 @@
 //! Dense tables of action values Q(s, q, a), and the policies that are greedy in them.
+//!
+//! Learners fill a [`QTable`] from experience, the solver from a model, and compositions from the
+//! tables of skills. The index is (q, s, a), with a last, because a backup reads all actions of a
+//! pair at once.
 
 use alloc::vec::Vec;
 
@@ -36,7 +40,17 @@ impl QTable {
     }
 
     /// A table of `value` in all live automaton states: an optimistic start is one that no true
-    /// value exceeds.
+    /// value exceeds, and makes a greedy learner try everything.
+    ///
+    #[cfg_attr(feature = "macros", doc = "```")]
+    #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+    /// use tltl::prelude::*;
+    ///
+    /// let task = Labelled::new(0..5, ["left", "right"], &tltl! { |x: &i32| F ({ *x } == 4) })?;
+    /// let table = QTable::filled(&task, 1.0);
+    /// assert_eq!((table.max(0, 2), table.max(1, 2)), (1.0, 0.0)); // q = 1 accepts
+    /// # Ok::<(), tltl::augmented::LabelError>(())
+    /// ```
     #[must_use]
     pub fn filled(task: &Labelled, value: f64) -> Self {
         let mut table = Self::zeros(task);
@@ -47,7 +61,20 @@ impl QTable {
         table
     }
 
-    /// The table of these `values`, indexed `((q * states) + s) * actions + a`.
+    /// The table of these `values`, indexed `((q * states) + s) * actions + a`: what
+    /// [`Self::values`] gave, or what another program computed.
+    ///
+    #[cfg_attr(feature = "macros", doc = "```")]
+    #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+    /// use tltl::prelude::*;
+    ///
+    /// let task = Labelled::new(0..5, ["left", "right"], &tltl! { |x: &i32| F ({ *x } == 4) })?;
+    /// let table = QTable::from_values(&task, vec![0.5; 2 * 5 * 2])?;
+    /// assert_eq!(table.row(0, 3), [0.5, 0.5]);
+    /// let error = QTable::from_values(&task, vec![0.5; 7]).unwrap_err();
+    /// assert!(error.to_string().starts_with("a table of 7 values does not fit"));
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
     ///
     /// # Errors
     /// If there is not one value for each q, s and a.
@@ -108,7 +135,7 @@ impl QTable {
         largest(self.row(q, s))
     }
 
-    /// The action of the largest value.
+    /// The action of the largest value; of equal ones that with the lowest number.
     ///
     /// # Panics
     /// If there is no such automaton state or state.
@@ -118,7 +145,7 @@ impl QTable {
         argmax(self.row(q, s))
     }
 
-    /// The greedy policy.
+    /// The greedy policy: in each (q, s) the action of the largest value.
     #[must_use]
     pub fn policy(&self) -> Policy {
         let rows = self.values.chunks(self.task.actions());
@@ -156,7 +183,7 @@ fn largest_of(values: &[f64]) -> f64 {
     values.iter().fold(f64::NEG_INFINITY, |best, &v| if v > best { v } else { best })
 }
 
-/// The index of the largest value, the lowest of equals.
+/// The index of the largest value, the lowest of equals: ties break the same way everywhere.
 #[inline]
 pub(crate) fn argmax<T: PartialOrd>(values: &[T]) -> usize {
     let mut best = 0;

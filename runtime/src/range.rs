@@ -1,4 +1,7 @@
 //! Ranges of settings, checked where a setting is made, so that a value of a settings type is valid.
+//!
+//! [`OutOfRange`] is the one error of all settings: those of rewards, learners, schedules and
+//! estimates. Nothing that takes settings checks them again, and none of it panics on one.
 
 use core::fmt;
 
@@ -19,13 +22,13 @@ pub struct OutOfRange {
 }
 
 impl OutOfRange {
-    /// The name of the setting.
+    /// The name of the setting, as its methods and saved documents have it.
     #[must_use]
     pub const fn field(&self) -> &'static str {
         self.field
     }
 
-    /// The value that was refused.
+    /// The value that was refused; of a schedule, the first of its numbers that is out of range.
     #[must_use]
     pub const fn value(&self) -> f64 {
         self.value

@@ -2,7 +2,8 @@
 //!
 //! [`Rewards`] say what a step is worth and how the future is discounted. What a step pays is a pure
 //! function of one move of the automaton, [`Rewards::pay`]: learners, solvers and other languages
-//! all ask it, so no reward is computed anywhere else.
+//! all ask it, so no reward is computed anywhere else. γ is one of the rewards, for it decides what
+//! is optimal as much as the payments do, and [`Mode::Shaped`] needs it.
 //!
 //! What is optimal for a reward need not be what the task wants. [`Mode::Progress`], the paper's
 //! reward, pays for every edge, and so prefers longer ways, or a risk. On `!c U a` of the paper's
@@ -18,6 +19,18 @@ use crate::monitor::Acceptor;
 use crate::range::checked;
 
 /// What a move of the automaton pays.
+///
+/// ```
+/// use tltl::reward::{Arrival, End, Ends, Mode, Rewards};
+///
+/// // `!c U a`: from state 0, the move to 1 accepts and the move to 2 is lost.
+/// let of = vec![None, Some(End::Accepted), Some(End::Lost)];
+/// let ends = Ends::new(of, vec![Some(1), Some(0), None]);
+/// let pays = |mode, to| Rewards::of(mode).pay(&ends, &Arrival::at(0, to));
+/// assert_eq!((pays(Mode::Progress, 1), pays(Mode::Progress, 2)), (1.0, 0.0));
+/// assert_eq!((pays(Mode::Literal, 1), pays(Mode::Literal, 2)), (1.0, 1.0)); // paid for losing
+/// assert_eq!((pays(Mode::Shaped, 1), pays(Mode::Shaped, 2)), (0.5, -0.5));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mode {
     /// 1 if the move leaves q, neither by a self-loop nor into the trap (the intent of the paper's
@@ -77,7 +90,8 @@ impl Rewards {
         Self { gamma, ..self }
     }
 
-    /// `mode` alone: γ 0.95, bound 1, no penalties, nothing from the environment.
+    /// `mode` alone: γ 0.95, bound 1, no penalties, nothing from the environment. (0.95 is the
+    /// paper's γ.)
     #[must_use]
     pub const fn of(mode: Mode) -> Self {
         let (trap_penalty, step_penalty, environment) = (0.0, 0.0, 0.0);
@@ -147,7 +161,8 @@ impl Rewards {
         }
     }
 
-    /// What the task pays for the move, the environment's own reward left aside.
+    /// What the task pays for the move, the environment's own reward left aside. Penalties come last,
+    /// so that they are the same under every mode.
     #[track_caller]
     pub(crate) fn pay_for_move(&self, ends: &Ends, arrival: &Arrival) -> f64 {
         let Arrival { q, to, robustness, terminated, .. } = *arrival;
@@ -167,7 +182,7 @@ impl Rewards {
         paid - self.step_penalty - if lost { self.trap_penalty } else { 0.0 }
     }
 
-    /// Whether the reward needs ρ(s', D_φ^q).
+    /// Whether the reward needs ρ(s', D_φ^q): only [`Mode::Robustness`] does.
     #[must_use]
     pub const fn needs_robustness(&self) -> bool {
         matches!(self.mode, Mode::Robustness)
@@ -188,7 +203,7 @@ checked! { Rewards {
     environment, with_environment: f64, "a finite number", |weight| weight.is_finite();
 }}
 
-/// How an episode ended for the task.
+/// How an episode ended for the task. Both ends are for ever: the automaton stays where it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum End {
     /// The task is satisfied.
@@ -199,6 +214,17 @@ pub enum End {
 
 /// Where the task ends, and how far each automaton state is from acceptance: all that rewards need
 /// to know of a task.
+///
+#[cfg_attr(feature = "macros", doc = "```")]
+#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// use tltl::reward::{End, Ends};
+/// use tltl::tltl;
+///
+/// let ends = Ends::of(&tltl! { |s: &(bool, bool)| !s.0 U s.1 });
+/// assert_eq!((ends.accepting(), ends.trap()), (Some(1), Some(2)));
+/// assert_eq!(ends.end(2), Some(End::Lost));
+/// assert!(ends.live().eq([0]));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Ends {
     of: Vec<Option<End>>,
@@ -220,7 +246,7 @@ impl Ends {
         Self { of, distance, farthest }
     }
 
-    /// Those of a task.
+    /// Those of a task. All its states are asked once, so make them once for many moves.
     #[must_use]
     pub fn of(task: &(impl Acceptor + ?Sized)) -> Self {
         let end = |q| match (task.is_accepting(q), task.is_trap(q)) {
@@ -272,7 +298,8 @@ impl Ends {
         (0..of.len() as u32).filter(move |&q| of[q as usize].is_none())
     }
 
-    /// The potential Φ of [`Mode::Shaped`].
+    /// The potential Φ of [`Mode::Shaped`]. Divided by one more than the largest distance, so that
+    /// even the farthest live state has some, and the move into a state without a way loses it.
     #[track_caller]
     fn potential(&self, q: u32) -> f64 {
         match (self.end(q), self.distance[q as usize]) {
@@ -298,7 +325,8 @@ pub struct Arrival {
 }
 
 impl Arrival {
-    /// A move from `q` to `to` with nothing beside it.
+    /// A move from `q` to `to` with nothing beside it: no robustness, no reward of the environment,
+    /// and the episode goes on.
     #[must_use]
     pub const fn at(q: u32, to: u32) -> Self {
         Self { q, to, robustness: 0.0, reward: 0.0, terminated: false }

@@ -11,6 +11,9 @@ use crate::range::{OutOfRange, checked};
 use crate::reward::Rewards;
 
 /// Which automaton states one step of the environment updates.
+///
+/// Updating all costs as many updates a step as there are live automaton states, and learns from each
+/// step what every automaton state would have learned; `docs/studies/curves.md` has the difference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Updates {
     /// The one in which the step was taken.

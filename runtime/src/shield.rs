@@ -27,22 +27,15 @@ use crate::solve::{Actions, Optimum, Problem};
 ///
 #[cfg_attr(feature = "macros", doc = "```")]
 #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// use tltl::model;
 /// use tltl::prelude::*;
 /// use tltl::shield::Shield;
-/// # struct Row;
-/// # impl FiniteModel for Row {
-/// #     type State = i32;
-/// #     fn states(&self) -> usize { 5 }
-/// #     fn actions(&self) -> usize { 2 }
-/// #     fn state(&self, s: usize) -> i32 { s as i32 }
-/// #     fn transitions(&self, s: usize, a: usize, mut outcome: impl FnMut(usize, f64)) {
-/// #         outcome([s.saturating_sub(1), (s + 1).min(4)][a], 1.0);
-/// #     }
-/// # }
 ///
-/// // `Row` is five cells in a row; the last one, and never the first before.
-/// let task = Labelled::of_model(&Row, &tltl! { |x: &i32| ({ *x } != 0) U ({ *x } == 4) })?;
-/// let problem = Problem::new(&Dynamics::new(&Row)?, &task)?;
+/// // Five cells in a row: action 0 goes left, action 1 right. Reach the right end, and keep off the
+/// // left one until then.
+/// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+/// let task = Labelled::of_model(&row, &tltl! { |s: &usize| ({ *s } != 0) U ({ *s } == 4) })?;
+/// let problem = Problem::new(&Dynamics::new(&row)?, &task)?;
 /// let shield = Shield::of_model(&problem);
 /// assert!(!shield.allows(0, 1, 0) && shield.allows(0, 1, 1));
 /// # Ok::<(), Box<dyn core::error::Error>>(())

@@ -1,4 +1,10 @@
 //! Factored tasks as tables, without multiplying out their automata.
+//!
+//! The product of n parts has as many states as the product of their sizes, but a world reaches only
+//! some of them. This search starts from the initial states of all parts, reads every combination of
+//! classes that some world state shows (a *letter*), and numbers the joint states as it finds them.
+//! Cost: joint states × letters. All joint states that accept are one state, all that are lost
+//! another, as in a product.
 
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -60,7 +66,7 @@ impl Labelled {
     }
 }
 
-/// The class of each state of the world, and what each part's class is in it.
+/// The class of each state of the world, and its letter: the class that each part has there.
 fn letters(parts: &[Labelled]) -> (Vec<u32>, Interner<u32>) {
     let mut letters = Interner::new();
     let states = parts.first().map_or(0, Labelled::states);
@@ -72,7 +78,8 @@ fn letters(parts: &[Labelled]) -> (Vec<u32>, Interner<u32>) {
     (class, letters)
 }
 
-/// The joint states found so far.
+/// The joint states found so far: a breadth-first search without a queue, for numbers are handed out
+/// in the order in which rows are made.
 struct JointStates<'a> {
     parts: &'a [Labelled],
     /// The parts' states.

@@ -1,4 +1,12 @@
 //! Tasks over finite worlds as tables.
+//!
+//! [`Labelled`] turns a [`Monitor`] and the states of a world into two small tables: a class for each
+//! world state, and a next automaton state for each automaton state and class. World states that no
+//! automaton state tells apart share a class, as bytes do in a lexer, so the second table stays small
+//! however large the world is: on a grid of a million cells, `F a && F b` has at most 4 classes.
+//!
+//! Predicates are evaluated here once for each world state and automaton state, and never again:
+//! learners and solvers read tables only.
 
 use alloc::string::{String, ToString};
 use alloc::sync::Arc;
@@ -17,8 +25,12 @@ use crate::task::Error;
 /// state goes on each class. It also knows what the task and the actions are called.
 ///
 /// World states are `0..states()`, actions `0..actions()`, automaton states `0..automaton_states()`.
-/// Classes are numbered in the order of the states that show them first. Cheap to clone: clones
-/// share the tables.
+/// Classes are numbered in the order of the states that show them first, so the same task on the
+/// same world always gives the same tables. Cheap to clone: clones share the tables.
+///
+/// A table is what identifies a task on a world. [`Policy`](crate::policy::Policy),
+/// [`QTable`](crate::q::QTable), [`Problem`](crate::solve::Problem) and
+/// [`Learner`](crate::learn::Learner) each hold one, and refuse what belongs to another.
 ///
 #[cfg_attr(feature = "macros", doc = "```")]
 #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
@@ -53,6 +65,15 @@ pub(crate) struct LabelTable {
 }
 
 /// Why there is no table of a task over a world.
+///
+#[cfg_attr(feature = "macros", doc = "```")]
+#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// use tltl::prelude::*;
+///
+/// let fast = |speed: &f64| speed - 1.0;
+/// let error = Labelled::new([0.5, f64::NAN, 2.0], ["go"], &tltl! { F fast }).unwrap_err();
+/// assert_eq!(error.to_string(), "predicate `fast` is not a number (NaN) at instant 1");
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum LabelError {
     /// A predicate is not a number at a state of the world, whose number `instant` is.
@@ -116,7 +137,18 @@ impl Labelled {
         columns.into_labelled(name, actions, ends)
     }
 
-    /// The table of `monitor` over the states of `model`.
+    /// The table of `monitor` over the states of `model`, with the names of its actions.
+    ///
+    #[cfg_attr(feature = "macros", doc = "```")]
+    #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+    /// use tltl::model;
+    /// use tltl::prelude::*;
+    ///
+    /// let ring = model::from_fn(6, 1, |s, _| [((s + 1) % 6, 1.0)]);
+    /// let task = Labelled::of_model(&ring, &tltl! { |s: &usize| F ({ *s } == 3) })?;
+    /// assert_eq!((task.states(), task.action_names()), (6, &["0".to_string()][..]));
+    /// # Ok::<(), tltl::augmented::LabelError>(())
+    /// ```
     ///
     /// # Errors
     /// As [`Self::new`].
@@ -128,7 +160,7 @@ impl Labelled {
         Self::new((0..model.states()).map(|s| model.state(s)), actions, monitor)
     }
 
-    /// The table of `monitor` over the states of `env`.
+    /// The table of `monitor` over the states of `env`, with the names of its actions.
     ///
     /// # Errors
     /// As [`Self::new`].
@@ -149,6 +181,21 @@ impl Labelled {
 
     /// The same table with ρ(s, D_φ^q) for all q and s, which
     /// [`Mode::Robustness`](crate::reward::Mode::Robustness) needs: 8 bytes for each pair.
+    ///
+    #[cfg_attr(feature = "macros", doc = "```")]
+    #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+    /// use tltl::model;
+    /// use tltl::prelude::*;
+    /// use tltl::reward::Mode;
+    ///
+    /// // Five places on a line; the robustness of being beyond 3 grows with the place.
+    /// let line = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+    /// let far = tltl! { |s: &usize| F ({ *s } > 3) };
+    /// let task = Labelled::of_model(&line, &far)?.with_robustness(0..5, &far)?;
+    /// let problem = Problem::new(&Dynamics::new(&line)?, &task)?;
+    /// assert_eq!(problem.optimal_q(&Rewards::of(Mode::Robustness)).greedy(0, 2), 1);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
     ///
     /// # Errors
     /// If a predicate is not a number at one of the states.
@@ -176,7 +223,18 @@ impl Labelled {
         Ok(self)
     }
 
-    /// The same table under another name and formula, as documents and errors show them.
+    /// The same table under another name and formula, as documents and errors show them: a product
+    /// has the names of its operands until it is given one of its own.
+    ///
+    #[cfg_attr(feature = "macros", doc = "```")]
+    #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+    /// use tltl::prelude::*;
+    ///
+    /// let task = Labelled::new(0..3, ["go"], &tltl! { |s: &i32| F ({ *s } == 2) })?;
+    /// let task = task.named("arrive", "F end");
+    /// assert_eq!((task.name(), task.formula()), ("arrive", "F end"));
+    /// # Ok::<(), tltl::augmented::LabelError>(())
+    /// ```
     #[must_use]
     pub fn named(mut self, name: &str, formula: &str) -> Self {
         let tables = Arc::make_mut(&mut self.0);
@@ -222,7 +280,7 @@ impl Labelled {
         self.0.ends.states()
     }
 
-    /// δ(q, s): the automaton state after `q` has read `s`.
+    /// δ(q, s): the automaton state after `q` has read `s`. Two look-ups, no predicate.
     ///
     /// # Panics
     /// If there is no such automaton state or state.
@@ -232,7 +290,8 @@ impl Labelled {
         self.0.next(q, s)
     }
 
-    /// The automaton state in which an episode starts that starts in `s`.
+    /// The automaton state in which an episode starts that starts in `s`: the automaton has read `s`
+    /// by then, and so an episode may be over at once.
     ///
     /// # Panics
     /// If there is no such state.
@@ -260,7 +319,7 @@ impl Labelled {
         self.0.ends.live()
     }
 
-    /// The number of pairs (q, s).
+    /// The number of pairs (q, s), the states of the augmented MDP.
     #[inline]
     #[must_use]
     pub fn pairs(&self) -> usize {
@@ -335,6 +394,7 @@ impl Labelled {
     }
 
     /// 64-bit FNV-1a over all that [`Self::check`] compares: the same for tables of the same moves.
+    /// A checkpoint keeps it in place of the tables.
     pub(crate) fn checksum(&self) -> u64 {
         let LabelTable { initial, ends, .. } = self.tables();
         let end = |end: Option<u32>| end.map_or(u32::MAX, |q| q);
@@ -346,7 +406,9 @@ impl Labelled {
         crate::checksum::fnv(words.flat_map(u32::to_le_bytes))
     }
 
-    /// `Ok` if `found`, to which `what` belongs, is this task on this world.
+    /// `Ok` if `found`, to which `what` belongs, is this task on this world: if the automaton moves
+    /// and ends alike on every world state. Names do not matter, for the same task may be written in
+    /// several ways. Clones are known by their address; others cost one pass over the pairs.
     pub(crate) fn check(&self, what: &'static str, found: &Self) -> Result<(), Mismatch> {
         if Arc::ptr_eq(&self.0, &found.0) {
             return Ok(());
@@ -374,7 +436,8 @@ impl Labelled {
         Err(Mismatch::new(what, mismatch::world(states, actions), self.describe()))
     }
 
-    /// In what the moves differ from those of another table, if they do.
+    /// In what the moves differ from those of another table, if they do. Classes may be numbered
+    /// differently in tables from a file, so what counts is where each state leads.
     fn difference(&self, other: &Self) -> Option<String> {
         let (own, others) = (self.tables(), other.tables());
         let sizes = |t: &LabelTable| (t.class.len(), t.actions.len(), t.ends.states());
@@ -424,7 +487,8 @@ impl LabelTable {
     }
 }
 
-/// Equal are tables of the same names and moves; distances and robustness are not compared.
+/// Equal are tables of the same names and moves. Distances and robustness are not compared: a table
+/// from a file has other distances, those that the world allows.
 impl PartialEq for Labelled {
     fn eq(&self, other: &Self) -> bool {
         let names = |l: &Self| (l.name().to_string(), l.formula().to_string());
@@ -450,10 +514,12 @@ fn at(s: usize, error: Error) -> LabelError {
     LabelError::NotANumber(Error { instant: Some(s), ..error })
 }
 
-/// What every move of a [`Labelled`] task pays.
+/// What every move of a [`Labelled`] task pays: a number for each q and class, or, where the reward
+/// depends on more than the class of s', for each q and world state.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Payment {
     table: Vec<f64>,
+    /// The length of a row: the number of classes, or of world states.
     width: usize,
     by_state: bool,
 }
@@ -466,7 +532,8 @@ impl Payment {
     }
 }
 
-/// ClassBuilder of the transition table, hash-consed.
+/// Collects the columns of the transition table, one for each world state, and numbers them: equal
+/// columns are one class.
 struct ClassBuilder {
     class: Vec<u32>,
     seen: Interner<u32>,

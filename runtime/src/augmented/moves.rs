@@ -1,4 +1,8 @@
-//! What reading a state does at any automaton state, for worlds whose states have no numbers.
+//! What a step does at any automaton state, for worlds whose states have no numbers.
+//!
+//! [`Augmented`](super::Augmented) and the deep learner read states by the task's own predicates;
+//! finite worlds read [tables](super::Labelled). Both pay by
+//! [`Rewards::pay`](crate::reward::Rewards::pay), so they pay alike.
 
 use crate::env::Step;
 use crate::episode::Move;
@@ -22,7 +26,8 @@ impl Moves {
         &self.ends
     }
 
-    /// What reading the state of `step` does at `q`, and what that pays.
+    /// What reading the state of `step` does at `q`, and what that pays. The robustness of progress
+    /// is evaluated only where the mode of reward asks for it: it costs as much as the move itself.
     pub(crate) fn read<S>(
         &self,
         monitor: &(impl Monitor<S> + ?Sized),
@@ -41,6 +46,9 @@ impl Moves {
     /// For each automaton state the most that can be had from there on, the environment's own
     /// rewards left aside: the optimum if every state of the world could be chosen at every step.
     /// 0 where the task has ended.
+    ///
+    /// Networks clamp their bootstrapped values to it: no true value is larger, and an error that
+    /// would raise one cannot feed on itself.
     #[cfg(feature = "deep")]
     pub(crate) fn most(&self, task: &(impl Acceptor + ?Sized)) -> alloc::vec::Vec<f64> {
         let mut most = alloc::vec![0.0; self.ends.states() as usize];
@@ -49,7 +57,7 @@ impl Moves {
             let arrival = Arrival { robustness, ..Arrival::at(q, to) };
             self.rewards.pay_for_move(&self.ends, &arrival)
         };
-        // Value iteration; the error falls by γ each time.
+        // Value iteration on the automaton alone; the error falls by γ each time.
         loop {
             let mut change: f64 = 0.0;
             for q in self.ends.live() {

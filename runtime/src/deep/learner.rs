@@ -27,34 +27,26 @@ use crate::task;
 ///
 /// ```
 /// use tltl::deep::{Device, Learner, Settings, Skill};
+/// use tltl::model;
 /// use tltl::network::Features;
 /// use tltl::prelude::*;
-/// # struct Row;
-/// # impl FiniteModel for Row {
-/// #     type State = i32;
-/// #     fn states(&self) -> usize { 5 }
-/// #     fn actions(&self) -> usize { 2 }
-/// #     fn state(&self, s: usize) -> i32 { s as i32 }
-/// #     fn transitions(&self, s: usize, a: usize, mut outcome: impl FnMut(usize, f64)) {
-/// #         outcome([s.saturating_sub(1), (s + 1).min(4)][a], 1.0);
-/// #     }
-/// # }
 ///
 /// /// What the network sees of a cell: where it is.
 /// struct Place;
 ///
-/// impl Features<i32> for Place {
+/// impl Features<usize> for Place {
 ///     fn inputs(&self) -> usize {
 ///         5
 ///     }
-///     fn write(&self, x: &i32, inputs: &mut [f32], _: &mut [f32]) {
-///         inputs[*x as usize] = 1.0;
+///     fn write(&self, s: &usize, inputs: &mut [f32], _: &mut [f32]) {
+///         inputs[*s] = 1.0;
 ///     }
 /// }
 ///
-/// // `Row` is five cells in a row; reach the last one.
-/// let mut env = ModelEnv::new(Row)?;
-/// let skill = Skill::new(tltl! { |x: &i32| F ({ *x } == 4) }, Place);
+/// // Five cells in a row: action 0 goes left, action 1 right. Reach the right end.
+/// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+/// let mut env = ModelEnv::new(row)?;
+/// let skill = Skill::new(tltl! { |s: &usize| F ({ *s } == 4) }, Place);
 /// let settings = Settings::default().with_hidden([16])?.with_batch(16)?.with_warmup(50)?;
 /// let mut learner = Learner::new(skill, &env, settings, &Device::flex(), 1);
 /// learner.train(&mut env, 1_000)?;

@@ -1,4 +1,7 @@
 //! What a saved learner holds.
+//!
+//! The fields and their order are those of earlier versions, whose files are read; the task and the
+//! seed came later, and stand at the end.
 
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -42,7 +45,7 @@ pub(super) struct SavedValues {
     pub(super) actions: usize,
 }
 
-/// Which task on which world a checkpoint is of.
+/// Which task on which world a checkpoint is of: a name to show, and a checksum to compare.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub(super) struct Identity {
@@ -65,7 +68,8 @@ impl Identity {
 }
 
 impl Checkpoint {
-    /// `Ok` if it is of `task`, whose updates are counted in so many `entries`.
+    /// `Ok` if it is of `task`, whose updates are counted in so many `entries`. It may come from a
+    /// file, so sizes and entries are compared too: what passes cannot panic later.
     pub(super) fn must_be_of(&self, task: &Labelled, entries: usize) -> Result<(), Mismatch> {
         let Self { q, visits, experience, .. } = self;
         let own = Identity::of(task);

@@ -1,4 +1,8 @@
 //! Exploring without entering traps that can be avoided.
+//!
+//! An action mask leaves a learner some actions in each (q, s); which of them it takes its settings
+//! say. With a model the mask is a [`Shield`], which looks at the long run. Without one it looks one
+//! step ahead in what was seen so far, by a test on counts.
 
 use alloc::vec::Vec;
 
@@ -37,7 +41,8 @@ pub enum Mask<'a> {
 }
 
 impl Mask<'_> {
-    /// Leaves in `allowed` the actions that are allowed in `s` at `q`; all, if there is no choice.
+    /// Leaves in `allowed` the actions that are allowed in `s` at `q`; all, if none would be: a mask
+    /// never stops an episode.
     fn allow(
         &self,
         (q, s): (u32, usize),
@@ -65,8 +70,9 @@ impl Mask<'_> {
     }
 }
 
-/// How often the action entered the trap as a fraction of its tries, and its variance; one
-/// try of each kind is assumed (Laplace's rule), so that one accident bars nothing.
+/// How often the action entered the trap as a fraction of its tries, and the variance of that
+/// fraction. One try of each kind is assumed beside (Laplace's rule of succession), so that one
+/// accident bars nothing and an action without tries is not thought safe.
 fn risk((q, s, a): (u32, usize, usize), task: &Labelled, seen: &Experience) -> (f64, f64) {
     let (tried, mut lost) = (seen.tried(s, a) as f64, 0.0);
     if tried > 0.0 {

@@ -1,7 +1,9 @@
 //! Tabular Q-learning on the FSA-augmented MDP.
 //!
-//! A [`Learner`] turns experience of a finite environment into action values. All learners run in
-//! the one loop of [`episode`].
+//! A [`Learner`] turns experience of a finite environment into action values; its [`Settings`] say
+//! how, and its [`Experience`] is what replay and composition need. A [`Mask`] keeps it from actions
+//! while it explores. [`TrajectoryLearner`] is the baseline that is paid at the end of episodes only.
+//! All learners run in the one loop of [`episode`]. Networks are trained in `deep`.
 //!
 //! [`Settings::paper`] is the paper's recipe. [`Settings::default`] learns better from the same
 //! steps: a world's step does not depend on q, so each one updates *every* live automaton state

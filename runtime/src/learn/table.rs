@@ -1,4 +1,10 @@
 //! Tables as worlds and agents: what [`Learner`](super::Learner) runs episodes with.
+//!
+//! This is the inner loop of learning, 12 to 40 ns a step, and what looks odd here is measured. Moves
+//! are laid out for every pair, so reading a state is one look-up and not two. The number of actions
+//! and the recipe are known when a loop is compiled ([`Fixed`], `PLAIN`), which makes it a fifth
+//! faster: rows are unrolled, and branches on settings go. Functions are forced inline, for calls
+//! would spill the random generator and the table's address at each step.
 
 use alloc::vec::Vec;
 use core::convert::Infallible;
@@ -13,6 +19,9 @@ use crate::q::{argmax, largest};
 use crate::reward::Rewards;
 
 /// A finite environment beside a task, states as numbers: reading one is a single look-up.
+///
+/// Where the environment terminates, what the task pays may be another amount
+/// ([`Mode::Shaped`](crate::reward::Mode::Shaped)); that is looked up apart, for it is rare.
 pub(super) struct IndexedWorld<'a, E> {
     env: &'a mut E,
     task: Labelled,
@@ -43,7 +52,8 @@ impl<'a, E> IndexedWorld<'a, E> {
         }
     }
 
-    /// What the task does on the last step of the environment.
+    /// What the task does on the last step of the environment. Cold, so that the loop does not make
+    /// room for it.
     #[cold]
     fn read_last(&self, q: u32, s: usize) -> Move {
         let reward = self.last.get(q, s, self.task.tables().class[s]);
@@ -105,6 +115,9 @@ impl Width for usize {
 
 /// A table and what learning it needs. The paper's recipe is `PLAIN`: each step updates the
 /// current automaton state alone, and nothing is remembered.
+///
+/// With counterfactual updates all automaton states share their visits, for each step updates them
+/// all: the step size of an entry then depends on (s, a) alone.
 pub(super) struct Tabular<'a, W, const PLAIN: bool> {
     pub(super) settings: Settings,
     pub(super) gamma: f64,
@@ -126,7 +139,8 @@ impl<W: Width, const PLAIN: bool> Tabular<'_, W, PLAIN> {
         &self.values[(q as usize * self.states + s) * width..][..width]
     }
 
-    /// Whether to explore: with probability ε.
+    /// Whether to explore: with probability ε. A constant ε of 1 draws no random number, so that the
+    /// paper's recipe costs none.
     #[inline(always)]
     pub(super) fn explores<R: Rng + ?Sized>(&self, steps: u64, rng: &mut R) -> bool {
         let epsilon = match self.settings.epsilon().fixed() {
@@ -169,7 +183,7 @@ impl<W: Width, const PLAIN: bool> Agent for Tabular<'_, W, PLAIN> {
 
     fn start(&mut self, &s: &usize) {
         if !PLAIN && self.settings.remembers() {
-            self.experience.start(s);
+            self.experience.push_start(s);
         }
     }
 

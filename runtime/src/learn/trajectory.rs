@@ -2,7 +2,8 @@
 //!
 //! What the paper improves upon: the reward comes at the end of an episode only, as the robustness
 //! of the whole trajectory (Li et al. 2016) or as 1 if it satisfies the task; and the learner
-//! observes the state of the world alone, or the automaton state too.
+//! observes the state of the world alone, or the automaton state too. `docs/studies/curves.md` shows
+//! what that costs: a learner that does not observe the automaton state has no memory of what is done.
 
 use alloc::vec::Vec;
 
@@ -46,21 +47,13 @@ pub enum Observation {
 #[cfg_attr(feature = "macros", doc = "```")]
 #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
 /// use tltl::learn::{Observation, TerminalReward, TrajectoryLearner};
+/// use tltl::model;
 /// use tltl::prelude::*;
-/// # struct Row;
-/// # impl FiniteModel for Row {
-/// #     type State = i32;
-/// #     fn states(&self) -> usize { 5 }
-/// #     fn actions(&self) -> usize { 2 }
-/// #     fn state(&self, s: usize) -> i32 { s as i32 }
-/// #     fn transitions(&self, s: usize, a: usize, mut outcome: impl FnMut(usize, f64)) {
-/// #         outcome([s.saturating_sub(1), (s + 1).min(4)][a], 1.0);
-/// #     }
-/// # }
 ///
-/// // `Row` is five cells in a row; reach the last one.
-/// let end = tltl! { |x: &i32| F ({ *x } == 4) };
-/// let mut env = ModelEnv::new(Row)?;
+/// // Five cells in a row: action 0 goes left, action 1 right. Reach the right end.
+/// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+/// let end = tltl! { |s: &usize| F ({ *s } == 4) };
+/// let mut env = ModelEnv::new(row)?;
 /// let task = Labelled::of_env(&env, &end)?;
 /// let paid = TerminalReward::Satisfaction;
 /// let mut learner =
@@ -183,7 +176,8 @@ impl Agent for TrajectoryLearner {
     }
 }
 
-/// A finite environment that pays for whole trajectories.
+/// A finite environment that pays for whole trajectories. It keeps them as the environment's own
+/// states, for robustness is computed from predicates.
 struct Whole<'a, E: FiniteEnv, M> {
     env: &'a mut E,
     monitor: &'a M,

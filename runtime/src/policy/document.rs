@@ -1,4 +1,9 @@
 //! What a policy's file says, and when it is a policy.
+//!
+//! [`Document`] has the fields of the file, unchecked; [`Policy`] is made of one by `try_from`, which
+//! checks every size and every entry, so that nothing in a file can make a policy panic later. The
+//! format and the version are looked at where they stand: a file of another format is refused for
+//! being that, not for a field that the other format does not have.
 
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -38,7 +43,8 @@ impl States {
     }
 }
 
-/// How a policy, or a skill that it was composed from, was learned.
+/// How a policy, or a skill that it was composed from, was learned: all that is needed to learn it
+/// again. [`Learner::training`](crate::learn::Learner::training) has it.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -57,6 +63,21 @@ pub struct Training {
 
 /// What a policy is worth from each state in which an episode can start, `s_0` read: columns of
 /// the same length.
+///
+/// ```
+/// use tltl::policy::Starts;
+/// use tltl::solve::Start;
+///
+/// let start = Start {
+///     state: 3,
+///     satisfied: 0.5,
+///     steps: Some(7.0),
+///     optimal_satisfied: 1.0,
+///     optimal_steps: Some(9.0),
+/// };
+/// let columns = Starts::new(&[start]);
+/// assert_eq!((&columns.state[..], &columns.satisfied[..]), (&[3][..], &[0.5][..]));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -84,6 +105,20 @@ impl Starts {
 }
 
 /// The content of a policy; [`Policy`] is the checked form.
+///
+#[cfg_attr(feature = "macros", doc = "```")]
+#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// use tltl::policy::Document;
+/// use tltl::prelude::*;
+///
+/// let task = Labelled::new(0..3, ["stay", "go"], &tltl! { |x: &i32| F ({ *x } == 2) })?;
+/// let mut document: Document = Policy::from_fn(&task, |_, _| 1)?.document();
+/// assert_eq!((document.states, &document.actions[1][..]), (3, "go"));
+/// document.next[0] = 9;
+/// let error = Policy::try_from(document).unwrap_err();
+/// assert_eq!(error.to_string(), "`next`, entry 0: 9 is not less than 2");
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -131,7 +166,7 @@ pub struct Document {
     pub estimate: Option<crate::estimate::Estimate>,
 }
 
-/// Why a document is not a policy.
+/// Why a document, or a list of actions, is not a policy.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PolicyError {
     /// It is something else.
@@ -296,7 +331,8 @@ fn below<T: Copy + TryInto<usize>>(
     }
 }
 
-/// Within the error of a sum over all starts.
+/// Whether all are probabilities, within the error of a sum over all starts: a file may come from
+/// another program, which rounds elsewhere.
 fn probabilities(field: &'static str, values: &[f64]) -> Result<(), PolicyError> {
     let bad = values.iter().position(|p| !(-1e-9..=1.0 + 1e-9).contains(p));
     bad.map_or(Ok(()), |at| Err(PolicyError::Worth { field, at }))

@@ -1,4 +1,4 @@
-//! Numbers that change while learning goes on.
+//! Numbers that change while learning goes on: step sizes, exploration, the weights of replay.
 
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};

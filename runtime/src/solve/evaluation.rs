@@ -1,4 +1,7 @@
 //! What a policy is worth from every pair (q, s).
+//!
+//! [`Values`] are a number for each pair; an [`Evaluation`] is P(satisfied) and E\[steps\] of one
+//! policy. Both know their problem, so they also have means over the starts.
 
 use alloc::vec::Vec;
 
@@ -6,6 +9,21 @@ use super::Problem;
 use crate::policy::Policy;
 
 /// A number for each automaton state q and world state s, s having been read.
+///
+#[cfg_attr(feature = "macros", doc = "```")]
+#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// use tltl::model;
+/// use tltl::prelude::*;
+///
+/// // Three cells; the only action walks from 0 to 1 and then to either side.
+/// let fork = model::from_fn(4, 1, |s, _| if s == 1 { vec![(2, 0.5), (3, 0.5)] } else { vec![(s.max(1), 1.0)] });
+/// let task = Labelled::of_model(&fork, &tltl! { |s: &usize| ({ *s } != 3) U ({ *s } == 2) })?;
+/// let problem = Problem::new(&Dynamics::new(&fork)?, &task)?;
+/// let satisfied = problem.largest_satisfied();
+/// assert_eq!((satisfied.at(0, 0), satisfied.at(0, 1)), (0.5, 0.5));
+/// assert_eq!(satisfied.mean(), (0.5 + 0.5 + 1.0 + 0.0) / 4.0);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Values {
     problem: Problem,
@@ -43,6 +61,23 @@ impl Values {
 }
 
 /// P(satisfied) and E\[steps\] of a policy from every pair (q, s), s having been read.
+///
+#[cfg_attr(feature = "macros", doc = "```")]
+#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// use tltl::model;
+/// use tltl::prelude::*;
+///
+/// // Five cells in a row: action 0 goes left, action 1 right. Reach the right end.
+/// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+/// let task = Labelled::of_model(&row, &tltl! { |s: &usize| F ({ *s } == 4) })?;
+/// let problem = Problem::new(&Dynamics::new(&row)?, &task)?;
+/// let timid = Policy::from_fn(&task, |_, s| usize::from(s > 1))?; // never leaves the left end
+/// let worth = problem.evaluate(&timid)?;
+/// assert_eq!((worth.satisfied().at(0, 1), worth.steps(0, 1)), (0.0, None));
+/// assert_eq!((worth.satisfied().at(0, 2), worth.steps(0, 2)), (1.0, Some(2.0)));
+/// assert!((worth.mean_satisfied() - 0.6).abs() < 1e-9);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Evaluation {
     policy: Policy,
@@ -62,7 +97,7 @@ impl Evaluation {
         &self.policy
     }
 
-    /// The probability that the task is satisfied.
+    /// The probability that the task is satisfied, within any number of steps.
     #[must_use]
     pub const fn satisfied(&self) -> &Values {
         &self.satisfied
@@ -86,6 +121,7 @@ impl Evaluation {
     }
 
     /// E\[steps\] given success, mean over the starts, `s_0` read; `None` if success is impossible.
+    /// Starts count by how often they succeed.
     #[must_use]
     pub fn mean_steps(&self) -> Option<f64> {
         finite(self.means().1)

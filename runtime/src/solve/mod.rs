@@ -48,21 +48,13 @@ const TOLERANCE: f64 = 1e-11;
 ///
 #[cfg_attr(feature = "macros", doc = "```")]
 #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// use tltl::model;
 /// use tltl::prelude::*;
-/// # struct Row;
-/// # impl FiniteModel for Row {
-/// #     type State = i32;
-/// #     fn states(&self) -> usize { 5 }
-/// #     fn actions(&self) -> usize { 2 }
-/// #     fn state(&self, s: usize) -> i32 { s as i32 }
-/// #     fn transitions(&self, s: usize, a: usize, mut outcome: impl FnMut(usize, f64)) {
-/// #         outcome([s.saturating_sub(1), (s + 1).min(4)][a], 1.0);
-/// #     }
-/// # }
 ///
-/// // `Row` is five cells in a row, where steps never go wrong; reach the last one.
-/// let task = Labelled::of_model(&Row, &tltl! { |x: &i32| F ({ *x } == 4) })?;
-/// let problem = Problem::new(&Dynamics::new(&Row)?, &task)?;
+/// // Five cells in a row: action 0 goes left, action 1 right. Reach the right end.
+/// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+/// let task = Labelled::of_model(&row, &tltl! { |s: &usize| F ({ *s } == 4) })?;
+/// let problem = Problem::new(&Dynamics::new(&row)?, &task)?;
 /// let best = problem.best();
 /// assert_eq!(best.satisfied().at(0, 0), 1.0);
 /// assert_eq!(best.steps(0, 1), Some(3.0));
@@ -109,13 +101,28 @@ impl Problem {
     }
 
     /// What policies are judged against: the optimal values for `rewards`, the largest possible
-    /// P(satisfied) and the fewest steps.
+    /// P(satisfied) and the fewest steps. All three are solved here, once for many policies.
     #[must_use]
     pub fn optimum(&self, rewards: &Rewards) -> Optimum {
         Optimum::new(self.clone(), rewards)
     }
 
     /// The optimal flat action values Q* of the augmented MDP, to 1e-10.
+    ///
+    #[cfg_attr(feature = "macros", doc = "```")]
+    #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+    /// use tltl::model;
+    /// use tltl::prelude::*;
+    ///
+    /// // Five cells in a row: action 0 goes left, action 1 right. Reach the right end.
+    /// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+    /// let task = Labelled::of_model(&row, &tltl! { |s: &usize| F ({ *s } == 4) })?;
+    /// let problem = Problem::new(&Dynamics::new(&row)?, &task)?;
+    /// let q = problem.optimal_q(&Rewards::acceptance().with_gamma(0.5)?);
+    /// // Paid 1 on arrival, which is 4 steps away: γ³.
+    /// assert!((q.max(0, 0) - 0.125).abs() < 1e-9);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
     ///
     /// # Panics
     /// If the rewards need ρ and the task is labelled without it.
@@ -125,7 +132,8 @@ impl Problem {
         self.optimal_q_of(&self.task.payment(rewards), rewards.gamma(), None)
     }
 
-    /// The same for any payment; `start` saves sweeps if it is near.
+    /// The same for any payment; `start` saves sweeps if it is near the result. (Whatever it is, the
+    /// result is the same: the sweeps are a contraction.)
     pub(crate) fn optimal_q_of(
         &self,
         payment: &Payment,
@@ -180,6 +188,21 @@ impl Problem {
 
     /// P(satisfied) and E\[steps\] of a policy, whatever it does: where it never succeeds, P is 0.
     ///
+    #[cfg_attr(feature = "macros", doc = "```")]
+    #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+    /// use tltl::model;
+    /// use tltl::prelude::*;
+    ///
+    /// // A step to the goal succeeds one time in four, and else stays.
+    /// let try_hard = model::from_fn(2, 1, |s, _| if s == 0 { [(1, 0.25), (0, 0.75)] } else { [(1, 1.0), (0, 0.0)] });
+    /// let task = Labelled::of_model(&try_hard, &tltl! { |s: &usize| F ({ *s } == 1) })?;
+    /// let problem = Problem::new(&Dynamics::new(&try_hard)?, &task)?;
+    /// let worth = problem.evaluate(&Policy::from_fn(&task, |_, _| 0)?)?;
+    /// assert!((worth.satisfied().at(0, 0) - 1.0).abs() < 1e-9);
+    /// assert!(worth.steps(0, 0).is_some_and(|steps| (steps - 4.0).abs() < 1e-9));
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
     /// # Errors
     /// If it is a policy for another task or another world.
     pub fn evaluate(&self, policy: &Policy) -> Result<Evaluation, Mismatch> {
@@ -195,7 +218,8 @@ impl Problem {
         Ok(self.evaluation(policy.clone(), satisfied, &weighted))
     }
 
-    /// P(the trap is ever entered) under a policy; 1 at the trap.
+    /// P(the trap is ever entered) under a policy; 1 at the trap. Where a policy may also go on for
+    /// ever, this and P(satisfied) sum to less than 1.
     ///
     /// # Errors
     /// If it is a policy for another task or another world.
@@ -206,7 +230,8 @@ impl Problem {
         Ok(Values::new(self, lost))
     }
 
-    /// The smallest possible P(the trap is ever entered); 1 at the trap.
+    /// The smallest possible P(the trap is ever entered); 1 at the trap. A policy that reaches it may
+    /// stay away from the goal too: see [`shield`](crate::shield).
     #[must_use]
     pub fn smallest_lost(&self) -> Values {
         let mut lost = self.lost_by(&self.entering(End::Lost), &Rule::Least);
@@ -229,7 +254,8 @@ impl Problem {
         avoiding
     }
 
-    /// Sweeps from 0, which is below: the least fixed point.
+    /// Sweeps from 0, which is below: the least fixed point, for being lost needs an entry into the
+    /// trap, and a cycle that never enters it must not count.
     fn lost_by(&self, trapped: &Payment, rule: &Rule<'_>) -> Vec<f64> {
         let mut values = self.zeros();
         for members in self.components.iter() {
@@ -242,7 +268,8 @@ impl Problem {
         payment.get(q, s, self.task.tables().class[s])
     }
 
-    /// Pays 1 for entering the accepting state: its undiscounted value is P(satisfied).
+    /// Pays 1 for entering the accepting state: its undiscounted value is P(satisfied), as that of
+    /// reachability in a Markov decision process (Baier and Katoen 2008, chapter 10).
     fn acceptance(&self) -> Payment {
         self.entering(End::Accepted)
     }
@@ -294,7 +321,9 @@ impl Problem {
         values
     }
 
-    /// Least Σ steps · 1(success) with the actions that are `safe`.
+    /// Least Σ steps · 1(success) with the actions that are `safe`: divided by P(success) it is
+    /// E\[steps\] given success. Pairs from which success is impossible take no part, for there every
+    /// number of steps would do.
     fn fewest_steps(&self, satisfied: &[f64], safe: &Actions) -> Vec<f64> {
         let (mut values, nothing) = (self.zeros(), self.nothing());
         let rule = &Rule::LeastCost { costs: satisfied, safe };
@@ -318,7 +347,8 @@ impl Problem {
         policy
     }
 
-    /// The actions within 1e-9 of the largest P.
+    /// The actions within 1e-9 of the largest P: ties are common, and rounding must not break them
+    /// before the steps do.
     fn safe(&self, accept: &Payment, satisfied: &[f64]) -> Actions {
         let mut safe = Actions::none(self.task.pairs(), self.dynamics.actions());
         self.backups(&self.arrivals(accept, 1.0, satisfied), &mut |q, s, actions| {
@@ -345,7 +375,8 @@ impl Problem {
         }
     }
 
-    /// One backup of every action at every live pair: `visit(q, s, values)`.
+    /// One backup of every action at every live pair: `visit(q, s, values)`. What arriving is worth is
+    /// gathered once for each q, so that a pair reads its successors from one row.
     fn backups(
         &self,
         arrival: &dyn Fn(u32, usize) -> f64,

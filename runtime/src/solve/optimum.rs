@@ -1,4 +1,8 @@
 //! What policies are judged against.
+//!
+//! Two things are meant by "optimal", and they differ: the largest value for some *rewards*, which is
+//! what learners are trained for, and the largest P(satisfied) with the fewest steps, which is what
+//! the *task* wants. An [`Optimum`] has both; a certificate says how far a policy is from each.
 
 use alloc::vec::Vec;
 
@@ -9,7 +13,8 @@ use crate::policy::Policy;
 use crate::q::QTable;
 use crate::reward::Rewards;
 
-/// By how much an action may be worse than the best and still counts as optimal.
+/// By how much an action may be worse than the best and still counts as optimal: values are exact to
+/// 1e-10, and learned policies break ties by rounding.
 const TOLERANCE: f64 = 1e-6;
 
 /// The optimum of a [`Problem`]: the optimal values for some rewards, and the policy that satisfies
@@ -17,21 +22,13 @@ const TOLERANCE: f64 = 1e-6;
 ///
 #[cfg_attr(feature = "macros", doc = "```")]
 #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// use tltl::model;
 /// use tltl::prelude::*;
-/// # struct Row;
-/// # impl FiniteModel for Row {
-/// #     type State = i32;
-/// #     fn states(&self) -> usize { 5 }
-/// #     fn actions(&self) -> usize { 2 }
-/// #     fn state(&self, s: usize) -> i32 { s as i32 }
-/// #     fn transitions(&self, s: usize, a: usize, mut outcome: impl FnMut(usize, f64)) {
-/// #         outcome([s.saturating_sub(1), (s + 1).min(4)][a], 1.0);
-/// #     }
-/// # }
 ///
-/// // `Row` is five cells in a row, where steps never go wrong; reach the last one.
-/// let task = Labelled::of_model(&Row, &tltl! { |x: &i32| F ({ *x } == 4) })?;
-/// let optimum = Problem::new(&Dynamics::new(&Row)?, &task)?.optimum(&Rewards::default());
+/// // Five cells in a row: action 0 goes left, action 1 right. Reach the right end.
+/// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+/// let task = Labelled::of_model(&row, &tltl! { |s: &usize| F ({ *s } == 4) })?;
+/// let optimum = Problem::new(&Dynamics::new(&row)?, &task)?.optimum(&Rewards::default());
 /// let timid = Policy::from_fn(&task, |_, s| usize::from(s > 1))?; // never leaves the left end
 /// let certificate = optimum.certify(&timid)?;
 /// assert!((certificate.regret_satisfied - 0.4).abs() < 1e-9); // from two starts of five
@@ -52,6 +49,21 @@ impl Optimum {
 
     /// The optimum of the same problem for other rewards. What the task itself wants is not solved
     /// again.
+    ///
+    #[cfg_attr(feature = "macros", doc = "```")]
+    #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+    /// use tltl::model;
+    /// use tltl::prelude::*;
+    /// use tltl::reward::Mode;
+    ///
+    /// // Five cells in a row: action 0 goes left, action 1 right. Reach the right end.
+    /// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+    /// let task = Labelled::of_model(&row, &tltl! { |s: &usize| F ({ *s } == 4) })?;
+    /// let progress = Problem::new(&Dynamics::new(&row)?, &task)?.optimum(&Rewards::progress());
+    /// let shaped = progress.with_rewards(&Rewards::of(Mode::Shaped));
+    /// assert_eq!(progress.q().greedy(0, 2), shaped.q().greedy(0, 2));
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn with_rewards(&self, rewards: &Rewards) -> Self {
         let (problem, best) = (self.problem.clone(), self.best.clone());
@@ -76,7 +88,7 @@ impl Optimum {
         &self.best
     }
 
-    /// What `policy` is worth.
+    /// What `policy` is worth, against the best possible.
     ///
     /// # Errors
     /// If it is a policy for another task or another world.
@@ -98,7 +110,8 @@ impl Optimum {
         })
     }
 
-    /// What `policy` is worth from each state in which an episode can start.
+    /// What `policy` is worth from each state in which an episode can start: a mean over the starts
+    /// may hide one from which it fails.
     ///
     /// # Errors
     /// If it is a policy for another task or another world.
