@@ -8,6 +8,8 @@ use std::path::{Path, PathBuf};
 /// They are compiled with the tests: trybuild would build everything once more for them.
 #[path = "ui/pass/forms.rs"]
 mod forms;
+#[path = "ui/pass/hygiene.rs"]
+mod hygiene;
 #[path = "ui/pass/include.rs"]
 mod include;
 
@@ -29,6 +31,7 @@ fn copy_task_files() {
 #[test]
 fn programs_that_must_build() {
     forms::main();
+    hygiene::main();
     include::main();
 }
 

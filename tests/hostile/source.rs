@@ -163,7 +163,7 @@ impl Names {
             );
         };
         format!(
-            "enum {kind} {{ {} }}\nstruct {record} {{ {z}: f64, {w}: {kind}? }}\nstate {} {{ \
+            "/// No comment: \u{202e}\u{2066}\u{1b}[31m \r */\nenum {kind} {{ {} }}\nstruct {record} {{ {z}: f64, {w}: {kind}? }}\nstate {} {{ \
              {x}: f64, {y}: f64, {n}: u8, {on}: bool, {list}: [f64; 3], {part}: {record}, \
              {m}: {kind}, {o}: {kind}?, {table}: [f64; {kind}] }}\n",
             variants.join(", "),

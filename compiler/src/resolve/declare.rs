@@ -19,6 +19,11 @@ use crate::reserved::rust_name;
 use crate::source::Span;
 use crate::unit::{MOST_NAMES, MOST_POWER, Unit, Units};
 
+/// The deepest nesting of structs and arrays. rustc gives up on a type at 128 (arrays of arrays of
+/// 120 compile, of 200 do not, nor do structs in structs of 130), and every part of a type that
+/// holds the state adds to it.
+const DEEPEST_TYPE: usize = 64;
+
 /// Reads all declarations. Mistakes are in [`Scope::mistakes`].
 pub(super) fn declare(ast: &Ast, names: Names) -> Scope<'_> {
     let mut scope = Scope {
@@ -28,6 +33,7 @@ pub(super) fn declare(ast: &Ast, names: Names) -> Scope<'_> {
         declared: vec![Declared::default(); ast.items().len()],
         tasks: 0,
         structs: Vec::new(),
+        nesting: Vec::new(),
         enums: Vec::new(),
         state: None,
         first: Spans::default(),
@@ -88,6 +94,8 @@ impl<'a> Scope<'a> {
         for item in self.ast.items() {
             if let ItemKind::Struct(fields) = &item.kind {
                 let declared = self.declare_struct(item, fields);
+                let deepest = declared.fields.iter().map(|field| self.depth(&field.ty)).max();
+                self.nesting.push(1 + deepest.unwrap_or_default());
                 self.structs.push(declared);
             }
         }
@@ -253,7 +261,22 @@ impl<'a> Scope<'a> {
                 None => Type::Array(Box::new(ty), self.length(*length)?),
             };
         }
+        if self.depth(&ty) > DEEPEST_TYPE {
+            let message = format!("types nest more than {DEEPEST_TYPE} deep");
+            return Err(Error::new(Kind::Nesting, message, written.span)
+                .help("the numbers of a state need no more than a few structs and arrays"));
+        }
         Ok(ty)
+    }
+
+    /// The number of structs and arrays that a type consists of, one in the other.
+    fn depth(&self, mut ty: &Type) -> usize {
+        let mut depth = 0;
+        while let Type::Array(element, _) | Type::Table(element, _) = ty {
+            depth += 1;
+            ty = element;
+        }
+        depth + if let Type::Struct(of) = ty { self.nesting[*of as usize] } else { 0 }
     }
 
     /// The length of an array.

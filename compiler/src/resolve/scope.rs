@@ -28,6 +28,8 @@ pub(crate) struct Scope<'a> {
     pub(super) tasks: u32,
     /// The structs, each after those that it holds.
     pub(crate) structs: Vec<Struct>,
+    /// The deepest nesting of types in each struct.
+    pub(super) nesting: Vec<usize>,
     /// The enumerations, in source order.
     pub(crate) enums: Vec<Enum>,
     /// The state, if the source declares its fields.

@@ -187,6 +187,10 @@ fn each_item_comes_after_those_that_it_uses() {
 fn declarations_and_quantifiers_have_mistakes_of_their_own() {
     for (text, expected) in [
         ("state S { x: f64, x: u8 }", &["`x` is declared twice"][..]),
+        (
+            &format!("state S {{ x: {}f64{} }}", "[".repeat(65), "; 1]".repeat(65)),
+            &["types nest more than 64 deep"],
+        ),
         ("state S { x: float }", &["there is no type `float`"]),
         ("state S { x: bool in m }", &["only numbers have units, and `x` is none"]),
         (

@@ -16,6 +16,7 @@ use tltl::network::policy::NetworkPolicy;
 use tltl::policy::{Document, Policy, Starts, States, Training};
 use tltl::shield::Shielded;
 use tltl::solve::Certificate;
+use tltl_compiler::emit::rust::visible;
 
 use super::network;
 
@@ -154,21 +155,6 @@ pub(super) fn paragraph(text: &mut String, content: &str) {
         column += word.chars().count() + 1;
     }
     text.push_str("\n//!\n");
-}
-
-/// A word with the characters escaped that no comment may have: rustc refuses those that change the
-/// direction of text ("Trojan Source", Boucher and Anderson, 2021), and terminals obey control
-/// characters.
-fn visible(word: &str) -> String {
-    let mut visible = String::new();
-    for c in word.chars() {
-        match c {
-            '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => visible.extend(c.escape_unicode()),
-            c if c.is_control() => visible.extend(c.escape_unicode()),
-            c => visible.push(c),
-        }
-    }
-    visible
 }
 
 /// The training of the policy, or of each skill of a composition by its name.

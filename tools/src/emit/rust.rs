@@ -6,7 +6,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 use tltl_compiler::compile::Compiled;
-use tltl_compiler::emit::rust::{Options, Place, code, is_bare, sizes};
+use tltl_compiler::emit::rust::{Options, Place, code, is_bare, sizes, visible};
 use tltl_compiler::emit::tables as emit;
 use tltl_compiler::tables::tables;
 
@@ -44,7 +44,7 @@ fn statics(compiled: &Compiled) -> TokenStream {
         let runtime = quote! { ::tltl };
         let formula = emit::formula(&task.spec, &task.text, &runtime);
         let automaton = emit::automaton(&tables(&automata.dfa), &runtime);
-        let about = format!(" `{}`", task.text);
+        let about = format!(" `{}`", visible(&task.text));
         let size = format!(" {}", sizes(&automata.dfa));
         quote! {
             #[doc = #about]
