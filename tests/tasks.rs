@@ -83,6 +83,20 @@ fn parameters_and_inputs_say_what_they_are() {
     assert_eq!(text(halt), ["d: f64 in m"]);
 }
 
+/// Comparisons that exclude each other leave letters that cannot occur beside the transitions; with
+/// more propositions than a dense table takes, both are nodes of one diagram.
+#[test]
+fn tables_hold_no_nodes_but_those_of_transitions() {
+    let twelve = (0..12).map(|i| format!("x == {i}"));
+    let any = twelve.clone().collect::<Vec<_>>().join(" || ");
+    let all = twelve.collect::<Vec<_>>().join(" && ");
+    for (formula, satisfied) in [(format!("F ({all})"), false), (format!("F ({any})"), true)] {
+        let task = compiled(&formula);
+        let q = [3.5, 7.0].iter().fold(0, |q, &x| task.next(q, &[x]).unwrap());
+        assert_eq!(task.is_accepting(q), satisfied, "{formula}");
+    }
+}
+
 #[test]
 fn arguments_are_bound_by_name() {
     let kitchen = kitchen();

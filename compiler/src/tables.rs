@@ -28,7 +28,7 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::bdd::Cube;
+use crate::bdd::{Bdd, Cube};
 use crate::dfa::{Dfa, Guards, State};
 use crate::spec::{Formula, Spec};
 
@@ -236,11 +236,12 @@ fn dense(dfa: &Dfa) -> Option<Transitions> {
     Some(Transitions::Table { class, width: order.len() as u32, next: next.collect() })
 }
 
-/// The transitions as the nodes that the automaton already has.
+/// The transitions as the nodes that they need. The automaton's diagram may hold more: the letters
+/// that can occur, whose leaves are not states.
 fn diagram(dfa: &Dfa) -> Transitions {
-    let nodes = dfa.diagram.nodes().iter();
+    let (needed, roots) = dfa.diagram.map_leaves(&dfa.transitions, &Bdd::leaf);
     Transitions::Diagram {
-        nodes: nodes.map(|n| [n.level, n.low.code(), n.high.code()]).collect(),
-        roots: dfa.transitions.iter().map(|root| root.code()).collect(),
+        nodes: needed.nodes().iter().map(|n| [n.level, n.low.code(), n.high.code()]).collect(),
+        roots: roots.iter().map(|root| root.code()).collect(),
     }
 }
