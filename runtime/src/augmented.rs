@@ -31,8 +31,7 @@ use crate::task::Error;
 /// A predicate that is not a number at a state is an error, so its methods are those of [`Env`] with
 /// a `Result`.
 ///
-#[cfg_attr(feature = "macros", doc = "```")]
-#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// ```
 /// use tltl::augmented::Augmented;
 /// use tltl::prelude::*;
 /// use tltl::rand::{Rng, SeedableRng, rngs::Xoshiro256PlusPlus};
@@ -74,6 +73,10 @@ pub struct Augmented<E, M> {
 
 impl<E: Env, M: Monitor<E::State>> Augmented<E, M> {
     /// `env` under the task `monitor`.
+    ///
+    /// The environment and the task are moved in; give references to keep them (`&task` is a
+    /// [`Monitor`] too). Call [`Self::reset`] before the first step: until then the automaton has
+    /// read nothing, and the first step would be read as an s_0.
     pub fn new(env: E, monitor: M, rewards: Rewards) -> Self {
         let moves = Moves::new(&monitor, rewards);
         Self { env, monitor, moves, q: 0 }
@@ -112,6 +115,26 @@ impl<E: Env, M: Monitor<E::State>> Augmented<E, M> {
     }
 
     /// The automaton state.
+    ///
+    /// ```
+    /// use tltl::augmented::Augmented;
+    /// use tltl::model;
+    /// use tltl::prelude::*;
+    /// use tltl::rand::{SeedableRng, rngs::Xoshiro256PlusPlus};
+    ///
+    /// // Two rooms and a door that never fails. Leave, and come back.
+    /// let rooms = model::from_fn(2, 1, |s, _| [(1 - s, 1.0)]);
+    /// let there_and_back = tltl! { |s: &usize| ({ *s } == 1) T ({ *s } == 0) };
+    /// let mut world = Augmented::new(ModelEnv::new(rooms).unwrap(), &there_and_back, Rewards::progress());
+    /// let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
+    /// let (mut room, _) = world.reset(&mut rng)?;
+    /// while world.end().is_none() {
+    ///     room = world.step(0, &mut rng)?.state.0;
+    /// }
+    /// assert_eq!((room, world.q(), world.monitor().is_accepting(world.q())), (0, 2, true));
+    /// assert!((1..=2).contains(&world.env().steps()), "one if the episode starts in the other room");
+    /// # Ok::<(), tltl::task::Error>(())
+    /// ```
     pub const fn q(&self) -> u32 {
         self.q
     }

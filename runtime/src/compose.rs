@@ -116,8 +116,7 @@ impl Compose for Stepwise<'_> {
 
 /// Skills that are to be composed: action values, each for its own task on the same world.
 ///
-#[cfg_attr(feature = "macros", doc = "```")]
-#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// ```
 /// use tltl::model;
 /// use tltl::prelude::*;
 ///

@@ -88,6 +88,10 @@ pub trait Env {
     fn reset<R: Rng + ?Sized>(&mut self, rng: &mut R) -> Self::State;
 
     /// Takes an action.
+    ///
+    /// `action` is below [`Self::actions`]; what an implementation does with another number is its own
+    /// affair, and to panic is best. After a step that ends the episode nothing is promised until the
+    /// next [`Self::reset`].
     fn step<R: Rng + ?Sized>(&mut self, action: usize, rng: &mut R) -> Step<Self::State>;
 
     /// What action `a` is called where it is shown.
@@ -139,6 +143,10 @@ pub trait Env {
 /// dial.reset(&mut rng);
 /// assert_eq!(dial.step_index(0, &mut rng).state, 9);
 /// ```
+///
+/// Numbers and states are two names of one thing: `state(state_index())` is what the last `reset`
+/// or `step` returned, and the `_index` methods move the environment exactly as the others do.
+/// Tables of a task are made from [`Self::state`], so a number must mean the same state for ever.
 pub trait FiniteEnv: Env {
     /// The number of states; they are numbered `0..states()`.
     fn states(&self) -> usize;
@@ -183,6 +191,9 @@ pub trait FiniteEnv: Env {
 /// assert_eq!(truncated, [false, false, true]);
 /// # Ok::<(), tltl::model::ModelError>(())
 /// ```
+///
+/// The step that reaches the horizon is *truncated* and not terminated: the world goes on after
+/// it, so a learner bootstraps from its last state. A step that does both keeps both flags.
 #[derive(Clone, Debug)]
 pub struct TimeLimit<E> {
     env: E,
@@ -275,12 +286,17 @@ fn sample(columns: &[Alias], word: u64) -> usize {
 }
 
 /// The alias table of a distribution; probabilities are kept to 2^-32.
+///
+/// n columns of mass 1/n each are filled so that none holds more than two outcomes: one that is
+/// too small for its column is topped up from one that is too large, until all are level. So one
+/// uniform column and one comparison sample the distribution, and making the table is O(n).
 fn alias_table(probabilities: &[f64]) -> Vec<Alias> {
     let n = probabilities.len();
     let (mut mass, mut columns) = (Vec::with_capacity(n), Vec::with_capacity(n));
     let (mut small, mut large) = (Vec::new(), Vec::new());
     for (i, p) in probabilities.iter().enumerate() {
         mass.push(p * n as f64);
+        // Columns that rounding leaves in neither list at the end keep this: themselves, always.
         columns.push(Alias { threshold: u32::MAX, alias: i as u32 });
         if mass[i] < 1.0 { small.push(i) } else { large.push(i) }
     }
@@ -305,6 +321,9 @@ struct Draw {
 }
 
 /// The alias tables of all actions in all states, so that a step is a single look-up.
+///
+/// All rows have the width of the longest one, shorter rows being padded with outcomes of
+/// probability 0: then the row of (s, a) is found by a multiplication, without a table of offsets.
 #[derive(Clone, Debug)]
 struct Outcomes {
     /// `width` columns for each `s * actions + a`.
@@ -318,6 +337,8 @@ impl Outcomes {
     const MOST: usize = 1 << 22;
 
     /// The columns of `dynamics`; none if they are too many.
+    ///
+    /// `compact` has the tables of the distinct rows; a row that needs no padding is copied from there.
     fn new(dynamics: &Dynamics, compact: &[Alias]) -> Self {
         let (states, actions) = (dynamics.states(), dynamics.actions());
         let width = (0..states).map(|s| dynamics.successors(s).len()).max().unwrap_or(1);
@@ -363,6 +384,20 @@ impl Outcomes {
 /// assert_eq!(coin.steps(), 1_000);
 /// # Ok::<(), tltl::model::ModelError>(())
 /// ```
+///
+/// It holds the model's tables, so solvers get them without asking the model again:
+///
+/// ```
+/// use tltl::model;
+/// use tltl::prelude::*;
+///
+/// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+/// let env = ModelEnv::new(row)?;
+/// let task = Labelled::of_env(&env, &tltl! { |s: &usize| F ({ *s } == 4) })?;
+/// let best = Problem::new(env.dynamics(), &task)?.best();
+/// assert_eq!((best.steps(0, 0), env.steps()), (Some(4.0), 0), "solved, and not a step taken");
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct ModelEnv<M> {
     model: M,
@@ -399,6 +434,8 @@ impl<M: FiniteModel> ModelEnv<M> {
     }
 
     /// Takes an action; the number of the new state.
+    ///
+    /// Which half of a column is drawn nobody can predict, so the choice must not become a branch.
     #[inline]
     #[track_caller]
     fn move_on<R: Rng + ?Sized>(&mut self, action: usize, rng: &mut R) -> usize {
@@ -434,6 +471,8 @@ impl<M: FiniteModel> ModelEnv<M> {
 }
 
 /// The alias tables of all distinct rows, in place.
+///
+/// States share matrices, and a matrix is done once, by the first state that has it.
 fn columns(dynamics: &Dynamics) -> Vec<Alias> {
     let empty = Alias { threshold: 0, alias: 0 };
     let mut columns = alloc::vec![empty; dynamics.probabilities().len()];

@@ -85,8 +85,7 @@ pub struct Transition<'a, S> {
 ///
 /// Here one that learns nothing and always takes the same action:
 ///
-#[cfg_attr(feature = "macros", doc = "```")]
-#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// ```
 /// use tltl::augmented::Augmented;
 /// use tltl::episode::{self, Agent, Elapsed, Monitored, Transition};
 /// use tltl::model;

@@ -136,8 +136,7 @@ impl Default for Trials {
 
 /// Runs a policy, `act(q, s)`, and counts.
 ///
-#[cfg_attr(feature = "macros", doc = "```")]
-#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// ```
 /// use tltl::estimate::{Trials, estimate};
 /// use tltl::model;
 /// use tltl::prelude::*;

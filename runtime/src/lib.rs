@@ -21,8 +21,7 @@
 //! `libm` has `sqrt` and the like without `std`; `deep` learns with networks (Rust 1.95); `hoa` lets
 //! `include_tltl!` read automata of other tools. Where tasks are only followed, `macros` alone is enough, and builds quickest: no allocation, no `std`.
 //!
-#![cfg_attr(all(feature = "std", feature = "macros"), doc = "```")]
-#![cfg_attr(not(all(feature = "std", feature = "macros")), doc = "```ignore")]
+//! ```
 //! use tltl::prelude::*;
 //!
 //! /// Ten cells in a row; a step goes wrong one time in ten.

@@ -88,8 +88,7 @@ use crate::reward::{End, Ends};
 /// It knows its task and its world. What belongs to another task or another world is refused by
 /// all that takes a policy.
 ///
-#[cfg_attr(feature = "macros", doc = "```")]
-#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// ```
 /// use tltl::prelude::*;
 ///
 /// // Go to the right end of five cells.
@@ -210,8 +209,7 @@ impl Policy {
     /// The policy of these `actions`: for each automaton state in turn, the action in each state of
     /// the world.
     ///
-    #[cfg_attr(feature = "macros", doc = "```")]
-    #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+    /// ```
     /// use tltl::prelude::*;
     ///
     /// // Two automaton states, three world states.
@@ -274,8 +272,7 @@ impl Policy {
     /// The same policy, saying what it is worth: so that whoever loads it need not solve the world
     /// again.
     ///
-    #[cfg_attr(feature = "macros", doc = "```")]
-    #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+    /// ```
     /// use tltl::model;
     /// use tltl::prelude::*;
     ///
@@ -322,8 +319,7 @@ impl Policy {
     /// The same policy, saying which states of the operands of `product` its own automaton states
     /// are: a reader of the file then knows which skill is done.
     ///
-    #[cfg_attr(feature = "macros", doc = "```")]
-    #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+    /// ```
     /// use tltl::prelude::*;
     ///
     /// let (left, right) = (tltl! { |x: &i32| F ({ *x } == 0) }, tltl! { |x: &i32| F ({ *x } == 4) });

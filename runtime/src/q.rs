@@ -14,8 +14,7 @@ use crate::policy::Policy;
 ///
 /// Rows of terminal automaton states are 0. Where an action is chosen, ties go to the lowest number.
 ///
-#[cfg_attr(feature = "macros", doc = "```")]
-#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// ```
 /// use tltl::prelude::*;
 ///
 /// let task = Labelled::new(0..5, ["left", "right"], &tltl! { |x: &i32| F ({ *x } == 4) })?;
@@ -42,8 +41,7 @@ impl QTable {
     /// A table of `value` in all live automaton states: an optimistic start is one that no true
     /// value exceeds, and makes a greedy learner try everything.
     ///
-    #[cfg_attr(feature = "macros", doc = "```")]
-    #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+    /// ```
     /// use tltl::prelude::*;
     ///
     /// let task = Labelled::new(0..5, ["left", "right"], &tltl! { |x: &i32| F ({ *x } == 4) })?;
@@ -64,8 +62,7 @@ impl QTable {
     /// The table of these `values`, indexed `((q * states) + s) * actions + a`: what
     /// [`Self::values`] gave, or what another program computed.
     ///
-    #[cfg_attr(feature = "macros", doc = "```")]
-    #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+    /// ```
     /// use tltl::prelude::*;
     ///
     /// let task = Labelled::new(0..5, ["left", "right"], &tltl! { |x: &i32| F ({ *x } == 4) })?;

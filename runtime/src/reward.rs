@@ -215,8 +215,7 @@ pub enum End {
 /// Where the task ends, and how far each automaton state is from acceptance: all that rewards need
 /// to know of a task.
 ///
-#[cfg_attr(feature = "macros", doc = "```")]
-#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// ```
 /// use tltl::reward::{End, Ends};
 /// use tltl::tltl;
 ///

@@ -25,8 +25,7 @@ use crate::solve::{Actions, Optimum, Problem};
 
 /// Which actions are allowed where.
 ///
-#[cfg_attr(feature = "macros", doc = "```")]
-#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// ```
 /// use tltl::model;
 /// use tltl::prelude::*;
 /// use tltl::shield::Shield;

@@ -24,6 +24,19 @@ impl Labelled {
     /// in which a part is lost another. The work and the table are as large as those joint states
     /// times the classes of states: goals that lie apart in the world still reach 2^n.
     ///
+    /// ```
+    /// use tltl::prelude::*;
+    ///
+    /// // Five goals among six cells in a row, in any order: 2^5 states as one automaton.
+    /// let goals = tltl! { #[factored] |x: &i32| F ({ *x } == 0) && F ({ *x } == 1) && F ({ *x } == 2)
+    ///     && F ({ *x } == 3) && F ({ *x } == 4) };
+    /// let task = Labelled::of_factored(0..6, ["left", "right"], &goals, 1_000)?;
+    /// assert_eq!(task.automaton_states(), 32);
+    /// let error = Labelled::of_factored(0..6, ["left", "right"], &goals, 8).unwrap_err();
+    /// assert!(error.to_string().starts_with("the 5 parts of the task reach more than 8 states"));
+    /// # Ok::<(), tltl::augmented::LabelError>(())
+    /// ```
+    ///
     /// # Errors
     /// As [`Self::new`], or if there are more than `budget` joint states.
     pub fn of_factored<S, P: Predicates<S>>(
@@ -67,6 +80,9 @@ impl Labelled {
 }
 
 /// The class of each state of the world, and its letter: the class that each part has there.
+///
+/// Two states with the same letter are the same to every part, so the joint table has a column for
+/// each letter, and not for each combination of classes that could be written down.
 fn letters(parts: &[Labelled]) -> (Vec<u32>, Interner<u32>) {
     let mut letters = Interner::new();
     let states = parts.first().map_or(0, Labelled::states);
@@ -80,6 +96,9 @@ fn letters(parts: &[Labelled]) -> (Vec<u32>, Interner<u32>) {
 
 /// The joint states found so far: a breadth-first search without a queue, for numbers are handed out
 /// in the order in which rows are made.
+///
+/// A tuple and a number are two things: every tuple that loses has the one number of the trap, every
+/// one that accepts that of acceptance, so `numbers` maps many tuples to one.
 struct JointStates<'a> {
     parts: &'a [Labelled],
     /// The parts' states.
@@ -119,6 +138,7 @@ impl<'a> JointStates<'a> {
         self.number(&next)
     }
 
+    /// The number of a tuple of the parts' states: the one it has, or the next.
     fn number(&mut self, q: &[u32]) -> u32 {
         let tuple = self.tuples.number(q) as usize;
         if let Some(&number) = self.numbers.get(tuple) {
@@ -139,6 +159,7 @@ impl<'a> JointStates<'a> {
         number
     }
 
+    /// How a tuple ends: one lost part loses a conjunction, and only all together accept.
     fn end(&self, q: &[u32]) -> Option<End> {
         let mut accepted = true;
         for (part, &q) in self.parts.iter().zip(q) {

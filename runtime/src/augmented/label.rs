@@ -32,8 +32,7 @@ use crate::task::Error;
 /// [`QTable`](crate::q::QTable), [`Problem`](crate::solve::Problem) and
 /// [`Learner`](crate::learn::Learner) each hold one, and refuse what belongs to another.
 ///
-#[cfg_attr(feature = "macros", doc = "```")]
-#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// ```
 /// use tltl::prelude::*;
 ///
 /// // Five cells in a row; reach the last one.
@@ -66,8 +65,7 @@ pub(crate) struct LabelTable {
 
 /// Why there is no table of a task over a world.
 ///
-#[cfg_attr(feature = "macros", doc = "```")]
-#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// ```
 /// use tltl::prelude::*;
 ///
 /// let fast = |speed: &f64| speed - 1.0;
@@ -116,6 +114,9 @@ impl Labelled {
     /// The table of `monitor` over a world's states, in the order of their numbers; `actions` are
     /// what the world's actions are called.
     ///
+    /// Cost: one move of the automaton for each state of the world and of the automaton, so each
+    /// predicate is evaluated |Q| times at each state; the table itself is as large as the classes.
+    ///
     /// # Errors
     /// If a predicate is not a number at one of the states, or there are no states or actions.
     pub fn new<S>(
@@ -139,8 +140,7 @@ impl Labelled {
 
     /// The table of `monitor` over the states of `model`, with the names of its actions.
     ///
-    #[cfg_attr(feature = "macros", doc = "```")]
-    #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+    /// ```
     /// use tltl::model;
     /// use tltl::prelude::*;
     ///
@@ -162,6 +162,16 @@ impl Labelled {
 
     /// The table of `monitor` over the states of `env`, with the names of its actions.
     ///
+    /// ```
+    /// use tltl::model;
+    /// use tltl::prelude::*;
+    ///
+    /// let ring = ModelEnv::new(model::from_fn(6, 1, |s, _| [((s + 1) % 6, 1.0)]))?;
+    /// let task = Labelled::of_env(&ring, &tltl! { |s: &usize| F ({ *s } == 3) })?;
+    /// assert_eq!((task.pairs(), task.pair(1, 2)), (2 * 6, 6 + 2));
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
     /// # Errors
     /// As [`Self::new`].
     pub fn of_env<E: FiniteEnv>(
@@ -182,8 +192,7 @@ impl Labelled {
     /// The same table with ρ(s, D_φ^q) for all q and s, which
     /// [`Mode::Robustness`](crate::reward::Mode::Robustness) needs: 8 bytes for each pair.
     ///
-    #[cfg_attr(feature = "macros", doc = "```")]
-    #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+    /// ```
     /// use tltl::model;
     /// use tltl::prelude::*;
     /// use tltl::reward::Mode;
@@ -226,8 +235,7 @@ impl Labelled {
     /// The same table under another name and formula, as documents and errors show them: a product
     /// has the names of its operands until it is given one of its own.
     ///
-    #[cfg_attr(feature = "macros", doc = "```")]
-    #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+    /// ```
     /// use tltl::prelude::*;
     ///
     /// let task = Labelled::new(0..3, ["go"], &tltl! { |s: &i32| F ({ *s } == 2) })?;
@@ -292,6 +300,18 @@ impl Labelled {
 
     /// The automaton state in which an episode starts that starts in `s`: the automaton has read `s`
     /// by then, and so an episode may be over at once.
+    ///
+    /// ```
+    /// use tltl::prelude::*;
+    /// use tltl::reward::End;
+    ///
+    /// // Reach cell 2, and keep off cell 0: an episode that starts in 0 is lost before its first step.
+    /// let task = Labelled::new(0..3, ["go"], &tltl! { |x: &i32| ({ *x } != 0) U ({ *x } == 2) })?;
+    /// let ends = [0, 1, 2].map(|s| task.end(task.start(s)));
+    /// assert_eq!(ends, [Some(End::Lost), None, Some(End::Accepted)]);
+    /// assert!(task.live().eq([0]), "one automaton state in which there is something to do");
+    /// # Ok::<(), tltl::augmented::LabelError>(())
+    /// ```
     ///
     /// # Panics
     /// If there is no such state.
@@ -438,6 +458,8 @@ impl Labelled {
 
     /// In what the moves differ from those of another table, if they do. Classes may be numbered
     /// differently in tables from a file, so what counts is where each state leads.
+    ///
+    /// It says why two tables are not the same task to readers who see one name and one size twice.
     fn difference(&self, other: &Self) -> Option<String> {
         let (own, others) = (self.tables(), other.tables());
         let sizes = |t: &LabelTable| (t.class.len(), t.actions.len(), t.ends.states());
@@ -463,6 +485,9 @@ impl LabelTable {
 
     /// The least number of moves from each automaton state to an accepting one, by the moves that
     /// the world allows: a search backwards. `next` is indexed `q * classes + class`.
+    ///
+    /// Distances by δ alone may be shorter: an edge of the automaton that no state of the world takes
+    /// is not a move here. Cost: O(|Q| × classes).
     pub(crate) fn distances(of: &[Option<End>], next: &[u32]) -> Vec<Option<u32>> {
         let mut before = alloc::vec![Vec::new(); of.len()];
         for (q, row) in next.chunks((next.len() / of.len()).max(1)).enumerate() {
@@ -516,6 +541,10 @@ fn at(s: usize, error: Error) -> LabelError {
 
 /// What every move of a [`Labelled`] task pays: a number for each q and class, or, where the reward
 /// depends on more than the class of s', for each q and world state.
+///
+/// Learners and solvers pay by look-up, so that the inner loop knows no mode of reward. Nearly all
+/// rewards depend on the class alone; of ρ there is a number for each pair, which is why there are
+/// two widths.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Payment {
     table: Vec<f64>,
@@ -534,6 +563,9 @@ impl Payment {
 
 /// Collects the columns of the transition table, one for each world state, and numbers them: equal
 /// columns are one class.
+///
+/// A column has the next state of every automaton state; two states of the world with the same
+/// column behave alike for ever, whatever their predicates say.
 struct ClassBuilder {
     class: Vec<u32>,
     seen: Interner<u32>,

@@ -49,6 +49,9 @@ impl Moves {
     ///
     /// Networks clamp their bootstrapped values to it: no true value is larger, and an error that
     /// would raise one cannot feed on itself.
+    ///
+    /// It is value iteration on the automaton alone, |Q| numbers; with γ 0.97 it takes about 700
+    /// rounds, once for a learner.
     #[cfg(feature = "deep")]
     pub(crate) fn most(&self, task: &(impl Acceptor + ?Sized)) -> alloc::vec::Vec<f64> {
         let mut most = alloc::vec![0.0; self.ends.states() as usize];

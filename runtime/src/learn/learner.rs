@@ -32,8 +32,7 @@ use crate::solve::{Certificate, Problem};
 /// that training in slices (to show progress, to write a [checkpoint](Self::checkpoint)) gives bit
 /// for bit what training at once gives.
 ///
-#[cfg_attr(feature = "macros", doc = "```")]
-#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// ```
 /// use tltl::model;
 /// use tltl::prelude::*;
 ///
@@ -82,8 +81,7 @@ impl Learner {
     ///
     /// Gives up early if 100,000 episodes in a row are over at their very first state.
     ///
-    #[cfg_attr(feature = "macros", doc = "```")]
-    #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+    /// ```
     /// use tltl::model;
     /// use tltl::prelude::*;
     ///
@@ -129,8 +127,7 @@ impl Learner {
     /// [`Self::train`] behind a mask, which leaves only some actions to explore; the settings say
     /// how to choose among them. Slower: actions are looked up at every step.
     ///
-    #[cfg_attr(feature = "macros", doc = "```")]
-    #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+    /// ```
     /// use tltl::learn::Mask;
     /// use tltl::model;
     /// use tltl::prelude::*;
@@ -217,8 +214,7 @@ impl Learner {
     /// the world as it was seen. It gets more out of the same steps than any step size does; costs
     /// about a millisecond on a small world, and takes no environment step.
     ///
-    #[cfg_attr(feature = "macros", doc = "```")]
-    #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+    /// ```
     /// use tltl::model;
     /// use tltl::prelude::*;
     ///
@@ -316,8 +312,7 @@ impl Learner {
 
     /// All that learning has changed, to be saved, and taken up again by [`Self::resume`].
     ///
-    #[cfg_attr(feature = "macros", doc = "```")]
-    #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+    /// ```
     /// use tltl::model;
     /// use tltl::prelude::*;
     ///

@@ -44,8 +44,7 @@ pub enum Observation {
 /// Of [`Settings`] it reads γ, the bound, α, ε, the horizon and the initial value. Episodes end where
 /// the task is decided, or at the horizon, which for this reward *is* the end and not a cut.
 ///
-#[cfg_attr(feature = "macros", doc = "```")]
-#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// ```
 /// use tltl::learn::{Observation, TerminalReward, TrajectoryLearner};
 /// use tltl::model;
 /// use tltl::prelude::*;

@@ -106,8 +106,7 @@ impl Starts {
 
 /// The content of a policy; [`Policy`] is the checked form.
 ///
-#[cfg_attr(feature = "macros", doc = "```")]
-#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// ```
 /// use tltl::policy::Document;
 /// use tltl::prelude::*;
 ///

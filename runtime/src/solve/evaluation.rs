@@ -10,8 +10,7 @@ use crate::policy::Policy;
 
 /// A number for each automaton state q and world state s, s having been read.
 ///
-#[cfg_attr(feature = "macros", doc = "```")]
-#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// ```
 /// use tltl::model;
 /// use tltl::prelude::*;
 ///
@@ -62,8 +61,7 @@ impl Values {
 
 /// P(satisfied) and E\[steps\] of a policy from every pair (q, s), s having been read.
 ///
-#[cfg_attr(feature = "macros", doc = "```")]
-#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// ```
 /// use tltl::model;
 /// use tltl::prelude::*;
 ///

@@ -1,4 +1,12 @@
 //! The order in which to solve: components of the automaton, and pairs within a component.
+//!
+//! Two facts make the order worth its cost. Between two components the automaton only moves one
+//! way, so each is solved once, with everything that it leads to known already; most automata of
+//! tasks have a component for each state. Within a component, values flow backwards from its exits,
+//! so a sweep that starts beside them uses each value in the sweep in which it was found.
+//!
+//! Both are graph searches, linear in the edges. They decide the order alone, never a value: with
+//! a wrong order the sweeps would be more, and the result the same within its error.
 
 use alloc::vec::Vec;
 
@@ -8,6 +16,10 @@ use crate::reward::End;
 
 /// The strongly connected components of the live automaton states, those that others lead to
 /// first (Tarjan 1972, without recursion).
+///
+/// Ends are no components: their values are known, for nothing is paid after them. Tarjan's
+/// algorithm closes a component only after all that it leads to, so its numbers are the order.
+/// Without recursion, for a deadline of ten thousand steps is a path of as many states.
 pub(super) fn components(labelled: &Labelled) -> Vec<Vec<u32>> {
     let n = labelled.automaton_states() as usize;
     let mut search = Tarjan {
@@ -31,6 +43,8 @@ pub(super) fn components(labelled: &Labelled) -> Vec<Vec<u32>> {
     components
 }
 
+/// The search, with the names of Tarjan's paper: `index` is the order in which a state was entered
+/// (`u32::MAX`: not yet), `low` the least index that it is known to reach among those on the stack.
 struct Tarjan<'a> {
     labelled: &'a Labelled,
     index: Vec<u32>,
@@ -43,6 +57,8 @@ struct Tarjan<'a> {
 }
 
 impl Tarjan<'_> {
+    /// Searches from `root`. `path` holds each state on the way down with the next of its moves to
+    /// look at, as the call stack would.
     fn visit(&mut self, root: u32) {
         let mut path = alloc::vec![(root, 0)];
         self.enter(root);
@@ -66,6 +82,7 @@ impl Tarjan<'_> {
         }
     }
 
+    /// Numbers a state that is met for the first time.
     fn enter(&mut self, q: u32) {
         self.index[q as usize] = self.entered;
         self.low[q as usize] = self.entered;
@@ -73,6 +90,8 @@ impl Tarjan<'_> {
         self.entered += 1;
     }
 
+    /// Hands `low` up to the parent, and closes the component if `q` is the first of it that was
+    /// entered: then the component is what stands on the stack from there on.
     fn leave(&mut self, q: u32, parent: Option<u32>) {
         if let Some(parent) = parent {
             let low = self.low[q as usize];
@@ -90,6 +109,10 @@ impl Tarjan<'_> {
 }
 
 /// Pairs (member, s) in the order of their distance from the exits.
+///
+/// A pair is written (k, s): `k` is the place of the automaton state among the members of the
+/// component. What cannot reach an exit is worth 0 undiscounted, and what it pays on its own when
+/// discounted; such pairs come last, and undiscounted sweeps leave them out.
 #[derive(Clone, Debug)]
 pub(super) struct Order {
     pub(super) pairs: Vec<(u32, u32)>,
@@ -101,6 +124,11 @@ pub(super) struct Order {
 
 /// Searches backwards from the exits of `members`: pairs that read a state on which they go to an
 /// automaton state outside, the trap excepted. Under a policy only its actions count.
+///
+/// The exits themselves are not pairs but moves out of the component: the seeds are the pairs from
+/// which such a move is one step away. The trap is no exit, for nothing can be had there. A
+/// breadth-first search, whose queue is the list of the pairs found so far; cost: one look at each
+/// predecessor of each pair, and under a policy one binary search for its action's outcome.
 pub(super) fn order(problem: &Problem, members: &[u32], policy: Option<&[u32]>) -> Order {
     let Problem { dynamics, task: labelled, .. } = problem;
     let (first, list) = &*problem.predecessors;

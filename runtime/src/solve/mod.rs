@@ -46,8 +46,7 @@ const TOLERANCE: f64 = 1e-11;
 /// A finite world under a task: the augmented MDP that is solved. Cheap to clone: clones share the
 /// tables.
 ///
-#[cfg_attr(feature = "macros", doc = "```")]
-#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// ```
 /// use tltl::model;
 /// use tltl::prelude::*;
 ///
@@ -102,6 +101,19 @@ impl Problem {
 
     /// What policies are judged against: the optimal values for `rewards`, the largest possible
     /// P(satisfied) and the fewest steps. All three are solved here, once for many policies.
+    ///
+    /// ```
+    /// use tltl::model;
+    /// use tltl::prelude::*;
+    ///
+    /// // Five cells in a row: action 0 goes left, action 1 right. Reach the right end.
+    /// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+    /// let task = Labelled::of_model(&row, &tltl! { |s: &usize| F ({ *s } == 4) })?;
+    /// let optimum = Problem::new(&Dynamics::new(&row)?, &task)?.optimum(&Rewards::default());
+    /// assert_eq!(optimum.fraction_optimal(&Policy::from_fn(&task, |_, _| 1)?)?, 1.0);
+    /// assert_eq!(optimum.fraction_optimal(&Policy::from_fn(&task, |_, _| 0)?)?, 0.0, "left is never best");
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn optimum(&self, rewards: &Rewards) -> Optimum {
         Optimum::new(self.clone(), rewards)
@@ -109,8 +121,7 @@ impl Problem {
 
     /// The optimal flat action values Q* of the augmented MDP, to 1e-10.
     ///
-    #[cfg_attr(feature = "macros", doc = "```")]
-    #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+    /// ```
     /// use tltl::model;
     /// use tltl::prelude::*;
     ///
@@ -153,6 +164,22 @@ impl Problem {
     /// The optimal sub-policy values of the paper's Eq. 3A6: progress is paid, but q stays as it
     /// is for ever.
     ///
+    /// ```
+    /// use tltl::model;
+    /// use tltl::prelude::*;
+    ///
+    /// // Two cells; each step changes sides. First the one, then the other.
+    /// let cells = model::from_fn(2, 1, |s, _| [(1 - s, 1.0)]);
+    /// let task = Labelled::of_model(&cells, &tltl! { |s: &usize| ({ *s } == 1) T ({ *s } == 0) })?;
+    /// let problem = Problem::new(&Dynamics::new(&cells)?, &task)?;
+    /// let rewards = Rewards::progress().with_gamma(0.5)?;
+    /// // Flat: 1 for this move, and half of the 1 for the next one.
+    /// assert!((problem.optimal_q(&rewards).max(0, 0) - 1.5).abs() < 1e-9);
+    /// // Sub-policy: the same move is paid again every other step, 1 + 0.25 + 0.0625 + …
+    /// assert!((problem.sub_policy_q(&rewards).max(0, 0) - 4.0 / 3.0).abs() < 1e-9);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
     /// # Panics
     /// As [`Self::optimal_q`].
     #[must_use]
@@ -168,6 +195,24 @@ impl Problem {
 
     /// The policy of the largest possible P(satisfied), and among those of the smallest possible
     /// E\[steps\] (actions within 1e-9 of the largest P count as reaching it).
+    ///
+    /// ```
+    /// use tltl::model;
+    /// use tltl::prelude::*;
+    ///
+    /// // From 0 a short way (action 0) that is lost one time in ten, and a sure one over 1 (action 1).
+    /// let ways = model::from_fn(4, 2, |s, a| match (s, a) {
+    ///     (0, 0) => vec![(2, 0.9), (3, 0.1)],
+    ///     (0, 1) => vec![(1, 1.0)],
+    ///     (1, _) => vec![(2, 1.0)],
+    ///     _ => vec![(s, 1.0)],
+    /// });
+    /// let task = Labelled::of_model(&ways, &tltl! { |s: &usize| ({ *s } != 3) U ({ *s } == 2) })?;
+    /// let best = Problem::new(&Dynamics::new(&ways)?, &task)?.best();
+    /// assert_eq!(best.policy().act(0, 0), 1, "P comes first, steps only then");
+    /// assert_eq!((best.satisfied().at(0, 0), best.steps(0, 0)), (1.0, Some(2.0)));
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn best(&self) -> Evaluation {
         let accept = self.acceptance();
@@ -188,8 +233,7 @@ impl Problem {
 
     /// P(satisfied) and E\[steps\] of a policy, whatever it does: where it never succeeds, P is 0.
     ///
-    #[cfg_attr(feature = "macros", doc = "```")]
-    #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+    /// ```
     /// use tltl::model;
     /// use tltl::prelude::*;
     ///
@@ -232,6 +276,23 @@ impl Problem {
 
     /// The smallest possible P(the trap is ever entered); 1 at the trap. A policy that reaches it may
     /// stay away from the goal too: see [`shield`](crate::shield).
+    ///
+    /// ```
+    /// use tltl::model;
+    /// use tltl::prelude::*;
+    ///
+    /// // In 0: wait (action 0), or try for 1, which goes wrong one time in four (action 1).
+    /// let risk = model::from_fn(3, 2, |s, a| match (s, a) {
+    ///     (0, 1) => vec![(1, 0.75), (2, 0.25)],
+    ///     _ => vec![(s, 1.0)],
+    /// });
+    /// let task = Labelled::of_model(&risk, &tltl! { |s: &usize| ({ *s } != 2) U ({ *s } == 1) })?;
+    /// let problem = Problem::new(&Dynamics::new(&risk)?, &task)?;
+    /// let try_it = Policy::from_fn(&task, |_, _| 1)?;
+    /// assert_eq!(problem.lost(&try_it)?.at(0, 0), 0.25);
+    /// assert_eq!(problem.smallest_lost().at(0, 0), 0.0, "who waits for ever is never lost");
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn smallest_lost(&self) -> Values {
         let mut lost = self.lost_by(&self.entering(End::Lost), &Rule::Least);

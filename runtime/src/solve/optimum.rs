@@ -20,8 +20,7 @@ const TOLERANCE: f64 = 1e-6;
 /// The optimum of a [`Problem`]: the optimal values for some rewards, and the policy that satisfies
 /// the task most probably and then soonest. Policies are judged against it.
 ///
-#[cfg_attr(feature = "macros", doc = "```")]
-#[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+/// ```
 /// use tltl::model;
 /// use tltl::prelude::*;
 ///
@@ -50,8 +49,7 @@ impl Optimum {
     /// The optimum of the same problem for other rewards. What the task itself wants is not solved
     /// again.
     ///
-    #[cfg_attr(feature = "macros", doc = "```")]
-    #[cfg_attr(not(feature = "macros"), doc = "```ignore")]
+    /// ```
     /// use tltl::model;
     /// use tltl::prelude::*;
     /// use tltl::reward::Mode;
@@ -113,6 +111,20 @@ impl Optimum {
     /// What `policy` is worth from each state in which an episode can start: a mean over the starts
     /// may hide one from which it fails.
     ///
+    /// ```
+    /// use tltl::model;
+    /// use tltl::prelude::*;
+    ///
+    /// // Five cells in a row: action 0 goes left, action 1 right. Reach the right end.
+    /// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+    /// let task = Labelled::of_model(&row, &tltl! { |s: &usize| F ({ *s } == 4) })?;
+    /// let optimum = Problem::new(&Dynamics::new(&row)?, &task)?.optimum(&Rewards::default());
+    /// let timid = Policy::from_fn(&task, |_, s| usize::from(s > 1))?; // never leaves the left end
+    /// let fails = optimum.starts(&timid)?.into_iter().filter(|start| start.satisfied < 1.0);
+    /// assert!(fails.map(|start| start.state).eq([0, 1]));
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
     /// # Errors
     /// If it is a policy for another task or another world.
     pub fn starts(&self, policy: &Policy) -> Result<Vec<Start>, Mismatch> {
@@ -127,6 +139,21 @@ impl Optimum {
 
     /// The pairs of a live q and a state in which the action of `policy` is worse for the rewards
     /// than the best one by more than 1e-6, in the order of q, then s.
+    ///
+    /// ```
+    /// use tltl::model;
+    /// use tltl::prelude::*;
+    ///
+    /// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+    /// let task = Labelled::of_model(&row, &tltl! { |s: &usize| F ({ *s } == 4) })?;
+    /// let problem = Problem::new(&Dynamics::new(&row)?, &task)?;
+    /// let optimum = problem.optimum(&Rewards::acceptance().with_gamma(0.5)?);
+    /// let mistaken = optimum.mistakes(&Policy::from_fn(&task, |_, s| usize::from(s != 3))?)?;
+    /// let (at, loss) = (&mistaken[0], mistaken[0].loss);
+    /// assert_eq!((at.state, at.action, at.best, mistaken.len()), (3, 0, 1, 1));
+    /// assert!((loss - 0.75).abs() < 1e-9, "1 now, or 0.25 after the way back");
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
     ///
     /// # Errors
     /// If it is a policy for another task or another world.
@@ -157,6 +184,9 @@ impl Optimum {
     }
 
     /// The same over the automaton states `at`; 1 if there are none.
+    ///
+    /// Composition is judged so where it is hard: at the automaton states in which more than one skill
+    /// is still to be done.
     ///
     /// # Errors
     /// If it is a policy for another task or another world.

@@ -1,9 +1,17 @@
 //! What a pair is worth, given what arriving at its successors is worth.
+//!
+//! Five problems are solved by the same sweeps: optimal values, the least chance of being lost, the
+//! values and the costs of a given policy, and the least costs among actions that are allowed. They
+//! differ in how a pair's value follows from those of its actions, and that is a [`Rule`]. A rule is
+//! data and not a closure: closures made eight copies of the sweeps and three of the search.
 
 use super::Actions;
 use super::settle::{Guess, Lookahead};
 
 /// How the value of a pair follows from those of its actions.
+///
+/// Costs are undiscounted and weighted by success: where a policy succeeds with probability P, each
+/// step costs P, so that the sum divided by P is E\[steps\] given success.
 pub(super) enum Rule<'a> {
     /// The largest.
     Largest,
@@ -45,6 +53,9 @@ impl Rule<'_> {
     }
 
     /// How late a pair of this value is settled.
+    ///
+    /// The largest values come first, for what leads to them is worth less; so do the least costs. A
+    /// cost is divided by the weight of its pair, or pairs that seldom succeed would seem near.
     #[inline]
     pub(super) fn key(&self, pair: usize, value: f64) -> f64 {
         match *self {
@@ -56,6 +67,9 @@ impl Rule<'_> {
 }
 
 /// What a backup sees: the probabilities of one state's successors, and what arriving is worth.
+///
+/// `matrix` has a row for each action, each with a probability for each successor; `arrivals` has
+/// what arriving at each successor is worth, payment included, in the same order.
 pub(super) struct Backup<'a> {
     pub(super) matrix: &'a [f64],
     pub(super) arrivals: &'a [f64],
@@ -82,6 +96,8 @@ impl Backup<'_> {
     }
 
     /// The least value of the actions that are `allowed`.
+    ///
+    /// Infinite where none is: such a pair is never chosen.
     #[inline]
     fn min_where(&self, allowed: impl Fn(usize) -> bool) -> f64 {
         let values = self.values().enumerate().filter(|&(a, _)| allowed(a));

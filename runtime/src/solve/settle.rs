@@ -10,6 +10,11 @@
 //! way. Over-relaxation by 1 / (1 − γ(1 − m)), where m is the probability that the chosen action
 //! leads to pairs settled before, makes the weight of what is known 1, so that one sweep carries
 //! corrections over the whole world.
+//!
+//! What this is not: a solver. Nothing here bounds an error, and on worlds where the guesses are poor
+//! (many unlikely outcomes that lead far away) the sweeps that follow have more to do. Cost: each pair
+//! is settled once, and renewed once for each successor: one look at all its actions, and a heap
+//! operation where that improves it.
 
 use alloc::collections::BinaryHeap;
 use alloc::vec::Vec;
@@ -19,6 +24,9 @@ use super::block::Block;
 use super::rule::Rule;
 
 /// What is known about the successors of a state while pairs are settled.
+///
+/// NaN and not a flag: the arrivals of one state are gathered into one slice anyway, and a sum that
+/// met an unknown by mistake would show it.
 pub(super) struct Lookahead<'a> {
     pub(super) matrix: &'a [f64],
     /// What arriving is worth; NaN: not known yet.
@@ -28,6 +36,8 @@ pub(super) struct Lookahead<'a> {
 }
 
 /// An action as far as its outcomes are known.
+///
+/// The sums that all guesses need, so that each action is looked through once.
 #[derive(Clone, Copy, Default)]
 struct Blend {
     /// Σ p · arrival over the known ones.
@@ -65,6 +75,9 @@ impl Lookahead<'_> {
     }
 
     /// Discounted value of an action: what is not known is worth as much as the state itself.
+    ///
+    /// With the probability m of what is known and Σ p · arrival over it, v = Σ + γ (1 − m) v, so
+    /// v = Σ / (1 − γ (1 − m)). The same factor is how far to over-relax.
     pub(super) fn discounted(&self, action: usize, gamma: f64) -> Guess {
         let blend = self.blend(action);
         if blend.known <= 0.0 {
@@ -75,6 +88,8 @@ impl Lookahead<'_> {
     }
 
     /// The largest discounted value of the actions.
+    ///
+    /// A NaN compares as not less, so an action of which nothing is known replaces nothing.
     pub(super) fn best(&self, gamma: f64) -> Guess {
         let all = (0..self.actions()).map(|a| self.discounted(a, gamma));
         all.fold(Guess::NONE, |best, e| if e.value <= best.value { best } else { e.or(best) })
@@ -89,6 +104,8 @@ impl Lookahead<'_> {
         let over = 1.0 / blend.known;
         if blend.known <= 0.0 {
             Guess::NONE
+        // Near 0 the extrapolation would blow a small error up; then what is not known costs as much
+        // as the state itself.
         } else if scale > 0.25 {
             Guess { value: (cost + blend.sum - unknown * blend.main) / scale, over }
         } else {
@@ -121,7 +138,8 @@ impl Guess {
     }
 }
 
-/// The largest over-relaxation.
+/// The largest over-relaxation. Theory allows factors below 2 for symmetric systems, which these are
+/// not; where little is known the factor above would be large, and sweeps would swing.
 const MOST: f64 = 1.5;
 
 /// Pairs as they were settled.
@@ -132,6 +150,9 @@ pub(super) struct Settled {
 }
 
 /// A pair that waits, the least key first.
+///
+/// A pair may wait more than once, each time with a better key; the first that comes out settles it,
+/// and the others find it settled. That is cheaper than a heap that can change a key.
 struct Waiting {
     key: f64,
     pair: (u32, u32),
@@ -159,6 +180,9 @@ impl PartialEq for Waiting {
 impl Eq for Waiting {}
 
 /// How far a pair is.
+///
+/// `Outside` pairs cannot reach an exit, or are not asked for; `Open` ones wait for a value or have a
+/// first one; `Settled` ones keep theirs.
 #[derive(Clone, Copy, PartialEq)]
 enum Stage {
     Outside,
@@ -167,6 +191,9 @@ enum Stage {
 }
 
 /// The search.
+///
+/// `arrivals` is NaN where a pair of the component is not settled yet, and the worth of leaving where
+/// a move leaves it.
 struct Front<'a> {
     block: &'a Block<'a>,
     rule: &'a Rule<'a>,
@@ -226,6 +253,9 @@ impl Front<'_> {
 
 /// Settles the pairs of `block` that can reach an exit: sets their values, and returns them in the
 /// order in which they were settled.
+///
+/// Pairs of which nothing ever becomes known (all their ways lead through pairs that no rule
+/// settles) come last, with the value of the last settled one: a start that is not absurd.
 pub(super) fn settle(block: &Block<'_>, values: &mut [f64], rule: &Rule<'_>) -> Settled {
     let pairs = block.reached_pairs();
     let mut stage = alloc::vec![Stage::Outside; block.members.len() * block.states()];
