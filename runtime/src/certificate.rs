@@ -4,6 +4,9 @@
 use serde::{Deserialize, Serialize};
 
 /// What a certificate rests on.
+///
+/// Documents say it, so that a reader knows whether a number was computed; every certificate that this
+/// library makes is exact.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
@@ -16,6 +19,24 @@ pub enum Basis {
 /// What a policy is worth against the best possible: exact means over the starts, `s_0` read.
 ///
 /// For a world without a model there is [`Estimate`](crate::estimate::Estimate).
+///
+/// ```
+/// use tltl::model;
+/// use tltl::prelude::*;
+/// use tltl::solve::{Basis, Certificate};
+///
+/// // Five cells in a row. Reach the right end; this policy first goes to the left one from cell 1.
+/// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+/// let task = Labelled::of_model(&row, &tltl! { |s: &usize| F ({ *s } == 4) })?;
+/// let optimum = Problem::new(&Dynamics::new(&row)?, &task)?.optimum(&Rewards::default());
+/// let Certificate { basis, satisfied, regret_satisfied, worst_regret_satisfied, .. } =
+///     optimum.certify(&Policy::from_fn(&task, |_, s| usize::from(s != 1))?)?;
+/// assert_eq!(basis, Basis::Exact);
+/// // From 0 and 1 it goes round for ever: two starts of five.
+/// assert!((satisfied - 0.6).abs() < 1e-9 && (regret_satisfied - 0.4).abs() < 1e-9);
+/// assert_eq!(worst_regret_satisfied, 1.0);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -44,6 +65,8 @@ pub struct Certificate {
 }
 
 /// What a policy is worth from one start, `s_0` read.
+///
+/// [`Optimum::starts`](crate::solve::Optimum::starts) lists one for each start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Start {
@@ -60,6 +83,9 @@ pub struct Start {
 }
 
 /// A pair in which a policy's action is not optimal for a reward.
+///
+/// [`Optimum::mistakes`](crate::solve::Optimum::mistakes) lists them. A policy may have many and lose
+/// nothing: pairs that it never comes to count here, and in no mean over the starts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Mistake {
@@ -76,6 +102,8 @@ pub struct Mistake {
 }
 
 /// What a shield does to a policy: means over the starts, `s_0` read.
+///
+/// [`Optimum::certify_shield`](crate::solve::Optimum::certify_shield) makes it.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]

@@ -32,6 +32,31 @@ use crate::reward::Rewards;
 use crate::solve::Problem;
 
 /// How the skills' values are combined.
+///
+/// Where skills are scaled differently (one pays once, another twice on its way) the plain sum
+/// listens to the one with more to gain; [`Self::NormalisedSum`] listens to both alike. Only the plain
+/// sum can be compensated, for Eq. 3C8 is about values as they are.
+///
+/// ```
+/// use tltl::model;
+/// use tltl::prelude::*;
+///
+/// // Five cells in a row, and a skill for each end.
+/// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+/// let (left, right) = (tltl! { |s: &usize| F ({ *s } == 0) }, tltl! { |s: &usize| F ({ *s } == 4) });
+/// let (world, rewards) = (Dynamics::new(&row)?, Rewards::default());
+/// let one = Problem::new(&world, &Labelled::of_model(&row, &left)?)?.optimal_q(&rewards);
+/// let two = Problem::new(&world, &Labelled::of_model(&row, &right)?)?.optimal_q(&rewards);
+/// let product = Product::conjunction(&[&left, &right]);
+/// let task = Labelled::of_model(&row, &product)?;
+/// let composition = Composition::new(&product, &task, &[&one, &two], rewards)?;
+/// let nearer = [Combine::Sum, Combine::NormalisedSum, Combine::Max].map(|combine| {
+///     let q = composition.initial(combine);
+///     [q.greedy(0, 1), q.greedy(0, 3)]
+/// });
+/// assert_eq!(nearer, [[0, 1]; 3], "beside an end each of them goes there first");
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Combine {
     /// Their sum (Algorithm 2, step 2).
@@ -44,6 +69,32 @@ pub enum Combine {
 
 /// Skills that are being composed, step by step, whatever holds their values: tables
 /// ([`Composition::on`]) or networks (`deep::Composition`). It begins at step 2.
+///
+/// A study that compares the steps is so written once for both:
+///
+/// ```
+/// use tltl::compose::Compose;
+/// use tltl::model;
+/// use tltl::prelude::*;
+///
+/// /// What is done first, after step 2 and after step 6.
+/// fn first<C: Compose>(mut skills: C, q: u32, s: &C::State) -> Result<[usize; 2], C::Error> {
+///     let sum = skills.act(q, s)?;
+///     skills.refine(1)?;
+///     Ok([sum, skills.act(q, s)?])
+/// }
+///
+/// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+/// let (left, right) = (tltl! { |s: &usize| F ({ *s } == 0) }, tltl! { |s: &usize| F ({ *s } == 4) });
+/// let (world, rewards) = (Dynamics::new(&row)?, Rewards::default());
+/// let one = Problem::new(&world, &Labelled::of_model(&row, &left)?)?.optimal_q(&rewards);
+/// let two = Problem::new(&world, &Labelled::of_model(&row, &right)?)?.optimal_q(&rewards);
+/// let product = Product::conjunction(&[&left, &right]);
+/// let task = Labelled::of_model(&row, &product)?;
+/// let tables = Composition::new(&product, &task, &[&one, &two], rewards)?;
+/// assert_eq!(first(tables.on(&world, Combine::Sum)?, 0, &3)?, [1, 1]);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 pub trait Compose {
     /// A state of the world; of tables, its number.
     type State: ?Sized;
@@ -73,6 +124,9 @@ pub trait Compose {
 }
 
 /// A composition of tables that is carried out step by step.
+///
+/// [`Composition::on`] makes it; as a [`Compose`] it is what networks are too. A step of tables is
+/// exact and done at once, so the number of updates only says whether it is taken.
 #[derive(Clone, Debug)]
 pub struct Stepwise<'a> {
     composition: Composition<'a>,
@@ -227,6 +281,25 @@ impl<'a> Composition<'a> {
 
     /// Steps 3–5: the plain sum less the compensation Q_{1∧2} of Eq. 3C10, trap-aware.
     ///
+    /// ```
+    /// use tltl::model;
+    /// use tltl::prelude::*;
+    ///
+    /// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+    /// // The mail and the coffee are in the same cell.
+    /// let (mail, coffee) = (tltl! { |s: &usize| F ({ *s } == 0) }, tltl! { |s: &usize| F ({ *s } == 0) });
+    /// let (world, rewards) = (Dynamics::new(&row)?, Rewards::default());
+    /// let one = Problem::new(&world, &Labelled::of_model(&row, &mail)?)?.optimal_q(&rewards);
+    /// let two = Problem::new(&world, &Labelled::of_model(&row, &coffee)?)?.optimal_q(&rewards);
+    /// let product = Product::conjunction(&[&mail, &coffee]);
+    /// let task = Labelled::of_model(&row, &product)?;
+    /// let composition = Composition::new(&product, &task, &[&one, &two], rewards)?;
+    /// // One step is progress of both, which the product pays once.
+    /// let (sum, exact) = (composition.initial(Combine::Sum), composition.compensated(&world)?);
+    /// assert!((sum.max(0, 1) - 2.0).abs() < 1e-9 && (exact.max(0, 1) - 1.0).abs() < 1e-9);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
     /// # Errors
     /// If `dynamics` is of another world.
     pub fn compensated(&self, dynamics: &Dynamics) -> Result<QTable, Mismatch> {
@@ -265,6 +338,9 @@ impl<'a> Composition<'a> {
     }
 
     /// What the skills are paid together beyond what the product pays.
+    ///
+    /// It is what Q_{1∧2} discounts: positive where one step is a step of several skills, and where one
+    /// skill moves on while another is lost.
     fn excess(&self) -> Payment {
         let pay = |skill: &&QTable| skill.task().payment(&self.rewards);
         let payments: Vec<Payment> = self.skills.iter().map(pay).collect();

@@ -15,6 +15,24 @@ use crate::reward::End;
 use crate::task::Error;
 
 /// A low-level controller: an action for a state.
+///
+/// Anything that can be called: a table, a planner, a PID loop with a state of its own. It is asked
+/// only at the automaton states that it was given to, and never told of the task.
+///
+/// ```
+/// use tltl::controller::{Controller, Hierarchy};
+/// use tltl::tltl;
+///
+/// let task = tltl! { |x: &i32| ({ *x } == 2) T ({ *x } == 0) };
+/// let controllers: Vec<Controller<'_, i32>> = vec![Box::new(|_| 1), Box::new(|x| usize::from(*x < 0))];
+/// let mut hierarchy = Hierarchy::new(&task, |_: &i32| 0);
+/// for (q, controller) in controllers.into_iter().enumerate() {
+///     hierarchy = hierarchy.with(q as u32, controller);
+/// }
+/// hierarchy.observe(&2)?;
+/// assert_eq!((hierarchy.q(), hierarchy.act(&2)), (Some(1), 0));
+/// # Ok::<(), tltl::task::Error>(())
+/// ```
 pub type Controller<'a, S> = Box<dyn FnMut(&S) -> usize + 'a>;
 
 /// Low-level controllers under an automaton.
@@ -72,6 +90,20 @@ impl<'a, S, M: Monitor<S>> Hierarchy<'a, S, M> {
     }
 
     /// Forgets the episode: the next state that is observed is an s_0.
+    ///
+    /// ```
+    /// use tltl::controller::Hierarchy;
+    /// use tltl::reward::End;
+    /// use tltl::tltl;
+    ///
+    /// let task = tltl! { |x: &i32| F ({ *x } == 3) };
+    /// let mut hierarchy = Hierarchy::new(&task, |_: &i32| 1);
+    /// assert_eq!(hierarchy.observe(&3)?, Some(End::Accepted));
+    /// hierarchy.reset();
+    /// assert_eq!((hierarchy.q(), hierarchy.end()), (None, None));
+    /// assert_eq!(hierarchy.observe(&0)?, None, "a new episode");
+    /// # Ok::<(), tltl::task::Error>(())
+    /// ```
     pub fn reset(&mut self) {
         self.q = None;
     }
@@ -97,6 +129,21 @@ impl<'a, S, M: Monitor<S>> Hierarchy<'a, S, M> {
     /// [`Policy`] the hierarchy can be [certified](crate::solve::Optimum::certify) exactly, and
     /// saved. Of a controller with a memory of its own the policy says what the controller does when
     /// it is asked in this order.
+    ///
+    /// ```
+    /// use tltl::controller::Hierarchy;
+    /// use tltl::model;
+    /// use tltl::prelude::*;
+    ///
+    /// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+    /// let end = tltl! { |s: &usize| F ({ *s } == 4) };
+    /// let task = Labelled::of_model(&row, &end)?;
+    /// let mut hierarchy = Hierarchy::new(&end, |_: &usize| 0).with(0, |s: &usize| usize::from(*s > 0));
+    /// let policy = hierarchy.policy(&task, 0..5)?;
+    /// let optimum = Problem::new(&Dynamics::new(&row)?, &task)?.optimum(&Rewards::default());
+    /// assert_eq!(optimum.certify(&policy)?.satisfied, 0.8, "stuck in cell 0, sure from the others");
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
     ///
     /// # Errors
     /// If states and controllers do not fit `task`, or an action is not one of the world's.

@@ -104,6 +104,21 @@ use crate::reward::{End, Ends};
 /// assert_eq!(steps, 4);
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
+///
+/// With serde it is saved as the document above and checked when it is loaded:
+///
+/// ```
+/// use tltl::prelude::*;
+///
+/// let task = Labelled::new(0..3, ["stay", "go"], &tltl! { |x: &i32| F ({ *x } == 2) })?;
+/// let policy = Policy::from_fn(&task, |_, _| 1)?;
+/// let text = serde_json::to_string(&policy)?;
+/// assert_eq!(serde_json::from_str::<Policy>(&text)?, policy);
+/// let forged = text.replace("[1,1,1,1,1,1]", "[1,1,1,1,1,2]");
+/// let error = serde_json::from_str::<Policy>(&forged).unwrap_err();
+/// assert!(error.to_string().starts_with("`action`, entry 5: 2 is not less than 2"));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "Document", into = "Document"))]
@@ -245,6 +260,20 @@ impl Policy {
 
     /// The policy that takes the action `act(q, s)`: a rule, or another policy with exceptions.
     ///
+    /// ```
+    /// use tltl::prelude::*;
+    ///
+    /// // First the right end of five cells, then the left one: whatever q says is still to be done.
+    /// let ends = tltl! { |x: &i32| ({ *x } == 4) T ({ *x } == 0) };
+    /// let task = Labelled::new(0..5, ["left", "right"], &ends)?;
+    /// let policy = Policy::from_fn(&task, |q, _| usize::from(q == 0))?;
+    /// assert_eq!((policy.act(0, 2), policy.act(1, 2)), (1, 0));
+    /// // The same with an exception.
+    /// let stubborn = Policy::from_fn(&task, |q, s| if s == 2 { 1 } else { policy.act(q, s) })?;
+    /// assert!(stubborn.sub_policy(1).eq([0, 0, 1, 0, 0]));
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
     /// # Errors
     /// If that is not an action of the world for some (q, s).
     pub fn from_fn(
@@ -263,6 +292,25 @@ impl Policy {
 
     /// The same policy, saying how it was learned; called once for each skill of a composition.
     /// [`Learner::policy`](crate::learn::Learner::policy) says it already.
+    ///
+    /// ```
+    /// use tltl::learn::Settings;
+    /// use tltl::policy::Training;
+    /// use tltl::prelude::*;
+    ///
+    /// let task = Labelled::new(0..3, ["stay", "go"], &tltl! { |x: &i32| F ({ *x } == 2) })?;
+    /// let skill = |name: &str, seed| Training {
+    ///     task: name.into(),
+    ///     settings: Settings::default(),
+    ///     steps: 20_000,
+    ///     episodes: 900,
+    ///     seed,
+    /// };
+    /// let policy = Policy::from_fn(&task, |_, _| 1)?;
+    /// let policy = policy.trained(skill("fetch", 7)).trained(skill("bring", 8));
+    /// assert_eq!(policy.training()[1].task, "bring");
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn trained(mut self, training: Training) -> Self {
         self.record.training.push(training);
@@ -294,6 +342,24 @@ impl Policy {
 
     /// The same policy, saying what the shield that its actions are under costs and gains; what it
     /// is worth under it is then its certificate.
+    ///
+    /// ```
+    /// use tltl::model;
+    /// use tltl::prelude::*;
+    /// use tltl::shield::Shield;
+    ///
+    /// // Five cells in a row. Reach the right end, and keep off the left one until then.
+    /// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+    /// let task = Labelled::of_model(&row, &tltl! { |s: &usize| ({ *s } != 0) U ({ *s } == 4) })?;
+    /// let problem = Problem::new(&Dynamics::new(&row)?, &task)?;
+    /// let (optimum, shield) = (problem.optimum(&Rewards::default()), Shield::of_model(&problem));
+    /// let unlearned = QTable::zeros(&task); // ties go to action 0, to the left
+    /// let worth = optimum.certify_shield(&shield, &unlearned)?;
+    /// let policy = shield.policy(&unlearned)?.shielded(worth);
+    /// assert_eq!(policy.shield().map(|worth| worth.before.satisfied), Some(0.2));
+    /// assert_eq!(policy.certificate(), policy.shield().map(|worth| &worth.after));
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn shielded(mut self, worth: Shielded) -> Self {
         self.record.certificate = Some(worth.after.clone());
@@ -302,6 +368,20 @@ impl Policy {
     }
 
     /// The same policy, saying what it is worth from each start.
+    ///
+    /// ```
+    /// use tltl::model;
+    /// use tltl::prelude::*;
+    ///
+    /// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+    /// let task = Labelled::of_model(&row, &tltl! { |s: &usize| F ({ *s } == 4) })?;
+    /// let optimum = Problem::new(&Dynamics::new(&row)?, &task)?.optimum(&Rewards::default());
+    /// let policy = optimum.best().policy().clone();
+    /// let policy = policy.clone().from_starts(&optimum.starts(&policy)?);
+    /// let steps = policy.starts().map(|starts| starts.steps.clone());
+    /// assert_eq!(steps, Some(vec![Some(4.0), Some(3.0), Some(2.0), Some(1.0), Some(0.0)]));
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn from_starts(mut self, starts: &[Start]) -> Self {
         self.record.starts = Some(Starts::new(starts));
@@ -309,6 +389,24 @@ impl Policy {
     }
 
     /// The same policy, saying what it was seen to be worth, in a world without a model.
+    ///
+    /// ```
+    /// use tltl::estimate::{Trials, estimate};
+    /// use tltl::model;
+    /// use tltl::prelude::*;
+    /// use tltl::rand::{SeedableRng, rngs::Xoshiro256PlusPlus};
+    ///
+    /// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+    /// let (mut env, end) = (ModelEnv::new(row)?, tltl! { |s: &usize| F ({ *s } == 4) });
+    /// let policy = Policy::from_fn(&Labelled::of_env(&env, &end)?, |_, _| 1)?;
+    /// let trials = Trials::default().with_episodes(100)?;
+    /// let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
+    /// let act = |q, s: &usize| Ok::<_, tltl::task::Error>(policy.act(q, *s));
+    /// let seen = estimate(&mut env, &end, trials, &mut rng, act)?;
+    /// let policy = policy.estimated(seen);
+    /// assert_eq!(policy.estimate().map(|seen| seen.satisfied.mean), Some(1.0));
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
     #[cfg(feature = "std")]
     #[must_use]
     pub fn estimated(mut self, estimate: crate::estimate::Estimate) -> Self {

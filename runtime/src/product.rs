@@ -29,6 +29,23 @@ use crate::task::{Error, Formula};
 pub type Operand<'a, S> = &'a (dyn Monitor<S> + Sync + 'a);
 
 /// How the operands make one task.
+///
+/// ```
+/// use tltl::product::{Operand, Operator, Product};
+/// use tltl::{Acceptor, Monitor, tltl};
+///
+/// let (a, b) = (tltl! { |x: &i32| F ({ *x } == 1) }, tltl! { |x: &i32| F ({ *x } == 2) });
+/// let operands: [Operand<'_, i32>; 2] = [&a, &b];
+/// let satisfied = |operator, walk: &[i32]| {
+///     let product = Product::new(operator, &operands);
+///     let q = walk.iter().try_fold(0, |q, x| product.next(q, x))?;
+///     Ok::<bool, tltl::task::Error>(product.is_accepting(q))
+/// };
+/// assert!(satisfied(Operator::Conjunction, &[2, 1])? && !satisfied(Operator::Conjunction, &[2])?);
+/// assert!(satisfied(Operator::Disjunction, &[2])?);
+/// assert!(satisfied(Operator::Sequence, &[1, 2])? && !satisfied(Operator::Sequence, &[2, 1])?);
+/// # Ok::<(), tltl::task::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Operator {
     /// All of them.
@@ -57,6 +74,9 @@ impl Operator {
 
 /// A state of the product: the operand of a sequence that is running, and the operands' states as one
 /// number. `usize::MAX` stands for no operand: the key of an end, which no other key equals.
+///
+/// The tuple as one number makes the look-up of a step a comparison of two words instead of one of
+/// two lists; 2^128 tuples are more than can be explored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Key {
     running: usize,
@@ -71,6 +91,22 @@ enum Landing {
 }
 
 /// How big a product is, under the usual conventions.
+///
+/// Papers count states with or without the trap, and edges with or without self-loops; all four can
+/// be had from these numbers.
+///
+/// ```
+/// use tltl::product::{Operand, Product, Size};
+/// use tltl::tltl;
+///
+/// let careful = tltl! { |x: &i32| ({ *x } != 0) U ({ *x } == 1) };
+/// let both = tltl! { |x: &i32| F ({ *x } == 2) && F ({ *x } == 3) };
+/// let operands: [Operand<'_, i32>; 2] = [&careful, &both];
+/// let Size { states, edges, self_loops, into_trap, trap } = Product::conjunction(&operands).size();
+/// assert_eq!((states, trap), (9, true), "8 without the trap");
+/// assert_eq!(edges - into_trap, 16, "without self-loops and without the trap");
+/// assert_eq!(self_loops, 9);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Size {
     /// States, the trap included.
@@ -148,6 +184,22 @@ impl<'a, S: ?Sized> Product<'a, S> {
 
     /// The task of satisfying one of `operands`.
     ///
+    /// An operand that is lost is out, and the others go on: the product is lost with the last of them.
+    ///
+    /// ```
+    /// use tltl::product::{Operand, Product};
+    /// use tltl::{Acceptor, Monitor, tltl};
+    ///
+    /// let door = tltl! { |x: &i32| ({ *x } != 9) U ({ *x } == 1) };
+    /// let gate = tltl! { |x: &i32| F ({ *x } == 2) };
+    /// let operands: [Operand<'_, i32>; 2] = [&door, &gate];
+    /// let either = Product::disjunction(&operands);
+    /// let q = either.next(0, &9)?;
+    /// assert!(door.is_trap(either.components(q)[0]) && !either.is_trap(q), "the gate is left");
+    /// assert!(either.is_accepting(either.next(q, &2)?));
+    /// # Ok::<(), tltl::task::Error>(())
+    /// ```
+    ///
     /// # Panics
     /// As [`Self::conjunction`].
     #[must_use]
@@ -156,6 +208,24 @@ impl<'a, S: ?Sized> Product<'a, S> {
     }
 
     /// The task of satisfying `operands` one after the other; see [`Operator::Sequence`].
+    ///
+    /// ```
+    /// use tltl::product::{Operand, Product};
+    /// use tltl::{Acceptor, Monitor, tltl};
+    ///
+    /// let fetch = tltl! { |x: &i32| F ({ *x } == 7) };
+    /// let bring = tltl! { |x: &i32| F ({ *x } == 0) };
+    /// let operands: [Operand<'_, i32>; 2] = [&fetch, &bring];
+    /// let errand = Product::sequence(&operands);
+    /// let mut q = 0;
+    /// let running = [0, 3, 7, 4].map(|x| {
+    ///     q = errand.next(q, &x).unwrap();
+    ///     errand.running(q)
+    /// });
+    /// assert_eq!(running, [0, 0, 1, 1], "the 0 at the start does not count: nothing was fetched");
+    /// assert!(errand.is_accepting(errand.next(q, &0)?));
+    /// # Ok::<(), tltl::task::Error>(())
+    /// ```
     ///
     /// # Panics
     /// As [`Self::conjunction`].
@@ -271,6 +341,8 @@ impl<'a, S: ?Sized> Product<'a, S> {
     }
 
     /// The targets of all combinations of the operands' edges from `q`.
+    ///
+    /// Combinations are taken as if every one could occur: the operands' predicates are not compared.
     fn targets(&mut self, q: u32) -> Vec<u32> {
         if self.is_end(q) {
             return alloc::vec![q];
@@ -328,6 +400,9 @@ impl<'a, S: ?Sized> Product<'a, S> {
 
     /// What the product makes of the operands' states. `running` is the operand of a sequence that
     /// has just moved, `None` before the first state is read.
+    ///
+    /// A sequence of several skips no operand before the first state is read, also where that is satisfied
+    /// by every state: each operand has a part of the trajectory of its own, of one state at least.
     fn judge(&self, tuple: &[u32], running: Option<usize>) -> Landing {
         let accepting = |i: usize| self.operands[i].is_accepting(tuple[i]);
         let lost = |i: usize| self.operands[i].is_trap(tuple[i]);

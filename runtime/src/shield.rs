@@ -48,6 +48,9 @@ pub struct Shield {
 impl Shield {
     /// The shield of a known model: the actions with which P(the trap is ever entered) can still be
     /// the smallest possible, within 1e-9.
+    ///
+    /// 1e-9 is ten times the error of the values: ties are common, and a shield must not bar an action
+    /// for a rounding.
     #[must_use]
     pub fn of_model(problem: &Problem) -> Self {
         let actions = problem.avoiding(&problem.smallest_lost());
@@ -57,6 +60,21 @@ impl Shield {
     /// The shield of what was seen: the actions that entered the trap least often, as a fraction of
     /// the times that they were tried. It looks one step ahead only: it may lead to where every
     /// action is dangerous. An action never tried counts as harmless.
+    ///
+    /// ```
+    /// use tltl::learn::Experience;
+    /// use tltl::prelude::*;
+    /// use tltl::shield::Shield;
+    ///
+    /// // Cell 2 is the goal, cell 0 is to be kept off. From 1, action 0 was seen to lead to 0.
+    /// let careful = tltl! { |x: &i32| ({ *x } != 0) U ({ *x } == 2) };
+    /// let task = Labelled::new(0..3, ["left", "right"], &careful)?;
+    /// let mut seen = Experience::new(3, 2);
+    /// seen.push(1, 0, 0);
+    /// let shield = Shield::one_step(&seen, &task)?;
+    /// assert!(!shield.allows(0, 1, 0) && shield.allows(0, 1, 1), "never tried counts as harmless");
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
     ///
     /// # Errors
     /// If the experience is of another world.
@@ -105,6 +123,23 @@ impl Shield {
 
     /// The allowed action of the largest value in `table`; the lowest of equals.
     ///
+    /// ```
+    /// use tltl::model;
+    /// use tltl::prelude::*;
+    /// use tltl::shield::Shield;
+    ///
+    /// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+    /// let task = Labelled::of_model(&row, &tltl! { |s: &usize| ({ *s } != 0) U ({ *s } == 4) })?;
+    /// let shield = Shield::of_model(&Problem::new(&Dynamics::new(&row)?, &task)?);
+    /// let mut table = QTable::zeros(&task);
+    /// for s in 1..4 {
+    ///     table.row_mut(0, s)[0] = 1.0; // a table that likes the left, where the trap is
+    /// }
+    /// assert_eq!((table.greedy(0, 1), shield.greedy(&table, 0, 1)), (0, 1));
+    /// assert_eq!((shield.policy(&table)?.act(0, 1), shield.policy(&table)?.act(0, 3)), (1, 0));
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
     /// # Panics
     /// If there is no such pair in the shield's task or in the table's.
     #[must_use]
@@ -130,6 +165,23 @@ impl Shield {
 
 impl Optimum {
     /// What `shield` costs and gains when it is laid over the greedy policy of `table`.
+    ///
+    /// ```
+    /// use tltl::model;
+    /// use tltl::prelude::*;
+    /// use tltl::shield::Shield;
+    ///
+    /// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+    /// let task = Labelled::of_model(&row, &tltl! { |s: &usize| ({ *s } != 0) U ({ *s } == 4) })?;
+    /// let problem = Problem::new(&Dynamics::new(&row)?, &task)?;
+    /// let (optimum, shield) = (problem.optimum(&Rewards::default()), Shield::of_model(&problem));
+    /// // An unlearned table goes left, into the trap, from the three cells between the ends. The shield
+    /// // bars only the last step: it knows the trap, not the goal.
+    /// let worth = optimum.certify_shield(&shield, &QTable::zeros(&task))?;
+    /// assert!((worth.lost_before - 0.8).abs() < 1e-9 && (worth.lost_after - 0.2).abs() < 1e-9);
+    /// assert!(worth.after.satisfied < 0.5 && worth.after.optimal_satisfied > 0.7);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
     ///
     /// # Errors
     /// If the shield or the table is of another task or another world.

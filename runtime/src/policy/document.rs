@@ -4,6 +4,10 @@
 //! checks every size and every entry, so that nothing in a file can make a policy panic later. The
 //! format and the version are looked at where they stand: a file of another format is refused for
 //! being that, not for a field that the other format does not have.
+//!
+//! What is not checked: whether the certificate, the starts and the estimate are *true*. They are what
+//! the writer says, and a reader with a model can certify again. Nor is the automaton compared with the
+//! formula, for the runtime does not parse: the formula is a text to show.
 
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -19,6 +23,15 @@ use crate::reward::Ends;
 use crate::settings::Settings;
 
 /// The automaton of a policy, without its edges.
+///
+/// ```
+/// use tltl::policy::States;
+/// use tltl::tltl;
+///
+/// let states = States::of(&tltl! { |s: &(bool, bool)| !s.0 U s.1 });
+/// assert_eq!((states.states, states.initial), (3, 0));
+/// assert_eq!((states.accepting, states.trap), (Some(1), Some(2)));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -45,6 +58,23 @@ impl States {
 
 /// How a policy, or a skill that it was composed from, was learned: all that is needed to learn it
 /// again. [`Learner::training`](crate::learn::Learner::training) has it.
+///
+/// ```
+/// use tltl::model;
+/// use tltl::prelude::*;
+///
+/// let mut env = ModelEnv::new(model::from_fn(2, 1, |s, _| [(1 - s, 1.0)]))?;
+/// let task = Labelled::of_env(&env, &tltl! { |s: &usize| F ({ *s } == 1) })?;
+/// let mut learner = Learner::new(&task, Settings::default(), 7);
+/// learner.train(&mut env, 100)?;
+/// let how = learner.policy().training()[0].clone();
+/// assert_eq!((how.steps, how.seed), (100, 7));
+/// // The same settings, seed and number of steps give the same policy.
+/// let mut again = Learner::new(&task, how.settings, how.seed);
+/// again.train(&mut env, how.steps)?;
+/// assert_eq!(again.policy(), learner.policy());
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -166,6 +196,22 @@ pub struct Document {
 }
 
 /// Why a document, or a list of actions, is not a policy.
+///
+/// Each names the field by its path in the document, so that whoever writes the file finds it.
+///
+/// ```
+/// use tltl::policy::{Document, PolicyError};
+/// use tltl::prelude::*;
+///
+/// let task = Labelled::new(0..3, ["stay", "go"], &tltl! { |x: &i32| F ({ *x } == 2) })?;
+/// let document: Document = Policy::from_fn(&task, |_, _| 1)?.document();
+/// let short = Document { action: vec![1; 5], ..document.clone() };
+/// let error = PolicyError::Size { field: "action", found: 5, expected: 6 };
+/// assert_eq!(Policy::try_from(short), Err(error));
+/// let later = Policy::try_from(Document { version: 3, ..document }).unwrap_err();
+/// assert_eq!(later.to_string(), "policy version 3; this library reads 2");
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PolicyError {
     /// It is something else.
@@ -235,6 +281,8 @@ impl fmt::Display for PolicyError {
 impl core::error::Error for PolicyError {}
 
 impl Document {
+    /// In this order: what kind of document it is, then sizes, then entries, then what the entries mean,
+    /// each relying on those before; the first error is reported.
     pub(super) fn check(&self) -> Result<(), PolicyError> {
         check_format(&self.format)?;
         check_version(&self.version)?;
@@ -283,6 +331,7 @@ impl Document {
         size("components", components, Some(if components == 0 { 0 } else { n }))
     }
 
+    /// A policy never acts at an end, so an end with a way out would be a state without a meaning.
     fn check_terminal(&self, end: Option<u32>) -> Result<(), PolicyError> {
         let Some(q) = end else { return Ok(()) };
         let row = &self.next[q as usize * self.classes..][..self.classes];
