@@ -1,6 +1,7 @@
 //! The tests of the whole line, from source text to verdicts and learned policies.
 
 mod batch;
+mod bounded;
 mod columns;
 mod corpus;
 mod emitted;

@@ -89,7 +89,11 @@ fn operators(spec: &Spec) -> String {
             Formula::And(a, b) => format!("{} and {}", a.0, b.0),
             Formula::Or(a, b) => format!("{} or {}", a.0, b.0),
             Formula::Next(a) => format!("next {}", a.0),
+            Formula::Delay(n, a) => format!("next[{n}] {}", a.0),
             Formula::Eventually(a) => format!("eventually {}", a.0),
+            Formula::Within(n, a) => format!("eventually[0,{n}] {}", a.0),
+            Formula::Throughout(n, a) => format!("always[0,{n}] {}", a.0),
+            Formula::UntilWithin(n, a, b) => format!("{} until[0,{n}] {}", a.0, b.0),
             Formula::Until(a, b) => format!("{} until {}", a.0, b.0),
             Formula::Then(a, b) => format!("{} then {}", a.0, b.0),
         };

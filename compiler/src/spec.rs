@@ -33,12 +33,14 @@
 //! assert_eq!(spec.to_string(), "a T b");
 //! ```
 
+mod bounded;
 mod print;
 
 use rustc_hash::FxHashMap;
 
 pub use print::Printed;
 
+use crate::arena;
 use crate::proposition::Proposition;
 use crate::source::Span;
 
@@ -46,6 +48,8 @@ use crate::source::Span;
 /// are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct FormulaId(pub u32);
+
+arena::id! { FormulaId }
 
 /// One operator of a formula in negation normal form, over operands of the same spec.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -67,10 +71,18 @@ pub enum Formula {
     Or(FormulaId, FormulaId),
     /// ○φ, strong: there must be a next state.
     Next(FormulaId),
+    /// X[n] φ: φ at the instant n steps from now, which must exist; n ≥ 2, for X[1] φ is ○φ.
+    Delay(u32, FormulaId),
     /// ◇φ
     Eventually(FormulaId),
+    /// F[0,n] φ: φ now or at one of the next n instants; n ≥ 1.
+    Within(u32, FormulaId),
+    /// G[0,n] φ, strong: φ now and at each of the next n instants, which must exist; n ≥ 1.
+    Throughout(u32, FormulaId),
     /// φ U ψ, strong: ψ must come.
     Until(FormulaId, FormulaId),
+    /// φ U[0,n] ψ: ψ now or at one of the next n instants, φ at each instant before; n ≥ 1.
+    UntilWithin(u32, FormulaId, FormulaId),
     /// φ T ψ = ◇(φ ∧ ○◇ψ): the operands are φ and ◇ψ, which is an operator of its own, for it
     /// becomes an obligation of its own.
     Then(FormulaId, FormulaId),
@@ -87,27 +99,47 @@ impl Formula {
     /// assert_eq!(Formula::True.operands().count(), 0);
     /// ```
     pub fn operands(self) -> impl DoubleEndedIterator<Item = FormulaId> {
-        use Formula::{And, Eventually, False, Literal, Next, Or, Then, True, Until};
         let pair = match self {
-            True | False | Literal { .. } => [None, None],
-            Next(a) | Eventually(a) => [Some(a), None],
-            And(a, b) | Or(a, b) | Until(a, b) | Then(a, b) => [Some(a), Some(b)],
+            Self::True | Self::False | Self::Literal { .. } => [None, None],
+            Self::Next(a) | Self::Delay(_, a) | Self::Eventually(a) => [Some(a), None],
+            Self::Within(_, a) | Self::Throughout(_, a) => [Some(a), None],
+            Self::And(a, b) | Self::Or(a, b) => [Some(a), Some(b)],
+            Self::Until(a, b) | Self::UntilWithin(_, a, b) | Self::Then(a, b) => [Some(a), Some(b)],
         };
         pair.into_iter().flatten()
+    }
+
+    /// Whether the operator relates instants.
+    ///
+    /// ```
+    /// use tltl_compiler::spec::{Formula, FormulaId};
+    ///
+    /// let [a, b] = [0, 1].map(FormulaId);
+    /// assert!(Formula::Within(3, a).is_temporal() && !Formula::And(a, b).is_temporal());
+    /// ```
+    #[must_use]
+    pub fn is_temporal(self) -> bool {
+        !matches!(
+            self,
+            Self::True | Self::False | Self::Literal { .. } | Self::And(..) | Self::Or(..)
+        )
     }
 
     /// The same operator over the images of its operands.
     #[must_use]
     fn over(self, mut image: impl FnMut(FormulaId) -> FormulaId) -> Self {
-        use Formula::{And, Eventually, False, Literal, Next, Or, Then, True, Until};
         match self {
-            True | False | Literal { .. } => self,
-            And(a, b) => And(image(a), image(b)),
-            Or(a, b) => Or(image(a), image(b)),
-            Next(a) => Next(image(a)),
-            Eventually(a) => Eventually(image(a)),
-            Until(a, b) => Until(image(a), image(b)),
-            Then(a, b) => Then(image(a), image(b)),
+            Self::True | Self::False | Self::Literal { .. } => self,
+            Self::And(a, b) => Self::And(image(a), image(b)),
+            Self::Or(a, b) => Self::Or(image(a), image(b)),
+            Self::Next(a) => Self::Next(image(a)),
+            Self::Delay(n, a) => Self::Delay(n, image(a)),
+            Self::Eventually(a) => Self::Eventually(image(a)),
+            Self::Within(n, a) => Self::Within(n, image(a)),
+            Self::Throughout(n, a) => Self::Throughout(n, image(a)),
+            Self::Until(a, b) => Self::Until(image(a), image(b)),
+            Self::UntilWithin(n, a, b) => Self::UntilWithin(n, image(a), image(b)),
+            Self::Then(a, b) => Self::Then(image(a), image(b)),
         }
     }
 }
@@ -265,14 +297,17 @@ impl Spec {
     pub fn next(&mut self, a: FormulaId, span: Span) -> FormulaId {
         match self.formula(a) {
             Formula::False => a,
+            Formula::Delay(n, b) if n < u32::MAX => self.intern(Formula::Delay(n + 1, b), span),
             _ => self.intern(Formula::Next(a), span),
         }
     }
 
-    /// ◇φ. An operator that is satisfied later whenever it is satisfied now, ◇ and T, absorbs it.
+    /// ◇φ. An operator that is satisfied later whenever it is satisfied now, ◇ and T, absorbs it;
+    /// it absorbs F[0,n].
     pub fn eventually(&mut self, a: FormulaId, span: Span) -> FormulaId {
         match self.formula(a) {
             Formula::True | Formula::False | Formula::Eventually(_) | Formula::Then(..) => a,
+            Formula::Within(_, b) => self.eventually(b, span),
             _ => self.intern(Formula::Eventually(a), span),
         }
     }
@@ -284,6 +319,7 @@ impl Spec {
             (_, Formula::True | Formula::False) | (Formula::False, _) => b,
             (Formula::True, _) => self.eventually(b, span),
             (_, Formula::Until(c, _)) if a == c => b,
+            (_, Formula::UntilWithin(_, c, d)) if a == c => self.until(a, d, span),
             (_, Formula::Eventually(_) | Formula::Then(..)) => b,
             _ if a == b => a,
             _ => self.intern(Formula::Until(a, b), span),
@@ -321,8 +357,12 @@ impl Spec {
             Formula::And(a, b) => self.and(a, b, span),
             Formula::Or(a, b) => self.or(a, b, span),
             Formula::Next(a) => self.next(a, span),
+            Formula::Delay(n, a) => self.delay(n, a, span),
             Formula::Eventually(a) => self.eventually(a, span),
+            Formula::Within(n, a) => self.within(n, a, span),
+            Formula::Throughout(n, a) => self.throughout(n, a, span),
             Formula::Until(a, b) => self.until(a, b, span),
+            Formula::UntilWithin(n, a, b) => self.until_within(n, a, b, span),
             Formula::Then(a, b) => self.then(a, b, span),
         }
     }

@@ -141,6 +141,7 @@ pub enum Operator {
 /// ```
 #[must_use]
 pub fn operators(spec: &Spec) -> Vec<Operator> {
+    let spec = &spec.unrolled();
     let reachable = spec.reachable();
     let mut place = vec![0_u32; reachable.len()];
     let mut operators = Vec::new();
@@ -158,6 +159,7 @@ pub fn operators(spec: &Spec) -> Vec<Operator> {
             Formula::Eventually(a) => Operator::Eventually(at(a)),
             Formula::Until(a, b) => Operator::Until(at(a), at(b)),
             Formula::Then(a, b) => Operator::Then(at(a), at(b)),
+            _ => unreachable!("bounds are written out"),
         });
     }
     operators

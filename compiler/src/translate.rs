@@ -166,7 +166,8 @@ pub struct Exceeded {
 /// # Errors
 /// If the budget does not suffice. The work done until then is bounded by the budget.
 pub fn translate(spec: &Spec, budget: Budget) -> Result<Dfa, Exceeded> {
-    let mut translation = Translation::new(spec, budget)?;
+    let spec = spec.unrolled();
+    let mut translation = Translation::new(&spec, budget)?;
     translation.expand_formulas()?;
     translation.explore()
 }
@@ -338,6 +339,7 @@ impl<'a> Translation<'a> {
                 let first = self.functions.and(first, second);
                 self.functions.or(first, again)
             }
+            _ => unreachable!("bounds are written out"),
         }
     }
 

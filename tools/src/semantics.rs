@@ -2,12 +2,14 @@
 //! every automaton is tested.
 //!
 //! Both readings are one function, generic in the algebra of values: Booleans with `and`, `or` and
-//! `not`, or the extended real numbers with `min`, `max` and negation. It passes once over the
-//! trajectory, from its end, with one cell for each subformula, and follows the definitions of LTL
-//! over finite traces (De Giacomo and Vardi, 2013) unrolled by one instant: `φ U ψ` at i is ψ at i,
-//! or φ at i and `φ U ψ` at i + 1.
+//! `not`, or the extended real numbers with `min`, `max` and negation. Each subformula is a column
+//! of values, computed from the end of the trajectory by the definitions of LTL over finite traces
+//! (De Giacomo and Vardi, 2013) unrolled by one instant: `φ U ψ` at i is ψ at i, or φ at i and
+//! `φ U ψ` at i + 1. An operator with a bound is the minimum or maximum over its window, taken anew
+//! at each instant.
 //!
-//! Time is the number of subformulas times the length, memory two cells for each subformula.
+//! Time and memory are the number of subformulas times the length, and the time of a bounded
+//! operator its bound times more.
 //! Nothing here knows of automata or diagrams, shares code with the translation, or is fast;
 //! [`evaluate`](crate::evaluate) is the fast way.
 
@@ -92,28 +94,37 @@ pub fn robustness(spec: &Spec, length: usize, rho: impl Fn(u32, usize) -> f64) -
     evaluate(spec, length, rho)
 }
 
-/// The value of the whole formula at the first instant. After the end every formula has the value
-/// of `false`: `X` is strong.
+/// The value of the whole formula at the first instant: a column of values for each operator,
+/// operands first. After the end every formula has the value of `false`: `X` is strong.
 fn evaluate<V: Value>(spec: &Spec, length: usize, value: impl Fn(u32, usize) -> V) -> V {
-    let mut now = vec![V::BOTTOM; spec.formulas().len()];
-    let mut next = now.clone();
-    for t in (0..length).rev() {
-        for (id, formula) in spec.formulas() {
-            let at = |values: &[V], id: FormulaId| values[id.0 as usize];
-            now[id.0 as usize] = match formula {
+    let mut columns: Vec<Vec<V>> = Vec::new();
+    for (_, formula) in spec.formulas() {
+        let at =
+            |id: FormulaId, t: usize| columns[id.0 as usize].get(t).copied().unwrap_or(V::BOTTOM);
+        let mut column = vec![V::BOTTOM; length];
+        for t in (0..length).rev() {
+            let next = column.get(t + 1).copied().unwrap_or(V::BOTTOM);
+            let until = |n: u32| t..=t.saturating_add(n as usize).min(length);
+            column[t] = match formula {
                 Formula::True => V::TOP,
                 Formula::False => V::BOTTOM,
                 Formula::Literal { proposition, negated: false } => value(proposition, t),
                 Formula::Literal { proposition, negated: true } => value(proposition, t).not(),
-                Formula::And(a, b) => at(&now, a).and(at(&now, b)),
-                Formula::Or(a, b) => at(&now, a).or(at(&now, b)),
-                Formula::Next(a) => at(&next, a),
-                Formula::Eventually(a) => at(&now, a).or(at(&next, id)),
-                Formula::Until(a, b) => at(&now, b).or(at(&now, a).and(at(&next, id))),
-                Formula::Then(a, b) => at(&now, a).and(at(&next, b)).or(at(&next, id)),
+                Formula::And(a, b) => at(a, t).and(at(b, t)),
+                Formula::Or(a, b) => at(a, t).or(at(b, t)),
+                Formula::Next(a) => at(a, t + 1),
+                Formula::Delay(n, a) => at(a, t.saturating_add(n as usize)),
+                Formula::Eventually(a) => at(a, t).or(next),
+                Formula::Within(n, a) => until(n).map(|j| at(a, j)).fold(V::BOTTOM, V::or),
+                Formula::Throughout(n, a) => until(n).map(|j| at(a, j)).fold(V::TOP, V::and),
+                Formula::Until(a, b) => at(b, t).or(at(a, t).and(next)),
+                Formula::UntilWithin(n, a, b) => {
+                    until(n).rev().fold(V::BOTTOM, |later, j| at(b, j).or(at(a, j).and(later)))
+                }
+                Formula::Then(a, b) => at(a, t).and(at(b, t + 1)).or(next),
             };
         }
-        std::mem::swap(&mut now, &mut next);
+        columns.push(column);
     }
-    next[spec.root().0 as usize]
+    columns[spec.root().0 as usize].first().copied().unwrap_or(V::BOTTOM)
 }

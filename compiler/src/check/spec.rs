@@ -212,11 +212,9 @@ fn literal(
 
 /// The first temporal operator that the root of `spec` depends on.
 fn temporal(spec: &Spec) -> Option<FormulaId> {
-    use Formula::{Eventually, Next, Then, Until};
     let reachable = spec.reachable();
-    let is_temporal = |formula| matches!(formula, Next(_) | Eventually(_) | Until(..) | Then(..));
     let mut formulas = spec.formulas().filter(|(id, _)| reachable[id.0 as usize]);
-    formulas.find(|(_, formula)| is_temporal(*formula)).map(|(id, _)| id)
+    formulas.find(|(_, formula)| formula.is_temporal()).map(|(id, _)| id)
 }
 
 /// The error for a negated task with a temporal operator.

@@ -5,6 +5,7 @@
 //! than by recursion, so any depth prints. Shared operators are written out wherever they are used,
 //! which can be exponentially long: [`Spec::text`] bounds it.
 
+use std::borrow::Cow;
 use std::fmt;
 
 use super::{Formula, FormulaId, Spec};
@@ -19,7 +20,7 @@ pub struct Printed<'a> {
 /// A piece of the text that is still to be printed.
 enum Piece {
     Formula(FormulaId),
-    Text(&'static str),
+    Text(Cow<'static, str>),
 }
 
 /// How tightly an operator binds, loosest first.
@@ -78,8 +79,9 @@ impl Spec {
             Formula::Literal { .. } => Level::Name,
             Formula::And(..) => Level::And,
             Formula::Or(..) => Level::Or,
-            Formula::Next(_) | Formula::Eventually(_) => Level::Prefix,
-            Formula::Until(..) => Level::Until,
+            Formula::Next(_) | Formula::Delay(..) | Formula::Eventually(_) => Level::Prefix,
+            Formula::Within(..) | Formula::Throughout(..) => Level::Prefix,
+            Formula::Until(..) | Formula::UntilWithin(..) => Level::Until,
             Formula::Then(..) => Level::Then,
         }
     }
@@ -125,7 +127,7 @@ impl fmt::Display for Printed<'_> {
         let mut open = vec![Piece::Formula(self.root)];
         while let Some(piece) = open.pop() {
             match piece {
-                Piece::Text(text) => f.write_str(text)?,
+                Piece::Text(text) => f.write_str(&text)?,
                 Piece::Formula(id) => match self.spec.formula(id) {
                     Formula::True => f.write_str("true")?,
                     Formula::False => f.write_str("false")?,
@@ -157,10 +159,16 @@ impl Printed<'_> {
         match formula {
             Formula::And(a, b) => self.between(a, " && ", b, And),
             Formula::Or(a, b) => self.between(a, " || ", b, Or),
-            Formula::Until(a, b) => self.ordered(a, " U ", b, Level::Until),
-            Formula::Then(a, b) => self.ordered(a, " T ", self.spec.goal(b), Level::Then),
-            Formula::Next(a) => self.after("X ", a),
-            Formula::Eventually(a) => self.after("F ", a),
+            Formula::Until(a, b) => self.ordered(a, " U ".into(), b, Level::Until),
+            Formula::UntilWithin(n, a, b) => {
+                self.ordered(a, format!(" U[0,{n}] ").into(), b, Level::Until)
+            }
+            Formula::Then(a, b) => self.ordered(a, " T ".into(), self.spec.goal(b), Level::Then),
+            Formula::Next(a) => self.later(1, a),
+            Formula::Delay(n, a) => self.later(n, a),
+            Formula::Eventually(a) => self.after("F ".into(), a),
+            Formula::Within(n, a) => self.window('F', 0, n, a),
+            Formula::Throughout(n, a) => self.window('G', 0, n, a),
             // A leaf is written at once and has no pieces.
             Formula::True | Formula::False | Formula::Literal { .. } => Vec::new(),
         }
@@ -174,14 +182,20 @@ impl Printed<'_> {
             level < Level::Prefix && level != own
         };
         let mut pieces = self.operand(a, brackets(a));
-        pieces.push(Piece::Text(symbol));
+        pieces.push(Piece::Text(symbol.into()));
         pieces.extend(self.operand(b, brackets(b)));
         pieces
     }
 
     /// `a U b` or `a T b`. Both group to the right, so a chain of one of the two needs no brackets
     /// on the right.
-    fn ordered(&self, a: FormulaId, symbol: &'static str, b: FormulaId, own: Level) -> Vec<Piece> {
+    fn ordered(
+        &self,
+        a: FormulaId,
+        symbol: Cow<'static, str>,
+        b: FormulaId,
+        own: Level,
+    ) -> Vec<Piece> {
         let loose = |level: Level| level < Level::Prefix || level == Level::Comparison;
         let mut pieces = self.operand(a, loose(self.spec.level(a)));
         pieces.push(Piece::Text(symbol));
@@ -190,8 +204,24 @@ impl Printed<'_> {
         pieces
     }
 
+    /// `X a` or `X[n] a`; before a window of `F` or `G`, its bounds say the delay.
+    fn later(&self, n: u32, a: FormulaId) -> Vec<Piece> {
+        match self.spec.formula(a) {
+            Formula::Within(length, a) => self.window('F', n, length, a),
+            Formula::Throughout(length, a) => self.window('G', n, length, a),
+            _ if n == 1 => self.after("X ".into(), a),
+            _ => self.after(format!("X[{n}] ").into(), a),
+        }
+    }
+
+    /// `F[m,n] a` or `G[m,n] a`: a window that begins `first` steps from now.
+    fn window(&self, letter: char, first: u32, length: u32, a: FormulaId) -> Vec<Piece> {
+        let last = u64::from(first) + u64::from(length);
+        self.after(format!("{letter}[{first},{last}] ").into(), a)
+    }
+
     /// `F a` or `X a`.
-    fn after(&self, symbol: &'static str, a: FormulaId) -> Vec<Piece> {
+    fn after(&self, symbol: Cow<'static, str>, a: FormulaId) -> Vec<Piece> {
         let level = self.spec.level(a);
         let mut pieces = vec![Piece::Text(symbol)];
         pieces.extend(self.operand(a, level < Level::Prefix || level == Level::Comparison));
@@ -201,7 +231,7 @@ impl Printed<'_> {
     /// An operand, in brackets or not.
     fn operand(&self, id: FormulaId, brackets: bool) -> Vec<Piece> {
         match brackets {
-            true => vec![Piece::Text("("), Piece::Formula(id), Piece::Text(")")],
+            true => vec![Piece::Text("(".into()), Piece::Formula(id), Piece::Text(")".into())],
             false => vec![Piece::Formula(id)],
         }
     }

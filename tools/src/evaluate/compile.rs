@@ -343,6 +343,7 @@ impl<'a> Compiler<'a> {
 
     /// The steps for the operators of a formula over its predicates, and the output of the whole.
     fn formula(&mut self, spec: &Spec, predicates: &[Operand]) {
+        let spec = &spec.unrolled();
         let reachable = spec.reachable();
         let mut known = vec![Operand::Constant(f64::NEG_INFINITY); reachable.len()];
         for (id, formula) in spec.formulas().filter(|(id, _)| reachable[id.0 as usize]) {
@@ -376,6 +377,7 @@ impl<'a> Compiler<'a> {
                 let both = self.step(Operation::Least, of(a), later);
                 self.eventually(both)
             }
+            _ => unreachable!("bounds are written out"),
         }
     }
 

@@ -34,11 +34,8 @@ fn sizes(spec: &Spec) -> Vec<usize> {
 fn states(spec: &Spec) -> Vec<bool> {
     let mut state = vec![false; spec.formulas().len()];
     for (id, formula) in spec.formulas() {
-        state[id.0 as usize] = match formula {
-            Formula::True | Formula::False | Formula::Literal { .. } => true,
-            Formula::And(a, b) | Formula::Or(a, b) => state[a.0 as usize] && state[b.0 as usize],
-            _ => false,
-        };
+        state[id.0 as usize] =
+            !formula.is_temporal() && formula.operands().all(|part| state[part.0 as usize]);
     }
     state
 }
@@ -69,6 +66,22 @@ impl Words<'_> {
                 head("at the next instant:");
                 vec![(a, "- ")]
             }
+            Formula::Delay(n, a) => {
+                head(&format!("{n} instants later:"));
+                vec![(a, "- ")]
+            }
+            Formula::Within(n, a) => {
+                head(&format!("at one of the first {} instants, from then on:", u64::from(n) + 1));
+                vec![(a, "- ")]
+            }
+            Formula::Throughout(n, a) => {
+                head(&format!("at each of the first {} instants:", u64::from(n) + 1));
+                vec![(a, "- ")]
+            }
+            Formula::UntilWithin(n, a, b) => {
+                head(&format!("these two, within {} instants:", u64::from(n) + 1));
+                vec![(b, "- at some instant: "), (a, "- at every instant before that: ")]
+            }
             Formula::Eventually(a) => {
                 head("at some instant, from then on:");
                 vec![(a, "- ")]
@@ -96,7 +109,21 @@ impl Words<'_> {
         let simple = |a: FormulaId| self.is_state(a).then(|| self.condition(a));
         match self.spec.formula(id) {
             Formula::Next(a) => self.next(a, 1),
+            Formula::Delay(n, a) => self.next(a, n as usize),
             Formula::Eventually(a) => simple(a).map(|a| format!("at some instant {a}")),
+            Formula::Within(n, a) => {
+                Some(format!("at one of the first {} instants {}", u64::from(n) + 1, simple(a)?))
+            }
+            Formula::Throughout(n, a) => {
+                Some(format!("at each of the first {} instants {}", u64::from(n) + 1, simple(a)?))
+            }
+            Formula::UntilWithin(n, a, b) => {
+                let (a, b) = (simple(a)?, simple(b)?);
+                let n = u64::from(n) + 1;
+                Some(format!(
+                    "{a}, at every instant until {b}, which must come within {n} instants"
+                ))
+            }
             Formula::Until(a, b) => {
                 let (a, b) = (simple(a)?, simple(b)?);
                 Some(format!("{a}, at every instant until {b}, which must come"))
@@ -110,6 +137,7 @@ impl Words<'_> {
     fn next(&self, a: FormulaId, instants: usize) -> Option<String> {
         match self.spec.formula(a) {
             Formula::Next(b) => self.next(b, instants + 1),
+            Formula::Delay(n, b) => self.next(b, instants + n as usize),
             _ if !self.is_state(a) => None,
             _ if instants == 1 => Some(format!("at the next instant {}", self.condition(a))),
             _ => Some(format!("{instants} instants later {}", self.condition(a))),

@@ -1,0 +1,216 @@
+//! Operators with bounds and `ensuring`: random formulas against the definitions of each operator,
+//! read window by window.
+
+use std::ops::RangeInclusive;
+
+use proptest::prelude::*;
+use tltl_compiler::source::Span;
+use tltl_compiler::spec::{FormulaId, Spec};
+use tltlc::semantics;
+
+use crate::random::{Bytes, Choices, NAMES};
+
+/// The number of propositions.
+const COUNT: u32 = 3;
+
+/// A formula as it is written, before anything is rewritten.
+#[derive(Clone, Debug)]
+enum Tree {
+    Truth(bool),
+    Literal(u32, bool),
+    And(Box<[Tree; 2]>),
+    Or(Box<[Tree; 2]>),
+    Next(u32, Box<Tree>),
+    Eventually(Box<Tree>),
+    EventuallyIn(RangeInclusive<u32>, Box<Tree>),
+    ThroughoutIn(RangeInclusive<u32>, Box<Tree>),
+    Until(Box<[Tree; 2]>),
+    UntilIn(RangeInclusive<u32>, Box<[Tree; 2]>),
+    Then(Box<[Tree; 2]>),
+    ThenIn(RangeInclusive<u32>, Box<[Tree; 2]>),
+    /// The second is a state formula.
+    Ensuring(Box<[Tree; 2]>),
+}
+
+impl Tree {
+    /// A formula with at most so many operators.
+    fn random(choices: &mut impl Choices, operators: u32, ensuring: bool) -> Self {
+        if operators == 0 {
+            return match choices.choose(12) {
+                10 => Self::Truth(true),
+                11 => Self::Truth(false),
+                other => Self::Literal(other % COUNT, other % 2 == 1),
+            };
+        }
+        let kind = choices.choose(if ensuring { 13 } else { 12 });
+        let rest = operators - 1;
+        let left = choices.choose(rest + 1);
+        let first = choices.choose(3);
+        let steps = first..=first + choices.choose(4);
+        let one = |choices: &mut _| Box::new(Self::random(choices, rest, ensuring));
+        match kind {
+            0 => return Self::Next(first, one(choices)),
+            1 => return Self::Eventually(one(choices)),
+            2 | 3 => return Self::EventuallyIn(steps, one(choices)),
+            4 | 5 => return Self::ThroughoutIn(steps, one(choices)),
+            _ => {}
+        }
+        let a = Self::random(choices, left, ensuring);
+        if kind == 12 {
+            let p = Self::Literal(choices.choose(COUNT), choices.choose(2) == 1);
+            return Self::Ensuring(Box::new([a, p]));
+        }
+        let pair = Box::new([a, Self::random(choices, rest - left, ensuring)]);
+        match kind {
+            6 => Self::And(pair),
+            7 => Self::Or(pair),
+            8 => Self::Until(pair),
+            9 => Self::UntilIn(steps, pair),
+            10 => Self::Then(pair),
+            _ => Self::ThenIn(first + 1..=first + 1 + steps.count() as u32, pair),
+        }
+    }
+
+    /// The formula in a spec.
+    fn build(&self, spec: &mut Spec) -> FormulaId {
+        let at = Span::default();
+        let pair = |spec: &mut Spec, [a, b]: &[Self; 2]| (a.build(spec), b.build(spec));
+        match self {
+            Self::Truth(value) => spec.truth(*value, at),
+            Self::Literal(p, negated) => spec.literal(*p, *negated, at),
+            Self::Next(n, a) => {
+                let a = a.build(spec);
+                spec.delay(*n, a, at)
+            }
+            Self::Eventually(a) => {
+                let a = a.build(spec);
+                spec.eventually(a, at)
+            }
+            Self::EventuallyIn(steps, a) => {
+                let a = a.build(spec);
+                spec.eventually_in(steps.clone(), a, at)
+            }
+            Self::ThroughoutIn(steps, a) => {
+                let a = a.build(spec);
+                spec.throughout_in(steps.clone(), a, at)
+            }
+            Self::And(ab) | Self::Or(ab) | Self::Until(ab) | Self::Then(ab) => {
+                let (a, b) = pair(spec, ab);
+                match self {
+                    Self::And(_) => spec.and(a, b, at),
+                    Self::Or(_) => spec.or(a, b, at),
+                    Self::Until(_) => spec.until(a, b, at),
+                    _ => spec.then(a, b, at),
+                }
+            }
+            Self::UntilIn(steps, ab) => {
+                let (a, b) = pair(spec, ab);
+                spec.until_in(steps.clone(), a, b, at)
+            }
+            Self::ThenIn(steps, ab) => {
+                let (a, b) = pair(spec, ab);
+                spec.then_in(steps.clone(), a, b, at)
+            }
+            Self::Ensuring(ab) => {
+                let (a, b) = pair(spec, ab);
+                spec.ensuring(a, b, at)
+            }
+        }
+    }
+
+    /// The robustness at instant `i` of the trajectory that `trace` is, by the definitions.
+    fn rho(&self, trace: &[[f64; 5]], i: usize) -> f64 {
+        let least = |a: &Self, j, k| (j..k).map(|t| a.rho(trace, t)).fold(f64::INFINITY, f64::min);
+        let most = |a: &Self, j, k| (j..k).map(|t| a.rho(trace, t)).fold(-f64::INFINITY, f64::max);
+        let until = |a: &Self, b: &Self, j, k| {
+            (j..k).map(|t| b.rho(trace, t).min(least(a, i, t))).fold(f64::NEG_INFINITY, f64::max)
+        };
+        let then = |a: &Self, b: &Self, steps: RangeInclusive<usize>| {
+            (i..trace.len())
+                .map(|t| {
+                    let end = trace.len().min(t + steps.end() + 1);
+                    a.rho(trace, t).min(most(b, t + steps.start(), end))
+                })
+                .fold(f64::NEG_INFINITY, f64::max)
+        };
+        let window = |steps: &RangeInclusive<u32>| {
+            let [first, last] = [*steps.start(), *steps.end()].map(|n| i + n as usize);
+            (first, trace.len().min(last + 1), last >= trace.len())
+        };
+        let end = trace.len();
+        match self {
+            _ if i >= end => f64::NEG_INFINITY,
+            Self::Truth(value) => {
+                if *value {
+                    f64::INFINITY
+                } else {
+                    f64::NEG_INFINITY
+                }
+            }
+            Self::Literal(p, negated) => trace[i][*p as usize] * if *negated { -1.0 } else { 1.0 },
+            Self::And(ab) => ab[0].rho(trace, i).min(ab[1].rho(trace, i)),
+            Self::Or(ab) => ab[0].rho(trace, i).max(ab[1].rho(trace, i)),
+            Self::Next(n, a) => a.rho(trace, i + *n as usize),
+            Self::Eventually(a) => most(a, i, end),
+            Self::EventuallyIn(steps, a) => most(a, window(steps).0, window(steps).1),
+            Self::ThroughoutIn(steps, a) => match window(steps) {
+                (_, _, true) => f64::NEG_INFINITY,
+                (first, last, _) => least(a, first, last),
+            },
+            Self::Until(ab) => until(&ab[0], &ab[1], i, end),
+            Self::UntilIn(steps, ab) => until(&ab[0], &ab[1], window(steps).0, window(steps).1),
+            Self::Then(ab) => then(&ab[0], &ab[1], 1..=end),
+            Self::ThenIn(steps, ab) => {
+                then(&ab[0], &ab[1], *steps.start() as usize..=*steps.end() as usize)
+            }
+            // Its truth alone is defined: p until the first instant at which the states until then
+            // satisfy φ.
+            Self::Ensuring(ab) => {
+                let done = (i..end).find(|&n| ab[0].rho(&trace[..=n], i) > 0.0);
+                let holds = done.is_some_and(|n| least(&ab[1], i, n + 1) > 0.0);
+                if holds { 1.0 } else { -1.0 }
+            }
+        }
+    }
+}
+
+/// A formula and a spec of it.
+fn chosen(bytes: &[u8], ensuring: bool) -> (Tree, Spec) {
+    let mut choices = Bytes(bytes);
+    let operators = choices.choose(6);
+    let tree = Tree::random(&mut choices, operators, ensuring);
+    let names = NAMES[..COUNT as usize].iter().map(|&name| name.into());
+    let mut spec = Spec::new(names.collect());
+    let root = tree.build(&mut spec);
+    spec.set_root(root);
+    (tree, spec)
+}
+
+fn bytes() -> impl Strategy<Value = Vec<u8>> {
+    prop::collection::vec(any::<u8>(), 0..60)
+}
+
+fn traces() -> impl Strategy<Value = Vec<[f64; 5]>> {
+    let value = (0..7_i8).prop_map(|value| f64::from(value) - 2.5);
+    prop::collection::vec(prop::array::uniform5(value), 1..12)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2000, ..ProptestConfig::default() })]
+
+    #[test]
+    fn bounds_mean_what_their_definitions_say(bytes in bytes(), trace in traces()) {
+        let (tree, spec) = chosen(&bytes, false);
+        let rho = |p: u32, t: usize| trace[t][p as usize];
+        let found = semantics::robustness(&spec, trace.len(), rho);
+        prop_assert_eq!(found, tree.rho(&trace, 0), "{:?} as {}", tree, spec);
+    }
+
+    #[test]
+    fn ensuring_means_what_its_definition_says(bytes in bytes(), trace in traces()) {
+        let (tree, spec) = chosen(&bytes, true);
+        let holds = |p: u32, t: usize| trace[t][p as usize] > 0.0;
+        let found = semantics::satisfied(&spec, trace.len(), holds);
+        prop_assert_eq!(found, tree.rho(&trace, 0) > 0.0, "{:?} as {}", tree, spec);
+    }
+}
