@@ -27,6 +27,9 @@ use crate::shared::Shared;
 ///
 /// `edges` and `guards` are offsets into the table after them: entry `i` is where item `i` begins,
 /// one last entry is where the last item ends.
+///
+/// Flat arrays and not a structure of vectors: generated code holds them in statics, where nothing can
+/// own anything, and reading one is a bounds check and a load. [`Automaton::new`] shows them all.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Tables {
     /// The names of the propositions, in order of first appearance in the source.
@@ -59,6 +62,19 @@ pub struct Tables {
 /// A table answers with one look-up, but needs all propositions and an entry for each of their
 /// valuations. A diagram asks only those that decide the move, one after the other, and is small
 /// for many propositions.
+///
+/// ```
+/// use tltl::automaton::Transitions;
+/// use tltl::tltl;
+///
+/// // Two propositions have 4 valuations, of which `F (a && b)` tells apart two classes.
+/// let both = tltl! { |s: &[bool; 2]| F (s[0] && s[1]) };
+/// let Transitions::Table { class, width, next } = &both.automaton().tables().transitions else {
+///     panic!("few propositions are a table")
+/// };
+/// assert_eq!((class.len(), *width, next.len()), (4, 2, 2 * 2));
+/// assert!(class[0b01] == class[0b10] && class[0b11] != class[0b00]);
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Transitions {
     /// For few propositions: no state tells apart two valuations of one class.
@@ -88,10 +104,22 @@ impl Transitions {
 
 /// A conjunction of literals in DIMACS style: `3` is "proposition number 2 is true", `-3` "it is
 /// false". The empty cube is true.
+///
+/// ```
+/// use tltl::automaton::Cube;
+/// use tltl::tltl;
+///
+/// let task = tltl! { |s: &[bool; 2]| F (s[0] && !s[1]) };
+/// let cubes: Vec<Cube<'_>> = task.automaton().progress(0).cubes().collect();
+/// assert_eq!(cubes, [&[1, -2]]);
+/// ```
 pub type Cube<'a> = &'a [i32];
 
 /// A Boolean function of the propositions as an irredundant sum of products: a disjunction of
 /// [cubes](Cube).
+///
+/// The form is fixed, since the size of the robustness of a guard depends on it: equal functions written
+/// differently differ there, though never in sign.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub struct Guard<'a> {
     /// The cubes, each with a 0 after it: one pass over one slice, which is nearly twice as fast as
@@ -147,6 +175,20 @@ impl fmt::Debug for Guard<'_> {
 }
 
 /// One edge of an automaton.
+///
+/// ```
+/// use tltl::automaton::Guard;
+/// use tltl::tltl;
+///
+/// let task = tltl! { |s: &(bool, bool)| !s.0 U s.1 };
+/// let automaton = task.automaton();
+/// let to: Vec<u32> = automaton.edges_from(0).map(|edge| edge.to).collect();
+/// assert_eq!(to, [0, 1, 2], "wait, accept, lose");
+/// let guard = automaton.edge_guard(0, 2);
+/// assert!(guard.cubes().eq([&[1, -2]]), "lost by the first without the second");
+/// assert_eq!(automaton.edge_guard(1, 0), Guard::FALSE, "acceptance has no way back");
+/// assert_eq!(automaton.edges().filter(|edge| edge.from == edge.to).count(), 3);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Edge<'a> {
     /// The state that the edge leaves.

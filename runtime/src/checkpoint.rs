@@ -17,10 +17,13 @@ use std::vec::Vec;
 
 use crate::checksum::fnv;
 
+/// The first word of the file: what says that it is ours before anything else is read.
 const MAGIC: &str = "tltl-checkpoint";
 const VERSION: &str = "1";
 
 /// Why a checkpoint cannot be read.
+///
+/// Each names the file. All but `Io` mean that the file was read and is not what was asked for.
 #[derive(Debug)]
 pub enum Error {
     /// The file cannot be opened or read.
@@ -81,6 +84,22 @@ impl std::error::Error for Error {}
 /// Writes `content` to `path` so that the file is whole whenever it is there; `kind`, one word,
 /// says what it is.
 ///
+/// ```
+/// use tltl::{checkpoint, model, prelude::*};
+///
+/// let mut env = ModelEnv::new(model::from_fn(2, 1, |s, _| [(1 - s, 1.0)]))?;
+/// let task = Labelled::of_env(&env, &tltl! { |s: &usize| F ({ *s } == 1) })?;
+/// let mut learner = Learner::new(&task, Settings::default(), 7);
+/// learner.train(&mut env, 100)?;
+///
+/// let path = std::env::temp_dir().join(format!("tltl-write-{}.checkpoint", std::process::id()));
+/// checkpoint::write(&path, "learner", &serde_json::to_vec(&learner.checkpoint())?)?;
+/// let saved = checkpoint::read(&path, "learner")?.expect("it was written just now");
+/// assert_eq!(Learner::resume(&task, serde_json::from_slice(&saved)?)?, learner);
+/// # std::fs::remove_file(path)?;
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// If the file cannot be written; what was there before is then still there.
 ///
@@ -122,6 +141,25 @@ fn sync_folder(path: &Path) -> io::Result<()> {
 /// The content of the checkpoint at `path`, if it is one of `kind` and whole; `None` if there is no
 /// such file.
 ///
+/// No file is no error, for that is how a study starts: `None` says to begin from nothing.
+///
+/// ```
+/// use tltl::checkpoint::{self, Error};
+///
+/// let path = std::env::temp_dir().join(format!("tltl-read-{}.checkpoint", std::process::id()));
+/// assert!(matches!(checkpoint::read(&path, "study"), Ok(None)));
+/// checkpoint::write(&path, "study", b"seed 1: 98 %")?;
+/// assert!(matches!(checkpoint::read(&path, "learner"), Err(Error::Kind { .. })));
+///
+/// let mut bytes = std::fs::read(&path)?;
+/// bytes.pop(); // as a full disk would leave it
+/// std::fs::write(&path, bytes)?;
+/// let error = checkpoint::read(&path, "study").unwrap_err();
+/// assert!(error.to_string().ends_with("cut short or added to: 11 bytes of content, not 12"));
+/// # std::fs::remove_file(path)?;
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// If the file cannot be read, or is not what it should be.
 pub fn read(path: &Path, kind: &str) -> Result<Option<Vec<u8>>, Error> {
@@ -132,6 +170,8 @@ pub fn read(path: &Path, kind: &str) -> Result<Option<Vec<u8>>, Error> {
     }
 }
 
+/// From the outside in: is it ours, of this version, of this kind, whole, unchanged. So each error
+/// names the first thing that is wrong, and a file of a later version is never called corrupt.
 fn check<'a>(path: &Path, kind: &str, bytes: &'a [u8]) -> Result<&'a [u8], Error> {
     let foreign = || Error::Foreign(path.to_path_buf());
     let end = bytes.iter().position(|&byte| byte == b'\n').ok_or_else(foreign)?;

@@ -23,6 +23,21 @@ use crate::env::Step;
 const IDLE: u32 = 100_000;
 
 /// Where one step leads an automaton state, and what the step pays there.
+///
+/// ```
+/// use tltl::augmented::Augmented;
+/// use tltl::env::Step;
+/// use tltl::episode::{Monitored, Move};
+/// use tltl::model;
+/// use tltl::prelude::*;
+///
+/// let still = ModelEnv::new(model::from_fn(3, 1, |s, _| [(s, 1.0)])).unwrap();
+/// let task = tltl! { |s: &usize| F ({ *s } == 2) };
+/// let world = Augmented::new(still, task, Rewards::acceptance());
+/// assert_eq!(world.read(0, &Step::to(1))?, Move { to: 0, reward: 0.0, over: false });
+/// assert_eq!(world.read(0, &Step::to(2))?, Move { to: 1, reward: 1.0, over: true });
+/// # Ok::<(), tltl::task::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Move {
     /// The next automaton state, q' = δ(q, s').
@@ -34,6 +49,10 @@ pub struct Move {
 }
 
 /// An environment beside an automaton: what episodes are run in.
+///
+/// [`Augmented`](crate::augmented::Augmented) is one for any environment and task; implement it for
+/// worlds that read a state more cheaply than by predicates, as the tables of learners do. `read` must
+/// not change the world, for it is asked about moves that are not taken.
 pub trait Monitored {
     /// What an agent tells situations apart by, beside q.
     type State;
@@ -65,6 +84,8 @@ pub trait Monitored {
 }
 
 /// One step of the augmented MDP: (s, q), a, (s', q') and the reward.
+///
+/// States are borrowed: an agent that keeps them clones what it needs, others pay nothing.
 #[derive(Debug)]
 pub struct Transition<'a, S> {
     /// The automaton state before.
@@ -162,6 +183,9 @@ pub trait Agent {
 }
 
 /// How much was done: what training in slices goes on from.
+///
+/// Saved with a learner, so that exploration and step sizes that depend on the number of steps go on
+/// where they stood.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]

@@ -17,6 +17,9 @@ use crate::range::checked;
 use crate::task::Error;
 
 /// An estimated number and its confidence interval.
+///
+/// The mean lies between the two ends, not always in their middle: Wilson's interval leans inwards at
+/// 0 and 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -56,6 +59,16 @@ impl Interval {
     /// Student's interval for a mean, from the number of values, their sum, and that of their
     /// squares; `None` for fewer than two values.
     ///
+    /// ```
+    /// use tltl::estimate::Interval;
+    ///
+    /// // 3, 4 and 5 steps: their number, sum and sum of squares, as a running count keeps them.
+    /// let seen = Interval::student(3, 12.0, 50.0, 0.95).unwrap();
+    /// assert_eq!((seen.mean, Interval::of(&[3.0, 4.0, 5.0], 0.95)), (4.0, Some(seen)));
+    /// assert!((seen.high - 6.484).abs() < 1e-3); // 4 + 4.303 / √3
+    /// assert_eq!(Interval::student(1, 3.0, 9.0, 0.95), None, "one value says nothing of its spread");
+    /// ```
+    ///
     /// # Panics
     /// Unless 0 < `confidence` < 1.
     #[must_use]
@@ -83,6 +96,25 @@ impl Interval {
 }
 
 /// A policy's worth as seen in episodes.
+///
+/// [`estimate`] makes it. With serde it is a field of saved policies, beside or in place of a
+/// certificate.
+///
+/// ```
+/// use tltl::estimate::{Estimate, Interval};
+///
+/// let seen = Estimate {
+///     episodes: 100,
+///     horizon: 200,
+///     confidence: 0.95,
+///     satisfied: Interval::wilson(98, 100, 0.95),
+///     lost: Interval::wilson(0, 100, 0.95),
+///     steps: Interval::of(&[12.0, 14.0, 11.0], 0.95),
+/// };
+/// assert!(seen.lost.high < 0.04, "never seen in 100 trials is not never");
+/// assert_eq!(serde_json::from_str::<Estimate>(&serde_json::to_string(&seen)?)?, seen);
+/// # Ok::<(), serde_json::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -209,6 +241,9 @@ fn episode<E: Env, M: Monitor<E::State>, R: Rng + ?Sized, F: From<Error>>(
 }
 
 /// The number that a normal variable stays within, either side, with probability `confidence`.
+///
+/// By bisection: it is asked once or twice for an estimate, and needs no table and no second
+/// approximation beside the series.
 #[track_caller]
 fn normal(confidence: f64) -> f64 {
     assert!(confidence > 0.0 && confidence < 1.0, "a confidence is between 0 and 1");

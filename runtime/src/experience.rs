@@ -72,6 +72,8 @@ impl Experience {
         self.add(s * self.actions + a, to as u32, 1);
     }
 
+    /// A list and not a map: an action has few outcomes, and in the order in which they were seen the most
+    /// frequent ones mostly come first.
     #[inline]
     fn add(&mut self, cell: usize, to: u32, times: u32) {
         let list = &mut self.outcomes[cell];
@@ -83,6 +85,20 @@ impl Experience {
 
     /// Adds all of another experience of the same world: that of another learner, say, whatever its
     /// task was.
+    ///
+    /// ```
+    /// use tltl::learn::Experience;
+    /// use tltl::prelude::*;
+    ///
+    /// // Two learners, whatever their tasks, have tried the same action of the same world.
+    /// let (mut one, mut other) = (Experience::new(2, 1), Experience::new(2, 1));
+    /// one.push_start(0);
+    /// one.push(0, 0, 1);
+    /// other.push(0, 0, 0);
+    /// one.extend(&other)?;
+    /// assert!(Dynamics::new(&one)?.outcomes(0, 0).eq([(0, 0.5), (1, 0.5)]));
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
     ///
     /// # Errors
     /// If the worlds differ in size.

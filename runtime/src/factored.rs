@@ -29,6 +29,8 @@ use crate::task::{Error, Formula, Reader, Task};
 
 /// One part of a factored task: a formula with its automaton, and which of the task's predicates it
 /// is about.
+///
+/// [`Factored::new`] shows how parts are made by hand; the compiler makes them for `#[factored]`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Part {
     /// Its formula; propositions are numbered as in `automaton`.
@@ -40,6 +42,16 @@ pub struct Part {
 }
 
 /// Whether all dead ends of a factored task are traps of its parts.
+///
+/// ```
+/// use tltl::factored::JointDeadEnds;
+/// use tltl::tltl;
+///
+/// // Neither may come before the other: lost from the start, and known to be, as the parts were joined.
+/// let task = tltl! { #[factored] |s: &(bool, bool)| !s.1 U s.0 && !s.0 U s.1 };
+/// assert_eq!((task.joint_dead_ends(), task.len()), (JointDeadEnds::None, 1));
+/// assert!(!task.is_empty());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum JointDeadEnds {
     /// They are: parts that share propositions have been joined.
@@ -225,6 +237,16 @@ impl<P> Factored<P> {
     }
 
     /// Whether a part is lost.
+    ///
+    /// ```
+    /// use tltl::tltl;
+    ///
+    /// let task = tltl! { #[factored] |s: &(bool, bool, bool)| !s.0 U s.1 && F s.2 };
+    /// let mut q = vec![0; task.len()];
+    /// task.next(&mut q, &(true, false, true))?;
+    /// assert!(task.is_lost(&q) && !task.is_accepting(&q), "one part is done, the other is lost");
+    /// # Ok::<(), tltl::task::Error>(())
+    /// ```
     #[must_use]
     pub fn is_lost(&self, q: &[u32]) -> bool {
         self.automata().zip(q).any(|(automaton, &q)| automaton.is_trap(q))
@@ -276,6 +298,9 @@ impl<P> Factored<P> {
 
 /// Some predicates of a task, numbered anew: those of one of its parts. Predicate `i` of the part is
 /// predicate `chosen[i]` of the task.
+///
+/// [`Factored::part`] gives it to the task of a part, which then reads the states of the whole; nobody
+/// makes one by hand.
 pub struct Select<'a, P> {
     predicates: &'a P,
     chosen: &'a [u32],

@@ -11,6 +11,9 @@ use alloc::vec::Vec;
 /// A hash table with linear probing, for `alloc` has none; at most half full, so a look-up tries two
 /// slots in the mean. The hash is that of Firefox (rotate, xor, multiply), which needs no key: what
 /// is hashed is the user's own world.
+///
+/// A number is never taken back: nothing is removed, so an item keeps its number while others come.
+/// Hostile input could make all items collide, which costs time and nothing else.
 pub(crate) struct Interner<T> {
     items: Vec<Vec<T>>,
     /// The number of an item, near the place that its hash says; a power of two of them, of which
@@ -60,6 +63,7 @@ impl<T: Copy + Eq + Into<u64>> Interner<T> {
         }
     }
 
+    /// Doubles the slots: each item is moved a constant number of times in the mean.
     fn grow(&mut self) {
         self.slots = alloc::vec![Self::FREE; (2 * self.slots.len()).max(16)];
         for (number, item) in self.items.iter().enumerate() {

@@ -38,6 +38,19 @@ impl Mismatch {
     }
 
     /// The task or world that was found: its name and its sizes.
+    ///
+    /// ```
+    /// use tltl::prelude::*;
+    ///
+    /// let of = |cells| Labelled::new(0..cells, ["go"], &tltl! { |x: &i32| F ({ *x } == 2) });
+    /// let policy = Policy::from_fn(&of(3)?, |_, _| 0)?;
+    /// let five = tltl::model::from_fn(5, 1, |s, _| [(s, 1.0)]);
+    /// let wider = Problem::new(&Dynamics::new(&five)?, &of(5)?)?;
+    /// let error = wider.evaluate(&policy).unwrap_err();
+    /// assert!(error.found().ends_with("(2 automaton states, 3 states, 1 actions)"));
+    /// assert!(error.expected().ends_with("(2 automaton states, 5 states, 1 actions)"));
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn found(&self) -> &str {
         &self.found

@@ -26,6 +26,47 @@ use crate::q::argmax;
 /// What a network sees of a state of type `S`.
 ///
 /// The features must be finite numbers, and of the size of 1.
+///
+/// The network never sees the automaton state: that chooses the head. So features say what the *world*
+/// is like, and a task that depends on what was done needs no feature for it.
+///
+/// ```
+/// use tltl::network::{Features, Shape};
+///
+/// /// A robot on a line of length 10, and the places of three boxes, each of which can be picked up.
+/// struct Hall {
+///     robot: f32,
+///     boxes: [f32; 3],
+/// }
+///
+/// /// The state is where the robot is; an entity is a box, and how far away it is.
+/// struct Distances;
+///
+/// impl Features<Hall> for Distances {
+///     fn inputs(&self) -> usize {
+///         1
+///     }
+///     fn entities(&self) -> usize {
+///         3
+///     }
+///     fn channels(&self) -> usize {
+///         1
+///     }
+///     fn write(&self, s: &Hall, inputs: &mut [f32], entities: &mut [f32]) {
+///         inputs[0] = s.robot / 10.0;
+///         for (seen, place) in entities.iter_mut().zip(s.boxes) {
+///             *seen = (place - s.robot).abs() / 10.0;
+///         }
+///     }
+/// }
+///
+/// let (mut inputs, mut entities) = ([0.0; 1], [0.0; 3]);
+/// Distances.write(&Hall { robot: 5.0, boxes: [0.0, 5.0, 9.0] }, &mut inputs, &mut entities);
+/// assert_eq!((inputs, entities), ([0.5], [0.5, 0.0, 0.4]));
+/// // Two actions that move, and one for each box.
+/// let shape = Shape::of(&Distances, &[32], 1, 2 + 3);
+/// assert_eq!((shape.entities, shape.channels), (3, 1));
+/// ```
 pub trait Features<S: ?Sized> {
     /// The number of features of the state as a whole.
     fn inputs(&self) -> usize;
@@ -42,6 +83,10 @@ pub trait Features<S: ?Sized> {
 
     /// Writes the features of `s`: `inputs` has length `inputs()`, and `entities`, indexed
     /// `channel * entities() + entity`, has length `channels() * entities()`. Both are zeros before.
+    ///
+    /// A network that is learned refuses a feature that is not a finite number, by its number:
+    /// entities' after the state's. Far from the size of 1 learning is slow, for one step size serves
+    /// all weights.
     fn write(&self, s: &S, inputs: &mut [f32], entities: &mut [f32]);
 }
 
@@ -64,6 +109,20 @@ impl<S: ?Sized, F: Features<S> + ?Sized> Features<S> for &F {
 }
 
 /// The sizes of a network.
+///
+/// Not every combination is a network; [`Network::new`] says which size is wrong. With entities, a
+/// head puts out `actions - entities + 1 + channels` numbers, without them `actions`.
+///
+/// ```
+/// use tltl::network::{Network, NetworkError, Shape};
+///
+/// // Four features, one hidden layer of eight units, two live automaton states, three actions.
+/// let shape = Shape { inputs: 4, hidden: vec![8], heads: 2, actions: 3, entities: 0, channels: 0 };
+/// let error = Network::new(Shape { heads: 0, ..shape.clone() }, vec![]).unwrap_err();
+/// assert_eq!(error, NetworkError::Shape { field: "heads" });
+/// let error = Network::new(shape, vec![]).unwrap_err();
+/// assert_eq!(error.to_string(), "`network.layers` has 0 layers, not 2");
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -142,6 +201,9 @@ impl Shape {
 }
 
 /// A dense layer: `y = x W + b`.
+///
+/// The numbers are 32 bits wide: half the size of a file and of an emitted table, and more than noise in
+/// learned weights needs.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -153,6 +215,8 @@ pub struct Dense {
 }
 
 /// Why layers are no network.
+///
+/// It names the part as the document does, for layers mostly come from a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NetworkError {
     /// There are not as many layers as the shape says.
@@ -213,6 +277,17 @@ impl fmt::Display for NetworkError {
 impl core::error::Error for NetworkError {}
 
 /// A network of action values. Its layers fit its shape, and its weights are finite.
+///
+/// ```
+/// use tltl::network::{Dense, Network, Shape};
+///
+/// // One feature, no hidden layer, one head of two actions: Q = x · [1, -1] + [0, 0.5].
+/// let shape = Shape { inputs: 1, hidden: vec![], heads: 1, actions: 2, entities: 0, channels: 0 };
+/// let network = Network::new(shape, vec![Dense { weights: vec![1.0, -1.0], bias: vec![0.0, 0.5] }])?;
+/// assert_eq!(network.values(0, &[0.5], &[]), [0.5, 0.0]);
+/// assert_eq!((network.greedy(0, &[0.5], &[]), network.greedy(0, &[0.0], &[])), (0, 1));
+/// # Ok::<(), tltl::network::NetworkError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "Unchecked", into = "Unchecked"))]
@@ -254,6 +329,18 @@ impl Network {
 
     /// A network with random weights: uniform in ±√(6/inputs) (He et al. 2015), and a tenth of it in
     /// the heads, so that all values are near 0 at first.
+    ///
+    /// ```
+    /// use tltl::network::{Network, Shape};
+    /// use tltl::rand::{SeedableRng, rngs::Xoshiro256PlusPlus};
+    ///
+    /// let shape = Shape { inputs: 6, hidden: vec![32], heads: 3, actions: 2, entities: 0, channels: 0 };
+    /// let mut rng = Xoshiro256PlusPlus::seed_from_u64(7);
+    /// let network = Network::random(shape, &mut rng);
+    /// let values = network.values(2, &[1.0, 0.0, 0.0, 0.0, 0.0, 0.0], &[]);
+    /// assert!(values.iter().all(|value| value.abs() < 1.0) && values != [0.0, 0.0]);
+    /// assert_eq!(network.silent().values(2, &[1.0; 6], &[]), [0.0, 0.0]);
+    /// ```
     #[cfg(feature = "std")]
     pub fn random<R: rand::Rng + ?Sized>(shape: Shape, rng: &mut R) -> Self {
         let widths = shape.widths();
@@ -269,6 +356,9 @@ impl Network {
     }
 
     /// The same network with all values 0: the weights of the heads are.
+    ///
+    /// Composition starts from such a network, since it adds nothing to the skills until it has
+    /// learned something; its hidden layers are random, so it can learn.
     #[must_use]
     pub fn silent(mut self) -> Self {
         if let Some(heads) = self.layers.last_mut() {
@@ -293,6 +383,20 @@ impl Network {
     }
 
     /// Q(s, q, ·) of the head of q, from the features of s.
+    ///
+    /// An action that points at an entity is worth what all of them have in common, plus the product
+    /// of the head's query with the entity's features:
+    ///
+    /// ```
+    /// use tltl::network::{Dense, Network, Shape};
+    ///
+    /// // No feature of the state, two boxes with one feature each, and an action for each box.
+    /// let shape = Shape { inputs: 0, hidden: vec![], heads: 1, actions: 2, entities: 2, channels: 1 };
+    /// // The head puts out 0.5, which the boxes have in common, and the query -1.
+    /// let network = Network::new(shape, vec![Dense { weights: vec![], bias: vec![0.5, -1.0] }])?;
+    /// assert_eq!(network.values(0, &[], &[0.25, 1.0]), [0.25, -0.5], "the nearer box is worth more");
+    /// # Ok::<(), tltl::network::NetworkError>(())
+    /// ```
     ///
     /// # Panics
     /// If the features or the head do not fit the shape.
@@ -332,6 +436,10 @@ impl Network {
 
 impl Dense {
     /// The outputs `from..from + width`.
+    ///
+    /// Inputs of 0 are skipped: features are mostly sparse (one of many is 1), and half of the units
+    /// behind a rectifier are off. The order of the sum is that of the inputs, as in emitted code, so
+    /// both give the same bits.
     fn forward(&self, x: &[f32], from: usize, width: usize) -> Vec<f32> {
         let mut y = self.bias[from..from + width].to_vec();
         for (&x, row) in x.iter().zip(self.weights.chunks(self.bias.len())) {

@@ -219,6 +219,8 @@ impl Policy {
     pub const FORMAT: &'static str = "tltl-policy";
 
     /// The version that this library writes and reads.
+    ///
+    /// A document of another version is refused, by its number.
     pub const VERSION: u32 = 2;
 
     /// The policy of these `actions`: for each automaton state in turn, the action in each state of

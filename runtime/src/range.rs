@@ -63,6 +63,9 @@ impl core::error::Error for OutOfRange {}
 ///
 /// One row is `field, with_field: type, "range in words", |value| whether it is in the range;`. A
 /// macro, because forty pairs of methods that differ in these four things would hide a slip.
+///
+/// The name of the field in the error is the method's, so an author who reads the message has already
+/// read the name of what to change. Setters are not `const`, for ranges are tested by closures.
 macro_rules! checked {
     ($settings:ident {$(
         $(#[doc = $doc:literal])+

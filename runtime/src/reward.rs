@@ -183,6 +183,13 @@ impl Rewards {
     }
 
     /// Whether the reward needs ρ(s', D_φ^q): only [`Mode::Robustness`] does.
+    ///
+    /// ```
+    /// use tltl::reward::{Mode, Rewards};
+    ///
+    /// assert!(Rewards::of(Mode::Robustness).needs_robustness());
+    /// assert!(!Rewards::progress().needs_robustness() && !Rewards::acceptance().needs_robustness());
+    /// ```
     #[must_use]
     pub const fn needs_robustness(&self) -> bool {
         matches!(self.mode, Mode::Robustness)
@@ -204,6 +211,9 @@ checked! { Rewards {
 }}
 
 /// How an episode ended for the task. Both ends are for ever: the automaton stays where it is.
+///
+/// There is no third end: an episode that is cut or that the world ends leaves the task where it is,
+/// neither satisfied nor lost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum End {
     /// The task is satisfied.
@@ -309,6 +319,19 @@ impl Ends {
 }
 
 /// One move of the automaton, as rewards see it: q has read s' and moved to q'.
+///
+/// ```
+/// use tltl::reward::{Arrival, Ends, Mode, Rewards};
+/// use tltl::tltl;
+///
+/// // Shaped rewards pay a potential, which is 0 where the environment itself ends the episode.
+/// let ends = Ends::of(&tltl! { |x: &i32| ({ *x } == 1) T ({ *x } == 2) });
+/// let rewards = Rewards::of(Mode::Shaped).with_gamma(0.9)?;
+/// let arrival = Arrival::at(0, 1);
+/// let pays = [arrival, Arrival { terminated: true, ..arrival }].map(|a| rewards.pay(&ends, &a));
+/// assert!(pays[0] > 0.0 && pays[1] < 0.0, "{pays:?}");
+/// # Ok::<(), tltl::OutOfRange>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arrival {
     /// The automaton state before.

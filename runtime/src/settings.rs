@@ -14,6 +14,24 @@ use crate::reward::Rewards;
 ///
 /// Updating all costs as many updates a step as there are live automaton states, and learns from each
 /// step what every automaton state would have learned; `docs/studies/curves.md` has the difference.
+///
+/// ```
+/// use tltl::learn::{Settings, Updates};
+/// use tltl::model;
+/// use tltl::prelude::*;
+///
+/// // First the right end of five cells, then the left one.
+/// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+/// let mut env = ModelEnv::new(row)?;
+/// let task = Labelled::of_env(&env, &tltl! { |s: &usize| ({ *s } == 4) T ({ *s } == 0) })?;
+/// let known = [Updates::Current, Updates::Counterfactual].map(|updates| {
+///     let mut learner = Learner::new(&task, Settings::default().with_updates(updates), 1);
+///     learner.train(&mut env, 30).unwrap();
+///     learner.q().values().iter().filter(|value| **value > 0.0).count()
+/// });
+/// assert!(known[0] < known[1], "the same 30 steps tell more: {known:?}");
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Updates {
     /// The one in which the step was taken.
@@ -24,6 +42,23 @@ pub enum Updates {
 }
 
 /// What a learner keeps beside its table.
+///
+/// Experience is counts, so it grows with the world and not with time: a list for each (s, a), with 8
+/// bytes for each s' that was seen. Without it a step is faster, and replay, masks that look one step ahead
+/// and composition from experience cannot be had.
+///
+/// ```
+/// use tltl::learn::{Memory, Settings};
+/// use tltl::model;
+/// use tltl::prelude::*;
+///
+/// let mut env = ModelEnv::new(model::from_fn(2, 1, |s, _| [(1 - s, 1.0)]))?;
+/// let task = Labelled::of_env(&env, &tltl! { |s: &usize| F ({ *s } == 1) })?;
+/// let mut learner = Learner::new(&task, Settings::default().with_memory(Memory::None), 1);
+/// learner.train(&mut env, 100)?;
+/// assert!(learner.replay().is_err(), "there is nothing to replay");
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Memory {
     /// Nothing.
@@ -83,6 +118,14 @@ impl Settings {
     }
 
     /// The paper's recipe (Section 5.1): γ 0.95, α 0.1, horizon 200, random exploration.
+    ///
+    /// ```
+    /// use tltl::learn::{Memory, Settings, Updates};
+    ///
+    /// let paper = Settings::paper();
+    /// assert_eq!((paper.rewards().gamma(), paper.alpha().at(0), paper.horizon()), (0.95, 0.1, 200));
+    /// assert_eq!((paper.updates(), paper.memory()), (Updates::Current, Memory::None));
+    /// ```
     #[must_use]
     pub const fn paper() -> Self {
         Self {

@@ -131,6 +131,17 @@ impl<P> Task<P> {
 
     /// Robustness of one predicate at `s`, ρ(s, p_i).
     ///
+    /// ```
+    /// use tltl::tltl;
+    ///
+    /// let task = tltl! { |x: &f64| ({ *x } > 3) T ({ *x } < 1) };
+    /// assert_eq!(task.automaton().propositions().len(), 2);
+    /// assert_eq!(task.predicate_robustness(0, &5.0)?, 2.0);
+    /// assert_eq!(task.predicate_robustness(1, &5.0)?, -4.0);
+    /// assert!(task.predicate_robustness(0, &f64::NAN).is_err());
+    /// # Ok::<(), tltl::task::Error>(())
+    /// ```
+    ///
     /// # Errors
     /// If it is not a number.
     ///
@@ -144,6 +155,18 @@ impl<P> Task<P> {
     }
 
     /// Robustness of moving from `q` to `to` at `s`, ρ(s, ψ_{q,to}); -∞ if there is no such edge.
+    ///
+    /// ```
+    /// use tltl::tltl;
+    ///
+    /// let careful = tltl! { |s: &[f64; 2]| (s[0] < 9) U (s[1] > 3) };
+    /// let s = [5.0, 2.0]; // not there yet, by 1; not too near, by 4
+    /// assert_eq!(careful.progress_robustness(0, &s)?, -1.0);
+    /// assert_eq!(careful.guard_robustness(0, 0, &s)?, 1.0, "waiting");
+    /// let lost = careful.automaton().trap().expect("this task can be lost");
+    /// assert_eq!(careful.guard_robustness(0, lost, &s)?, -4.0);
+    /// # Ok::<(), tltl::task::Error>(())
+    /// ```
     ///
     /// # Errors
     /// If a predicate is not a number.

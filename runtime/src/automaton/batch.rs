@@ -6,6 +6,8 @@
 use super::{Automaton, Transitions};
 
 /// Letters, one for each row: which propositions hold there.
+///
+/// A slice of either kind is one, by `From`: pass `&letters[..]`.
 #[derive(Clone, Copy, Debug)]
 pub enum Letters<'a> {
     /// Bit i is proposition i; bits beyond the propositions mean nothing. For up to 64

@@ -20,6 +20,28 @@ use crate::mismatch::Mismatch;
 ///
 /// With serde it is saved in any format; serde_json reads floats back exactly only with its feature
 /// `float_roundtrip`.
+///
+/// It holds no tables of the task: the one that is given on resuming is compared by a checksum over all
+/// its moves, so a checkpoint is refused where the formula or the world has changed, even if all sizes
+/// are the same.
+///
+/// ```
+/// use tltl::learn::Checkpoint;
+/// use tltl::model;
+/// use tltl::prelude::*;
+///
+/// let mut env = ModelEnv::new(model::from_fn(2, 1, |s, _| [(1 - s, 1.0)]))?;
+/// let task = Labelled::of_env(&env, &tltl! { |s: &usize| F ({ *s } == 1) })?;
+/// let mut learner = Learner::new(&task, Settings::default(), 7);
+/// learner.train(&mut env, 100)?;
+/// let text = serde_json::to_string(&learner.checkpoint())?;
+/// let saved: Checkpoint = serde_json::from_str(&text)?;
+/// assert_eq!(Learner::resume(&task, saved.clone())?, learner);
+///
+/// let other = Labelled::of_env(&env, &tltl! { |s: &usize| F ({ *s } == 0) })?;
+/// assert!(Learner::resume(&other, saved).unwrap_err().to_string().contains("does not fit"));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub struct Checkpoint {
@@ -46,6 +68,8 @@ pub(super) struct SavedValues {
 }
 
 /// Which task on which world a checkpoint is of: a name to show, and a checksum to compare.
+///
+/// The name and the formula are not compared: one task may be written in several ways.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 pub(super) struct Identity {

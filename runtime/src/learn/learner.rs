@@ -254,6 +254,24 @@ impl Learner {
     }
 
     /// The greedy policy so far, saying how it was learned.
+    ///
+    /// ```
+    /// use tltl::model;
+    /// use tltl::prelude::*;
+    ///
+    /// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+    /// let mut env = ModelEnv::new(row)?;
+    /// let task = Labelled::of_env(&env, &tltl! { |s: &usize| F ({ *s } == 4) })?;
+    /// let mut learner = Learner::new(&task, Settings::default(), 1);
+    /// learner.train(&mut env, 1_000)?;
+    /// let policy = learner.policy();
+    /// assert_eq!((policy.act(0, 0), policy.training()[0].steps), (1, learner.steps()));
+    /// // What it is worth is for whoever has a model to add.
+    /// let certificate = learner.certify(&Problem::new(env.dynamics(), &task)?)?;
+    /// let policy = policy.certified(certificate);
+    /// assert!(policy.certificate().is_some_and(|worth| worth.satisfied > 0.999));
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn policy(&self) -> Policy {
         self.q.policy().trained(self.training())
@@ -351,6 +369,20 @@ impl Learner {
     /// A learner of `task` that goes on where the one was that `checkpoint` is of, with the same
     /// numbers.
     ///
+    /// ```
+    /// use tltl::model;
+    /// use tltl::prelude::*;
+    ///
+    /// let mut env = ModelEnv::new(model::from_fn(2, 1, |s, _| [(1 - s, 1.0)]))?;
+    /// let task = Labelled::of_env(&env, &tltl! { |s: &usize| F ({ *s } == 1) })?;
+    /// let mut learner = Learner::new(&task, Settings::default(), 7);
+    /// learner.train(&mut env, 100)?;
+    /// let mut resumed = Learner::resume(&task, learner.checkpoint())?;
+    /// resumed.train(&mut env, 200)?;
+    /// assert!(resumed.steps() >= 200 && resumed.training().seed == 7);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
     /// # Errors
     /// If the checkpoint is of another task or another world.
     pub fn resume(task: &Labelled, checkpoint: Checkpoint) -> Result<Self, Mismatch> {
@@ -368,6 +400,8 @@ impl Learner {
 }
 
 /// The number of entries whose updates are counted.
+///
+/// Counterfactual updates visit all automaton states together, so they need one count for (s, a).
 fn entries(task: &Labelled, settings: &Settings) -> usize {
     let pairs = if settings.is_counterfactual() { task.states() } else { task.pairs() };
     pairs * task.actions()

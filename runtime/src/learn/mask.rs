@@ -29,6 +29,24 @@ use crate::shield::Shield;
 /// largest possible P(satisfied), 98.4865 %, in the fewest steps that allow it, 11.6584: the
 /// shield costs nothing, and the sampling that tips near ties beside a trap has no effect. Where a
 /// goal lies beside a trap it can cost nearly all: see [`shield`](crate::shield).
+///
+/// Without a model, the counts are enough:
+///
+/// ```
+/// use tltl::learn::Mask;
+/// use tltl::model;
+/// use tltl::prelude::*;
+///
+/// // Five cells in a row. Reach the right end, and keep off the left one until then.
+/// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+/// let mut env = ModelEnv::new(row)?;
+/// let task = Labelled::of_env(&env, &tltl! { |s: &usize| ({ *s } != 0) U ({ *s } == 4) })?;
+/// let mut learner = Learner::new(&task, Settings::safe(), 1);
+/// learner.train_masked(&mut env, Mask::OneStep, 2_000)?;
+/// let seen = learner.experience();
+/// assert!(seen.tried(1, 0) > 0 && 20 * seen.tried(1, 0) < seen.tried(1, 1), "a few accidents");
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub enum Mask<'a> {
     /// A [`Shield`]: with that of a known model no trap is ever entered that can be avoided.
@@ -85,6 +103,8 @@ fn risk((q, s, a): (u32, usize, usize), task: &Labelled, seen: &Experience) -> (
 }
 
 /// A table learner that acts behind a mask.
+///
+/// `allowed` is a buffer: the list is made anew at every step, and must not allocate there.
 pub(super) struct Masked<'a> {
     pub(super) agent: Tabular<'a, usize, false>,
     pub(super) task: &'a Labelled,

@@ -37,6 +37,21 @@ pub use crate::settings::{Memory, Schedule, Settings, Updates};
 use crate::task;
 
 /// Why training stopped.
+///
+/// What was learned until then is kept: the learner can be saved, or trained on in another environment.
+///
+/// ```
+/// use tltl::learn::TrainError;
+/// use tltl::model;
+/// use tltl::prelude::*;
+///
+/// let task = Labelled::new(0..3, ["go"], &tltl! { |s: &usize| F ({ *s } == 2) })?;
+/// let mut learner = Learner::new(&task, Settings::default(), 1);
+/// let mut larger = ModelEnv::new(model::from_fn(4, 1, |s, _| [(s, 1.0)]))?;
+/// let error = learner.train(&mut larger, 100).unwrap_err();
+/// assert!(matches!(error, TrainError::Mismatch(_)) && learner.steps() == 0);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum TrainError {
     /// The environment, or a shield, is of another world or task.

@@ -5,6 +5,10 @@
 //! and the recipe are known when a loop is compiled ([`Fixed`], `PLAIN`), which makes it a fifth
 //! faster: rows are unrolled, and branches on settings go. Functions are forced inline, for calls
 //! would spill the random generator and the table's address at each step.
+//!
+//! It evaluates no predicate and never looks at the model: the environment may be anything that
+//! numbers its states. What it may rely on: [`IndexedWorld`] was checked to have the sizes of the
+//! table, so entries are indexed without a second look.
 
 use alloc::vec::Vec;
 use core::convert::Infallible;
@@ -22,6 +26,9 @@ use crate::reward::Rewards;
 ///
 /// Where the environment terminates, what the task pays may be another amount
 /// ([`Mode::Shaped`](crate::reward::Mode::Shaped)); that is looked up apart, for it is rare.
+///
+/// `moves` takes 16 bytes for each pair, more than the two tables it is made of, and spares the inner
+/// loop the class of s' and a branch on how the reward is indexed.
 pub(super) struct IndexedWorld<'a, E> {
     env: &'a mut E,
     task: Labelled,
@@ -91,6 +98,9 @@ impl<E: FiniteEnv> Monitored for IndexedWorld<'_, E> {
 }
 
 /// How many actions there are: the length of a row.
+///
+/// A trait and not a const generic alone, for most worlds have a number of actions for which no loop
+/// was compiled; those go through `usize`.
 pub(super) trait Width: Copy {
     fn get(self) -> usize;
 }
@@ -118,6 +128,9 @@ impl Width for usize {
 ///
 /// With counterfactual updates all automaton states share their visits, for each step updates them
 /// all: the step size of an entry then depends on (s, a) alone.
+///
+/// It borrows what the [`Learner`](super::Learner) owns for the time of one call of `train`. Settings
+/// are copied, so that they stay in registers.
 pub(super) struct Tabular<'a, W, const PLAIN: bool> {
     pub(super) settings: Settings,
     pub(super) gamma: f64,
@@ -151,6 +164,8 @@ impl<W: Width, const PLAIN: bool> Tabular<'_, W, PLAIN> {
     }
 
     /// The step size of this update.
+    ///
+    /// A constant one counts no visits: the paper's recipe then writes nothing but the value.
     #[inline(always)]
     fn alpha(&mut self, transition: &Transition<'_, usize>) -> f64 {
         if let Some(alpha) = self.settings.alpha().fixed() {
@@ -209,6 +224,7 @@ impl<W: Width, const PLAIN: bool> Agent for Tabular<'_, W, PLAIN> {
     ) -> Result<(), TrainError> {
         let Transition { q, s, action, step, read } = *transition;
         if !step.reward.is_finite() {
+            // The learner puts the number of the step in: to count here would cost a store each time.
             return Err(TrainError::Reward(0));
         }
         if !PLAIN && self.settings.remembers() {
@@ -219,6 +235,7 @@ impl<W: Width, const PLAIN: bool> Agent for Tabular<'_, W, PLAIN> {
             self.update(q, read, transition, alpha);
             return Ok(());
         }
+        // By index: an iterator would borrow the agent while it is updated.
         for i in 0..self.live.len() {
             let q = self.live[i];
             self.update(q, world.read(q, step).map_err(Into::into)?, transition, alpha);

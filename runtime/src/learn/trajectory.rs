@@ -21,6 +21,26 @@ use crate::reward::End;
 use crate::task::Error;
 
 /// What the end of an episode pays.
+///
+/// ```
+/// use tltl::learn::{Observation, TerminalReward, TrajectoryLearner};
+/// use tltl::model;
+/// use tltl::prelude::*;
+///
+/// // Five cells in a row, and a robustness that grows with the place: ρ(F far) is the largest x - 3.
+/// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+/// let far = tltl! { |s: &usize| F ({ *s } > 3) };
+/// let mut env = ModelEnv::new(row)?;
+/// let task = Labelled::of_env(&env, &far)?;
+/// let values = [TerminalReward::Satisfaction, TerminalReward::Robustness].map(|paid| {
+///     let settings = Settings::paper().with_rewards(Rewards::default().with_gamma(0.5).unwrap());
+///     let mut learner = TrajectoryLearner::new(&task, settings, paid, Observation::World, 1);
+///     learner.train(&mut env, &far, 10_000).unwrap();
+///     learner.policy()
+/// });
+/// assert_eq!(values.map(|policy| policy.act(0, 3)), [1, 1], "beside the goal both go there");
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TerminalReward {
     /// The robustness of the whole trajectory, clamped to ± the
@@ -31,6 +51,30 @@ pub enum TerminalReward {
 }
 
 /// What a learner observes.
+///
+/// What it costs to leave the automaton out: where the same cell asks for different actions before and
+/// after something is done, a learner without q has one action for both.
+///
+/// ```
+/// use tltl::learn::{Observation, TerminalReward, TrajectoryLearner};
+/// use tltl::model;
+/// use tltl::prelude::*;
+///
+/// // First the right end of five cells, then the left one.
+/// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+/// let there_and_back = tltl! { |s: &usize| ({ *s } == 4) T ({ *s } == 0) };
+/// let mut env = ModelEnv::new(row)?;
+/// let task = Labelled::of_env(&env, &there_and_back)?;
+/// let problem = Problem::new(env.dynamics(), &task)?;
+/// let worth = [Observation::World, Observation::WorldAndAutomaton].map(|observation| {
+///     let paid = TerminalReward::Satisfaction;
+///     let mut learner = TrajectoryLearner::new(&task, Settings::paper(), paid, observation, 1);
+///     learner.train(&mut env, &there_and_back, 20_000).unwrap();
+///     problem.evaluate(&learner.policy()).unwrap().mean_satisfied()
+/// });
+/// assert!(worth[0] < 0.5 && worth[1] > 0.999, "{worth:?}");
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Observation {
     /// The state of the world alone: every automaton state gets the same values.
@@ -177,6 +221,9 @@ impl Agent for TrajectoryLearner {
 
 /// A finite environment that pays for whole trajectories. It keeps them as the environment's own
 /// states, for robustness is computed from predicates.
+///
+/// Robustness is that of the whole trajectory, so it must be kept as states: memory grows with an
+/// episode, up to the horizon, and is used again by the next.
 struct Whole<'a, E: FiniteEnv, M> {
     env: &'a mut E,
     monitor: &'a M,

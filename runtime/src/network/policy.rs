@@ -58,6 +58,10 @@
 //!
 //! Numbers are 32-bit floats, written so that they are read back exactly (with serde_json, switch
 //! on its feature `float_roundtrip`).
+//!
+//! Why a document of its own, beside that of tables: nothing in it is counted by states of the world,
+//! which are not known, and there is no certificate, only an estimate. What both share (how an
+//! automaton is described, that the format and the version come first) is one code.
 
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -73,6 +77,25 @@ use crate::q::argmax;
 use crate::reward::End;
 
 /// How a network, or a skill that it was composed from, was learned.
+///
+/// Less than [`Training`](crate::policy::Training) says of a table: of the settings only γ, without which
+/// nobody can say what the values mean.
+///
+/// ```
+/// use tltl::network::policy::NetworkTraining;
+///
+/// let how = NetworkTraining {
+///     task: "fetch".into(),
+///     steps: 200_000,
+///     episodes: 3_100,
+///     updates: 99_500,
+///     gamma: 0.97,
+///     seed: 7,
+/// };
+/// let text = serde_json::to_string(&how)?;
+/// assert_eq!(serde_json::from_str::<NetworkTraining>(&text)?, how);
+/// # Ok::<(), serde_json::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -92,6 +115,25 @@ pub struct NetworkTraining {
 }
 
 /// The content of a network policy; [`NetworkPolicy`] is the checked form.
+///
+/// ```
+/// use tltl::network::policy::{NetworkDocument, NetworkPolicy};
+/// use tltl::network::{Dense, Network, Shape};
+/// use tltl::tltl;
+///
+/// let shape = Shape { inputs: 1, hidden: vec![], heads: 1, actions: 2, entities: 0, channels: 0 };
+/// let network = Network::new(shape, vec![Dense { weights: vec![-1.0, 1.0], bias: vec![0.0; 2] }])?;
+/// let task = tltl! { |x: &f64| F ({ *x } > 3) };
+/// let policy = NetworkPolicy::new(&task, vec!["left".into(), "right".into()], network)?;
+/// let document: NetworkDocument = policy.into();
+/// assert_eq!((&document.formula[..], document.automaton.states), (task.formula().text(), 2));
+/// // What is changed by hand is checked again.
+/// let named = NetworkDocument { actions: vec!["right".into()], ..document };
+/// let error = NetworkPolicy::try_from(named).unwrap_err();
+/// assert_eq!(error.to_string(), "`actions` has 1 names, and the network has 2 actions");
+/// # use tltl::Acceptor;
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -127,6 +169,9 @@ pub struct NetworkDocument {
 }
 
 /// Why a document is not a network policy.
+///
+/// Of several faults the first is reported, in the order in which the document is checked: what it is,
+/// its automaton, its names, its worth. The network has been checked by then, as it was read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NetworkPolicyError {
     /// It is something else.
@@ -209,6 +254,32 @@ impl From<NetworkError> for NetworkPolicyError {
 
 /// A policy for a task on a world whose states are features: for each automaton state a network of
 /// action values.
+///
+/// It acts by features, which the caller writes, and by q, which the task moves:
+///
+/// ```
+/// use tltl::network::policy::NetworkPolicy;
+/// use tltl::network::{Dense, Network, Shape};
+/// use tltl::{Acceptor, tltl};
+///
+/// // One feature, the place on a line; two heads, as two automaton states are live.
+/// let shape = Shape { inputs: 1, hidden: vec![], heads: 2, actions: 2, entities: 0, channels: 0 };
+/// let layers = vec![Dense { weights: vec![-1.0, 1.0, 1.0, -1.0], bias: vec![0.0; 4] }];
+/// let task = tltl! { |x: &f64| ({ *x } > 3) T ({ *x } < 1) };
+/// let names = ["left", "right"].map(String::from).to_vec();
+/// let policy = NetworkPolicy::new(&task, names, Network::new(shape, layers)?)?;
+///
+/// let (mut x, mut walk) = (1.5_f32, vec![]);
+/// let mut q = task.next(0, &1.5)?;
+/// while policy.end(q).is_none() {
+///     x += [-1.0, 1.0][policy.act(q, &[x], &[])];
+///     q = task.next(q, &f64::from(x))?;
+///     walk.push(x);
+/// }
+/// assert_eq!(walk, [2.5, 3.5, 2.5, 1.5, 0.5]);
+/// assert!(task.is_accepting(q));
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "NetworkDocument", into = "NetworkDocument"))]
@@ -324,6 +395,21 @@ impl NetworkPolicy {
 
     /// The same policy, saying what the features of the state and of an entity are.
     ///
+    /// ```
+    /// use tltl::network::policy::NetworkPolicy;
+    /// use tltl::network::{Dense, Network, Shape};
+    /// use tltl::tltl;
+    ///
+    /// let shape = Shape { inputs: 1, hidden: vec![], heads: 1, actions: 2, entities: 0, channels: 0 };
+    /// let network = Network::new(shape, vec![Dense { weights: vec![-1.0, 1.0], bias: vec![0.0; 2] }])?;
+    /// let task = tltl! { |x: &f64| F ({ *x } > 3) };
+    /// let policy = NetworkPolicy::new(&task, vec!["left".into(), "right".into()], network)?;
+    /// assert!(policy.clone().described(vec!["x".into(), "y".into()], vec![]).is_err());
+    /// let policy = policy.described(vec!["x".into()], vec![])?;
+    /// assert_eq!(policy.document().inputs, ["x"]);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
     /// # Errors
     /// Unless there are as many names as features, or none.
     pub fn described(
@@ -336,6 +422,8 @@ impl NetworkPolicy {
     }
 
     /// The same policy, saying how it was learned; called once for each skill of a composition.
+    ///
+    /// `deep::Learner::policy` says it already.
     #[must_use]
     pub fn trained(mut self, training: NetworkTraining) -> Self {
         self.0.training.push(training);
@@ -374,6 +462,21 @@ impl NetworkPolicy {
 
     /// The head of `q`: the number of states before it in which the task goes on. `None` where it is
     /// decided.
+    ///
+    /// ```
+    /// use tltl::network::policy::NetworkPolicy;
+    /// use tltl::network::{Dense, Network, Shape};
+    /// use tltl::{Acceptor, tltl};
+    ///
+    /// // Of `!c U a` one state is live: 0. State 1 accepts, and 2 is the trap.
+    /// let task = tltl! { |s: &(bool, bool)| !s.0 U s.1 };
+    /// let shape = Shape { inputs: 0, hidden: vec![], heads: 1, actions: 1, entities: 0, channels: 0 };
+    /// let network = Network::new(shape, vec![Dense { weights: vec![], bias: vec![0.25] }])?;
+    /// let policy = NetworkPolicy::new(&task, vec!["go".into()], network)?;
+    /// assert_eq!([0, 1, 2].map(|q| policy.head(q)), [Some(0), None, None]);
+    /// assert_eq!([0, 1, 2].map(|q| policy.values(q, &[], &[])[0]), [0.25, 0.0, 0.0]);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
     ///
     /// # Panics
     /// If `q` is not a state of the automaton.

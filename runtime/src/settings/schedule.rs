@@ -76,6 +76,14 @@ impl Schedule {
     /// `start · half / (half + n)`: half of `start` at n = `half`. As a step size it satisfies the
     /// conditions of Robbins and Monro (1951), so that values converge.
     ///
+    /// ```
+    /// use tltl::learn::Schedule;
+    ///
+    /// let alpha = Schedule::harmonic(1.0, 8.0)?;
+    /// assert_eq!([0, 8, 24].map(|n| alpha.at(n)), [1.0, 0.5, 0.25]);
+    /// # Ok::<(), tltl::OutOfRange>(())
+    /// ```
+    ///
     /// # Errors
     /// Unless `start` is finite, and `half` finite and positive.
     pub fn harmonic(start: f64, half: f64) -> Result<Self, OutOfRange> {

@@ -46,6 +46,18 @@ impl Values {
     }
 
     /// All numbers, indexed `q * states + s`.
+    ///
+    /// ```
+    /// use tltl::model;
+    /// use tltl::prelude::*;
+    ///
+    /// let row = model::from_fn(3, 1, |s, _| [((s + 1).min(2), 1.0)]);
+    /// let task = Labelled::of_model(&row, &tltl! { |s: &usize| ({ *s } != 1) U ({ *s } == 2) })?;
+    /// let satisfied = Problem::new(&Dynamics::new(&row)?, &task)?.largest_satisfied();
+    /// assert_eq!(satisfied.as_slice().len(), 3 * 3, "live, accepted or lost, in three cells");
+    /// assert_eq!(satisfied.as_slice()[..3], [0.0, 1.0, 1.0], "from 0 the way leads through 1");
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn as_slice(&self) -> &[f64] {
         &self.values
