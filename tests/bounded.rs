@@ -4,8 +4,11 @@
 use std::ops::RangeInclusive;
 
 use proptest::prelude::*;
+use tltl_compiler::dfa::Dfa;
+use tltl_compiler::minimize::minimize;
 use tltl_compiler::source::Span;
 use tltl_compiler::spec::{FormulaId, Spec};
+use tltl_compiler::translate::{Budget, translate};
 use tltlc::semantics;
 
 use crate::random::{Bytes, Choices, NAMES};
@@ -186,6 +189,10 @@ fn chosen(bytes: &[u8], ensuring: bool) -> (Tree, Spec) {
     (tree, spec)
 }
 
+fn minimal(spec: &Spec) -> Dfa {
+    minimize(&translate(spec, Budget::SHOWN).unwrap())
+}
+
 fn bytes() -> impl Strategy<Value = Vec<u8>> {
     prop::collection::vec(any::<u8>(), 0..60)
 }
@@ -204,6 +211,17 @@ proptest! {
         let rho = |p: u32, t: usize| trace[t][p as usize];
         let found = semantics::robustness(&spec, trace.len(), rho);
         prop_assert_eq!(found, tree.rho(&trace, 0), "{:?} as {}", tree, spec);
+    }
+
+    /// The automaton of a formula with bounds is that of the same formula without any, written out
+    /// in `X`, `&&` and `||`.
+    #[test]
+    fn automata_are_those_of_bounds_written_out(bytes in bytes()) {
+        let (_, spec) = chosen(&bytes, true);
+        let [bounded, plain] = [&spec, &spec.unrolled()].map(minimal);
+        prop_assert_eq!(bounded.transitions, plain.transitions, "{}", spec);
+        prop_assert_eq!(bounded.diagram.nodes(), plain.diagram.nodes(), "{}", spec);
+        prop_assert_eq!(bounded.accepting, plain.accepting);
     }
 
     #[test]

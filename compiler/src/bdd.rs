@@ -26,6 +26,20 @@
 //! assert_eq!(states.evaluate(moves[0], &|level| level == 1), 7);
 //! ```
 //!
+//! # Chains of levels
+//!
+//! The variables of a *chain*, a range of neighbouring levels, imply each other: each one all those
+//! above it ("within 4 steps" implies "within 5"). So they have only n + 1 joint values for n
+//! levels, the number of them that are true, and a function is a sequence g₀ … gₙ of functions of
+//! the other variables. A node at level i of a chain goes to low where fewer than i are true: low
+//! is all of g₀ … gᵢ₋₁, equal to each other, and asks no level of the chain. It goes to high
+//! elsewhere, the rest of the sequence. A level that asks in vain is one with gᵢ₋₁ = gᵢ: its node
+//! would go to the same low as the next node of the chain, which is its high, and that node is
+//! taken in its place. So the nodes of a chain are the places where the sequence changes, they are
+//! determined by the function, and equal functions are equal as ever. Minimum and maximum of
+//! variables of one chain are one node, where free variables would need n: the obligations of an
+//! operator with the bound 10,000 stay as small as those of one without.
+//!
 //! # Sources
 //!
 //! Reduced ordered diagrams and *apply*: Bryant, "Graph-Based Algorithms for Boolean Function
@@ -38,8 +52,8 @@
 //! # Cost
 //!
 //! An operation costs at most the product of the numbers of nodes of its operands, as long as the
-//! cache remembers, never the number of paths, and recurses once a level. Levels are never reordered: a bad order can make a diagram
-//! exponential in them. Nodes are never freed; a diagram is dropped as a whole. Nothing depends on
+//! cache remembers, never the number of paths, and recurses once a node on a path. Levels are never
+//! reordered: a bad order can make a diagram exponential in them. Nodes are never freed; a diagram is dropped as a whole. Nothing depends on
 //! the order of a hash table.
 //!
 //! # Why not a crate
@@ -161,6 +175,12 @@ pub struct Diagram {
     cache: Vec<Known>,
     covers: Covers,
     limit: usize,
+    /// The first and the last level of each chain, rising.
+    chains: Vec<(u32, u32)>,
+    /// How deep the operation that runs has gone.
+    depth: u32,
+    /// Whether an operation has gone too deep, and results are arbitrary.
+    is_too_deep: bool,
 }
 
 impl Default for Diagram {
@@ -171,9 +191,10 @@ impl Default for Diagram {
 }
 
 impl Diagram {
-    /// The number of levels up to which no operation runs out of stack. Callers that take levels
-    /// from an input check it. An unoptimized build needs a megabyte for this many, half of what a
-    /// thread has.
+    /// The number of levels on one path up to which no operation runs out of stack. Callers that
+    /// take levels from an input check it; an [operation](Self::apply) that goes deeper stops, and
+    /// [`is_too_deep`](Self::is_too_deep) says so. An unoptimized build needs a megabyte for this
+    /// many, half of what a thread has.
     pub const MAX_LEVELS: u32 = 4096;
 
     /// A diagram without nodes that stops growing soon after `limit` of them: from then on, results
@@ -182,7 +203,43 @@ impl Diagram {
     pub fn with_limit(limit: usize) -> Self {
         // A kilobyte: the automata of most tasks have fewer than 128 nodes.
         let unique = vec![Bdd::FALSE; 1 << 8];
-        Self { nodes: Vec::new(), unique, cache: Vec::new(), covers: Covers::default(), limit }
+        Self {
+            nodes: Vec::new(),
+            unique,
+            cache: Vec::new(),
+            covers: Covers::default(),
+            limit,
+            chains: Vec::new(),
+            depth: 0,
+            is_too_deep: false,
+        }
+    }
+
+    /// The same diagram, still without nodes, with chains among its levels: in each range of
+    /// levels, first to last, a variable is true only where those above it are. The ranges rise.
+    ///
+    /// ```
+    /// use tltl_compiler::bdd::Diagram;
+    ///
+    /// let mut diagram = Diagram::default().chained(vec![(1, 9)]);
+    /// let [weak, strong] = [2, 7].map(|level| diagram.variable(level));
+    /// assert_eq!(diagram.and(weak, strong), strong);
+    /// assert_eq!(diagram.or(weak, strong), weak);
+    /// ```
+    #[must_use]
+    pub fn chained(self, chains: Vec<(u32, u32)>) -> Self {
+        debug_assert!(self.nodes.is_empty());
+        Self { chains, ..self }
+    }
+
+    /// Whether `strong`, a level below `weak`, is in one chain with it: it is true only where
+    /// `weak` is.
+    fn implies(&self, strong: u32, weak: u32) -> bool {
+        if self.chains.is_empty() {
+            return false;
+        }
+        let next = self.chains.partition_point(|&(first, _)| first <= weak);
+        next > 0 && strong <= self.chains[next - 1].1
     }
 
     /// Forgets all functions, and keeps the memory.
@@ -196,7 +253,14 @@ impl Diagram {
     /// Whether the limit has been passed, and results are arbitrary.
     #[must_use]
     pub fn is_exhausted(&self) -> bool {
-        self.nodes.len() > self.limit
+        self.nodes.len() > self.limit || self.is_too_deep
+    }
+
+    /// Whether an operation met a path of more than [`MAX_LEVELS`](Self::MAX_LEVELS), and results
+    /// are arbitrary.
+    #[must_use]
+    pub fn is_too_deep(&self) -> bool {
+        self.is_too_deep
     }
 
     /// All nodes, children before parents.
@@ -224,6 +288,8 @@ impl Diagram {
     pub fn cofactors(&self, f: Bdd, level: u32) -> (Bdd, Bdd) {
         match self.get(f) {
             Some(node) if node.level == level => (node.low, node.high),
+            // Where a level is false, all below it in its chain are.
+            Some(node) if self.implies(node.level, level) => (node.low, f),
             _ => (f, f),
         }
     }
@@ -249,13 +315,13 @@ impl Diagram {
     }
 
     /// The function that is `low` where `level` is false and `high` where it is true. Both ask
-    /// higher levels only.
+    /// higher levels only, and `low` none of the level's chain.
     ///
     /// # Panics
     /// Beyond 2^31 nodes.
     pub fn node(&mut self, level: u32, low: Bdd, high: Bdd) -> Bdd {
-        if low == high {
-            return low;
+        if low == high || self.asks_in_vain(level, low, high) {
+            return high;
         }
         debug_assert!(level < self.level(low) && level < self.level(high));
         let node = Node { level, low, high };
@@ -275,6 +341,12 @@ impl Diagram {
             self.grow();
         }
         fresh
+    }
+
+    /// Whether the next node of the level's chain separates `low` from all else as well.
+    fn asks_in_vain(&self, level: u32, low: Bdd, high: Bdd) -> bool {
+        !self.chains.is_empty()
+            && self.get(high).is_some_and(|n| n.low == low && self.implies(n.level, level))
     }
 
     /// Makes room in the unique table, and in the operation cache, which forgets.
@@ -382,14 +454,17 @@ impl Diagram {
         if let Some(known) = self.known(key, operation, f, g) {
             return known;
         }
+        self.is_too_deep |= self.depth > Self::MAX_LEVELS;
         if self.is_exhausted() {
             return Bdd::FALSE;
         }
         let level = self.level(f).min(self.level(g));
         let (f0, f1) = self.cofactors(f, level);
         let (g0, g1) = self.cofactors(g, level);
+        self.depth += 1;
         let low = self.apply(operation, f0, g0, terminal);
         let high = self.apply(operation, f1, g1, terminal);
+        self.depth -= 1;
         let result = self.node(level, low, high);
         self.remember(key, Known { operation, f, g, result });
         result

@@ -20,6 +20,18 @@
 //! exp(φ T ψ) = exp(φ) ∧ (Fψ)′ ∨ (φ T ψ)′
 //! ```
 //!
+//! An operator with a bound is due with one step less, and is its operand when no step is left:
+//!
+//! ```text
+//! exp(X[n] φ)     = (X[n-1] φ)′
+//! exp(F[0,n] φ)   = exp(φ) ∨ (F[0,n-1] φ)′
+//! exp(G[0,n] φ)   = exp(φ) ∧ (G[0,n-1] φ)′
+//! exp(φ U[0,n] ψ) = exp(ψ) ∨ exp(φ) ∧ (φ U[0,n-1] ψ)′
+//! ```
+//!
+//! No bound is written out: the obligations of an operator are a range of levels, and only those
+//! that some state has are ever expanded (`obligation`).
+//!
 //! # Sources
 //!
 //! LTL on finite traces and its automata: De Giacomo and Vardi, "Linear Temporal Logic and Linear
@@ -55,6 +67,8 @@
 //! # Ok::<(), tltl_compiler::error::Errors>(())
 //! ```
 
+mod obligation;
+
 use std::fmt;
 
 use rustc_hash::FxHashSet;
@@ -63,6 +77,8 @@ use crate::arena::Memo;
 use crate::bdd::{Bdd, Diagram, Node};
 use crate::dfa::{Dfa, State};
 use crate::spec::{Formula, FormulaId, Spec};
+
+use obligation::Obligations;
 
 /// Bounds on the work of a translation. They count things and never look at a clock: the same
 /// source always gives the same answer, on every machine.
@@ -122,8 +138,8 @@ pub enum Resource {
     Edges,
     /// [`Budget::products`]
     Products,
-    /// Operators of one formula. A decision diagram has at most [`Diagram::MAX_LEVELS`] levels, so
-    /// no budget allows more.
+    /// Operators of one formula, or obligations of one state. A path in a decision diagram has at
+    /// most [`Diagram::MAX_LEVELS`] levels, so no budget allows more.
     Operators,
 }
 
@@ -166,8 +182,7 @@ pub struct Exceeded {
 /// # Errors
 /// If the budget does not suffice. The work done until then is bounded by the budget.
 pub fn translate(spec: &Spec, budget: Budget) -> Result<Dfa, Exceeded> {
-    let spec = spec.unrolled();
-    let mut translation = Translation::new(&spec, budget)?;
+    let mut translation = Translation::new(spec, budget)?;
     translation.expand_formulas()?;
     translation.explore()
 }
@@ -181,10 +196,7 @@ struct Translation<'a> {
     functions: Diagram,
     /// The number of propositions: lower levels are propositions, higher ones obligations.
     propositions: u32,
-    /// The level of each formula that can be an obligation; `u32::MAX` for others.
-    level: Vec<u32>,
-    /// The formula of each obligation, by its level less the number of propositions.
-    obligations: Vec<FormulaId>,
+    obligations: Obligations,
     /// The expansion of each formula; [`Bdd::FALSE`] for those that are not [needed](Self::needed).
     expansion: Vec<Bdd>,
     /// The expansion of each function of obligations met so far. Shared by all states: a chain of
@@ -205,14 +217,19 @@ struct Translation<'a> {
 
 impl<'a> Translation<'a> {
     /// A translation with nothing done but the numbering of obligations.
+    ///
+    /// # Errors
+    /// If there are more levels than a diagram may have.
     fn new(spec: &'a Spec, budget: Budget) -> Result<Self, Exceeded> {
-        let mut translation = Self {
+        let obligations = Obligations::new(spec)
+            .ok_or(Exceeded { what: Resource::States, limit: budget.states })?;
+        let operators = obligations.operators();
+        let translation = Self {
             spec,
             budget,
-            functions: Diagram::with_limit(budget.nodes),
+            functions: Diagram::with_limit(budget.nodes).chained(obligations.chains()),
             propositions: spec.propositions().len() as u32,
-            level: vec![u32::MAX; spec.formulas().len()],
-            obligations: Vec::new(),
+            obligations,
             expansion: vec![Bdd::FALSE; spec.formulas().len()],
             expanded: Memo::default(),
             states: Memo::default(),
@@ -221,35 +238,8 @@ impl<'a> Translation<'a> {
             transitions: Diagram::default(),
             targets: Memo::default(),
         };
-        translation.number_obligations()?;
+        translation.check(Resource::Operators, operators, Diagram::MAX_LEVELS as usize)?;
         Ok(translation)
-    }
-
-    /// Gives a level to every subformula that can be an obligation, inner ones first: a chain of
-    /// goals then shares the diagrams of the obligations that it has already met.
-    ///
-    /// # Errors
-    /// If there are more levels than a diagram may have.
-    fn number_obligations(&mut self) -> Result<(), Exceeded> {
-        let reachable = self.spec.reachable();
-        let mut asked = vec![false; reachable.len()];
-        for (id, formula) in self.spec.formulas().filter(|(id, _)| reachable[id.0 as usize]) {
-            match formula {
-                Formula::Next(a) => asked[a.0 as usize] = true,
-                Formula::Eventually(_) | Formula::Until(..) => asked[id.0 as usize] = true,
-                Formula::Then(_, b) => {
-                    asked[id.0 as usize] = true;
-                    asked[b.0 as usize] = true;
-                }
-                _ => {}
-            }
-        }
-        for (id, _) in self.spec.formulas().filter(|(id, _)| asked[id.0 as usize]) {
-            self.level[id.0 as usize] = self.propositions + self.obligations.len() as u32;
-            self.obligations.push(id);
-        }
-        let levels = self.propositions as usize + self.obligations.len();
-        self.check(Resource::Operators, levels, Diagram::MAX_LEVELS as usize)
     }
 
     /// Computes the expansions of all needed formulas, operands first.
@@ -303,7 +293,7 @@ impl<'a> Translation<'a> {
     }
 
     /// The expansion of one formula from those of its operands; the equations are those of the
-    /// module's docs.
+    /// module's docs. An operator may have another bound than that of `id`.
     fn expansion_of(&mut self, id: FormulaId, formula: Formula) -> Bdd {
         let of = |this: &Self, a: FormulaId| this.expansion[a.0 as usize];
         match formula {
@@ -320,46 +310,89 @@ impl<'a> Translation<'a> {
             Formula::Or(..) => self.chain(id).iter().rev().fold(Bdd::FALSE, |rest, &operand| {
                 self.functions.or(self.expansion[operand.0 as usize], rest)
             }),
-            Formula::Next(a) => self.functions.variable(self.level[a.0 as usize]),
-            Formula::Eventually(a) => {
-                let again = self.functions.variable(self.level[id.0 as usize]);
-                let now = of(self, a);
+            Formula::Next(a) | Formula::Delay(1, a) => self.later(a),
+            Formula::Delay(..) => self.again(id, formula),
+            Formula::Within(0, a) | Formula::Throughout(0, a) => of(self, a),
+            Formula::UntilWithin(0, _, b) => of(self, b),
+            Formula::Eventually(a) | Formula::Within(_, a) => {
+                let (now, again) = (of(self, a), self.again(id, formula));
                 self.functions.or(now, again)
             }
-            Formula::Until(a, b) => {
-                let again = self.functions.variable(self.level[id.0 as usize]);
+            Formula::Throughout(_, a) => {
+                let (now, again) = (of(self, a), self.again(id, formula));
+                self.functions.and(now, again)
+            }
+            Formula::Until(a, b) | Formula::UntilWithin(_, a, b) => {
+                let again = self.again(id, formula);
                 let (hold, done) = (of(self, a), of(self, b));
                 let later = self.functions.and(hold, again);
                 self.functions.or(done, later)
             }
             Formula::Then(a, b) => {
-                let again = self.functions.variable(self.level[id.0 as usize]);
-                let second = self.functions.variable(self.level[b.0 as usize]);
+                let (again, second) = (self.again(id, formula), self.later(b));
                 let first = of(self, a);
                 let first = self.functions.and(first, second);
                 self.functions.or(first, again)
             }
-            _ => unreachable!("bounds are written out"),
         }
     }
 
-    /// Replaces every obligation in `f` by its expansion.
-    ///
-    /// Functions of obligations are monotone, so a node is `low ∨ (obligation ∧ high)`, and no
-    /// negation of an expansion is needed. Recurses once a level, of which there are at most
-    /// [`Diagram::MAX_LEVELS`].
+    /// The obligation to satisfy a formula at the next state.
+    fn later(&mut self, a: FormulaId) -> Bdd {
+        self.functions.variable(self.obligations.level(a, self.spec.formula(a)))
+    }
+
+    /// The obligation to satisfy `formula`, the operator of `id` with any bound, at the next state,
+    /// with one step less if it has a bound.
+    fn again(&mut self, id: FormulaId, formula: Formula) -> Bdd {
+        let fewer = formula.bound().map_or(formula, |n| formula.with_bound(n - 1));
+        self.functions.variable(self.obligations.level(id, fewer))
+    }
+
+    /// Replaces every obligation in `f` by its expansion. A loop, for a chain of obligations is
+    /// as long as its bound.
     fn expand(&mut self, f: Bdd) -> Bdd {
-        let Some(Node { level, low, high }) = self.functions.get(f) else { return f };
-        if let Some(known) = self.expanded.get(f) {
+        if let Some(known) = self.known_expansion(f) {
             return known;
         }
-        let (low, high) = (self.expand(low), self.expand(high));
-        let due = self.obligations[(level - self.propositions) as usize];
-        let due = self.expansion[due.0 as usize];
+        let mut open = vec![f];
+        while let Some(&f) = open.last() {
+            let Node { level, low, high } = self.functions.get(f).expect("leaves are known");
+            match (self.known_expansion(low), self.known_expansion(high)) {
+                (Some(on_low), Some(on_high)) => {
+                    let expansion = self.expand_node(level, on_low, on_high);
+                    self.expanded.insert(f, expansion);
+                    open.pop();
+                }
+                (None, _) => open.push(low),
+                (_, None) => open.push(high),
+            }
+        }
+        self.known_expansion(f).expect("it was just expanded")
+    }
+
+    /// The expansion of `f`, if it is known; a leaf is its own.
+    fn known_expansion(&self, f: Bdd) -> Option<Bdd> {
+        if f.value().is_some() { Some(f) } else { self.expanded.get(f) }
+    }
+
+    /// The expansion of a node from those of its children.
+    ///
+    /// Functions of obligations are monotone, so a node is `low ∨ (obligation ∧ high)`, and no
+    /// negation of an expansion is needed.
+    fn expand_node(&mut self, level: u32, low: Bdd, high: Bdd) -> Bdd {
+        let due = self.due(level);
         let high = self.functions.and(due, high);
-        let expansion = self.functions.or(low, high);
-        self.expanded.insert(f, expansion);
-        expansion
+        self.functions.or(low, high)
+    }
+
+    /// The expansion of the obligation of a level.
+    fn due(&mut self, level: u32) -> Bdd {
+        let (id, formula) = self.obligations.due(level);
+        match formula.bound() {
+            None => self.expansion[id.0 as usize],
+            Some(_) => self.expansion_of(id, formula),
+        }
     }
 
     /// Explores the states breadth-first from the formula's own expansion.
@@ -435,6 +468,12 @@ impl<'a> Translation<'a> {
 
     /// Checks the size of the diagram against the budget.
     fn check_nodes(&self) -> Result<(), Exceeded> {
+        if self.functions.is_too_deep() {
+            return Err(Exceeded {
+                what: Resource::Operators,
+                limit: Diagram::MAX_LEVELS as usize,
+            });
+        }
         self.check(Resource::Nodes, self.functions.nodes().len(), self.budget.nodes)
     }
 

@@ -146,6 +146,60 @@ fn leaves_are_numbers() {
     assert_eq!(diagram.leaves(difference), [0, 2, 4]);
 }
 
+/// A chain of the levels 1 to 3 among five: operations on the valuations that it leaves, in which a
+/// level of the chain is true only where those above it are.
+#[test]
+fn functions_of_a_chain_are_equal_where_they_agree_on_its_values() {
+    let mut diagram = Diagram::default().chained(vec![(1, 3)]);
+    let possible = |v: u32| matches!(v >> 1 & 7, 0 | 1 | 3 | 7);
+    let care: u32 = (0..1 << LEVELS).filter(|&v| possible(v)).map(|v| 1 << v).sum();
+    let mut known = std::collections::HashMap::new();
+    let tables = tables();
+    let functions: Vec<Bdd> =
+        tables.iter().map(|&table| by_minterms(&mut diagram, table)).collect();
+    for (&a, &f) in tables.iter().zip(&functions) {
+        for (&b, &g) in tables.iter().zip(&functions) {
+            for (result, expected) in [
+                (diagram.and(f, g), a & b),
+                (diagram.or(f, g), a | b),
+                (diagram.minus(f, g), a & !b),
+            ] {
+                assert_eq!(table(&diagram, result) & care, expected & care, "{a:x} {b:x}");
+                assert_eq!(*known.entry(expected & care).or_insert(result), result, "{a:x} {b:x}");
+            }
+        }
+    }
+    let all = diagram.variable(3);
+    let levels = [1, 2, 3].map(|level| diagram.variable(level));
+    assert_eq!(levels.into_iter().fold(Bdd::TRUE, |all, one| diagram.and(all, one)), all);
+}
+
+/// The function of a truth table as a disjunction of conjunctions of literals.
+fn by_minterms(diagram: &mut Diagram, table: u32) -> Bdd {
+    (0..1_u32 << LEVELS).filter(|v| table >> v & 1 == 1).fold(Bdd::FALSE, |sum, v| {
+        let cube = (0..LEVELS).rev().fold(Bdd::TRUE, |cube, level| {
+            let literal = diagram.literal((level, v >> level & 1 == 1));
+            diagram.and(literal, cube)
+        });
+        diagram.or(sum, cube)
+    })
+}
+
+/// Functions of two long chains that change at every level: too deep for the stack, and refused.
+#[test]
+fn an_operation_that_goes_too_deep_stops() {
+    let levels = Diagram::MAX_LEVELS + 2;
+    let mut diagram = Diagram::default().chained(vec![(0, levels - 1)]);
+    let mut chain = |parity: u32| {
+        (0..levels).rev().fold(Bdd::leaf(parity), |high, level| {
+            diagram.node(level, Bdd::leaf((level + parity) % 2), high)
+        })
+    };
+    let (f, g) = (chain(0), chain(1));
+    diagram.and(f, g);
+    assert!(diagram.is_too_deep() && diagram.is_exhausted());
+}
+
 /// As deep as it gets, on the small stack of a test's thread.
 #[test]
 fn no_operation_runs_out_of_stack() {

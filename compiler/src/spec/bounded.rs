@@ -43,6 +43,28 @@ use super::{Formula, FormulaId, Spec};
 use crate::arena::{self, Memo};
 use crate::source::Span;
 
+impl Formula {
+    /// The bound of an operator that has one.
+    pub(crate) fn bound(self) -> Option<u32> {
+        match self {
+            Self::Delay(n, _) | Self::Within(n, _) => Some(n),
+            Self::Throughout(n, _) | Self::UntilWithin(n, ..) => Some(n),
+            _ => None,
+        }
+    }
+
+    /// The same operator with another bound; itself if it has none.
+    pub(crate) fn with_bound(self, n: u32) -> Self {
+        match self {
+            Self::Delay(_, a) => Self::Delay(n, a),
+            Self::Within(_, a) => Self::Within(n, a),
+            Self::Throughout(_, a) => Self::Throughout(n, a),
+            Self::UntilWithin(_, a, b) => Self::UntilWithin(n, a, b),
+            other => other,
+        }
+    }
+}
+
 impl Spec {
     /// X[n] φ: φ at the instant `n` steps from now, which must exist.
     ///
