@@ -9,13 +9,13 @@ use proptest::prelude::*;
 use tltl_compiler::ast::{Ast, ItemKind};
 use tltl_compiler::check;
 use tltl_compiler::compile::{self, Compiled};
-use tltl_compiler::error::{Error, Errors, Kind, Style};
+use tltl_compiler::error::{Errors, Kind, Style};
 use tltl_compiler::parse;
 use tltl_compiler::predicate::Module;
 use tltl_compiler::source::Source;
 use tltl_compiler::translate::Budget;
 use tltlc::diff::{Difference, diff};
-use tltlc::vacuity::advice;
+use tltlc::lint;
 
 fn checked(mode: &str, source: &Source) -> Result<Module, Errors> {
     match mode {
@@ -38,10 +38,16 @@ fn compiled(mode: &str, source: &Source) -> Result<Compiled, Errors> {
 /// The errors of a source, or its warnings.
 fn report(mode: &str, source: &Source) -> String {
     match compiled(mode, source) {
-        Err(errors) => errors.render(source, Style::Plain),
+        Err(errors) => {
+            let parsed = match mode {
+                "formula" => parse::recover_formula(source),
+                "file" => parse::recover_file(source),
+                _ => parse::recover_fragment(source),
+            };
+            errors.with(lint::written(&parsed)).render(source, Style::Plain)
+        }
         Ok(compiled) => {
-            let mut warnings = [compiled.warnings.clone(), advice(&compiled)].concat();
-            warnings.sort_by_key(Error::span);
+            let warnings = lint::warnings(source, &compiled);
             let told = warnings.iter().map(|warning| warning.render(source, Style::Plain));
             told.collect::<Vec<_>>().join("\n")
         }

@@ -352,15 +352,6 @@ impl Ast {
         &self.arguments[range.start as usize..range.end as usize]
     }
 
-    /// Whether a name stands in one of the expressions, whatever it means there.
-    #[must_use]
-    pub fn mentions(&self, name: &str) -> bool {
-        let is_it = |entry: &Entry| {
-            matches!(entry.node, Node::Name) && self.source.slice(entry.span) == name
-        };
-        self.entries.iter().any(is_it)
-    }
-
     /// The operands of an expression, left to right.
     ///
     /// ```

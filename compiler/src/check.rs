@@ -44,9 +44,7 @@ mod value;
 use crate::ast::{Ast, Item, ItemKind};
 use crate::error::{Error, Errors, Kind};
 use crate::parse;
-use crate::predicate::{
-    ConditionId, Constant, Module, ParameterType, Predicate, PredicateId, Scalar, Task, TermId,
-};
+use crate::predicate::{ConditionId, Constant, Module, Predicate, PredicateId, Task, TermId};
 use crate::resolve::{ExpressionId, Names, Resolved, resolve};
 use crate::source::{Source, Span};
 use crate::spec::Spec;
@@ -72,7 +70,6 @@ pub fn formula(source: &Source) -> Result<Module, Errors> {
 /// let text = "state S { d: f64 in m }\npredicate near = d < 2\ntask go = F near\n";
 /// let module = check::file(&Source::new("go.tltl", text))?;
 /// assert_eq!(module.tasks[0].name.as_deref(), Some("go"));
-/// assert!(module.warnings.is_empty());
 /// # Ok::<(), tltl_compiler::error::Errors>(())
 /// ```
 ///
@@ -106,23 +103,18 @@ pub fn fragment(source: &Source) -> Result<Module, Errors> {
 /// Resolves and checks the items that could be parsed, together with the mistakes of form in the
 /// others. So an author sees mistakes of both kinds at once.
 fn finish((ast, mut mistakes): (Ast, Vec<Error>), names: Names) -> Result<Module, Errors> {
-    let broken = !mistakes.is_empty();
     let numbers = mistakes.iter().filter(|mistake| mistake.kind() == Kind::Number);
     let numbers: Vec<Span> = numbers.map(Error::span).collect();
     let resolved = resolve(&ast, names, &mut mistakes);
     mistakes.extend(attribute::misplaced(&ast));
     let mut checker = Checker::new(&resolved);
     resolved.order.iter().for_each(|item| checker.item(*item));
-    if !broken {
-        checker.warn_unused();
-    }
-    let (mut module, found) = checker.finish();
+    let (module, found) = checker.finish();
     mistakes.extend(found);
     // A number that cannot be represented counts as 1 so that checking can go on; a mistake about
     // that 1 would not be the author's.
     mistakes.retain(|mistake| mistake.kind() == Kind::Number || !numbers.contains(&mistake.span()));
-    module.warnings = Errors::split(mistakes)?;
-    Ok(module)
+    Errors::check(mistakes).map(|()| module)
 }
 
 /// A module under construction.
@@ -278,33 +270,6 @@ impl<'r> Checker<'r> {
         }
     }
 
-    /// Warns of predicates and constants that nothing uses. Not in a source without tasks, which
-    /// may be a library, and not if something could not be parsed, which may be the use.
-    fn warn_unused(&mut self) {
-        let (ast, scope) = (self.resolved.ast, &self.resolved.scope);
-        if !ast.items().iter().any(|item| matches!(item.kind, ItemKind::Task(..))) {
-            return;
-        }
-        let mut parameters = self.tasks.iter().flatten().flat_map(|task| &task.parameters);
-        let given =
-            parameters.any(|known| matches!(known.ty, ParameterType::Scalar(Scalar::Number(_))));
-        for (index, item) in ast.items().iter().enumerate() {
-            let name = ast.source().slice(item.name);
-            let what = match item.kind {
-                ItemKind::Predicate(..) => "predicate",
-                // A constant may also be an index or the end of a range, or serve as an argument of
-                // a task.
-                ItemKind::Constant(..) if !given && !ast.mentions(name) => "constant",
-                _ => continue,
-            };
-            if !self.lowering.used[index] && scope.item(name) == Some(index) {
-                let message = format!("{what} `{name}` is never used");
-                let warning = Error::new(Kind::Unused, message, item.name).warning();
-                self.lowering.mistakes.push(warning);
-            }
-        }
-    }
-
     /// The module, and the mistakes.
     fn finish(self) -> (Module, Vec<Error>) {
         let (ast, scope) = (self.resolved.ast, &self.resolved.scope);
@@ -319,7 +284,6 @@ impl<'r> Checker<'r> {
             arena: self.lowering.arena,
             places: self.lowering.places,
             tasks: self.tasks.into_iter().flatten().collect(),
-            warnings: Vec::new(),
         };
         (module, self.lowering.mistakes)
     }

@@ -47,8 +47,6 @@ pub struct Compiled {
     pub automata: Vec<Automata>,
     /// The tasks marked `#[factored]`, in source order.
     pub factored: Vec<Factored>,
-    /// The warnings, in source order; none of them is an error.
-    pub warnings: Vec<Error>,
 }
 
 /// A conjunction whose parts run side by side, each with an automaton of its own.
@@ -143,7 +141,7 @@ pub fn fragment(source: &Source, budget: Budget) -> Result<Compiled, Errors> {
 
 /// Compiles every task of a module; a task that fails leaves its mistake and the others go on.
 fn automata(mut module: Module, budget: Budget) -> Result<Compiled, Errors> {
-    let mut mistakes = std::mem::take(&mut module.warnings);
+    let mut mistakes = Vec::new();
     let split = std::mem::take(&mut module.tasks);
     let (apart, whole): (Vec<_>, Vec<_>) =
         split.into_iter().partition(|task| task.options.factored);
@@ -164,8 +162,8 @@ fn automata(mut module: Module, budget: Budget) -> Result<Compiled, Errors> {
         }
     }
     module.tasks = whole;
-    let warnings = Errors::split(mistakes)?;
-    Ok(Compiled { module, automata, factored, warnings })
+    Errors::check(mistakes)?;
+    Ok(Compiled { module, automata, factored })
 }
 
 /// The budget of one task: what its attributes set, and `budget` for the rest. An attribute may
@@ -223,10 +221,9 @@ fn task_automata(
     };
     check_size(&dfa, budget)?;
     let automata = Automata { propositional, dfa };
-    for mistake in judge::task(module, task, &mut possible, &automata) {
-        if !mistakes.contains(&mistake) {
-            mistakes.push(mistake);
-        }
+    // A formula without a name may be there to be explored.
+    if task.name.is_some() {
+        mistakes.extend(judge::task(module, task, &mut possible, &automata));
     }
     Ok(automata)
 }
@@ -277,7 +274,7 @@ pub fn check_guards(dfa: &Dfa, budget: Budget) -> Result<(), Exceeded> {
 /// The error for a task that needs more than its budget, with what to write instead.
 fn exceeds(task: &Task, budget: Budget, exceeded: Exceeded) -> Error {
     let Exceeded { what, limit } = exceeded;
-    let name = task.name.as_ref().map_or("the formula".to_owned(), |name| format!("task `{name}`"));
+    let name = task.title();
     let setting = match what {
         Resource::States => Some("states"),
         Resource::Nodes => Some("nodes"),

@@ -6,8 +6,8 @@
 //! source order: a stage never stops at the first.
 //!
 //! Errors are opaque: a kind, a span and a message with private fields, built by chained methods,
-//! so that a new part (such as `related`) changes no caller. Warnings are errors of a lower
-//! [`Severity`]; they travel the same way and do not stop the compilation.
+//! so that a new part (such as `related`) changes no caller. The compiler itself never
+//! warns. The tools do, with errors of a lower [`Severity`], so that they look the same.
 //!
 //! ```
 //! use tltl_compiler::error::{Error, Kind, Style};
@@ -282,28 +282,25 @@ const MOST: usize = 100;
 pub struct Errors(Vec<Error>);
 
 impl Errors {
-    /// `Err` of the mistakes if one of them is an error, else the warnings. Sorts them by place and
-    /// drops repetitions: the body of a quantifier is checked once for each element, and reports
-    /// the same mistake each time.
+    /// `Err` of the mistakes if there are any. Sorts them by place and drops repetitions: the body
+    /// of a quantifier is checked once for each element, and reports the same mistake each time.
     ///
     /// ```
     /// use tltl_compiler::error::{Error, Errors, Kind};
     /// use tltl_compiler::source::Span;
     ///
-    /// let warning = Error::new(Kind::Unused, "constant `far` is never used", Span::new(6, 9)).warning();
-    /// assert_eq!(Errors::split(vec![warning.clone()]).unwrap(), [warning.clone()]);
+    /// assert!(Errors::check(Vec::new()).is_ok());
+    /// let later = Error::new(Kind::UnknownName, "nothing here is called `b`", Span::new(6, 7));
     /// let error = Error::new(Kind::Type, "`far` is a number", Span::new(0, 3));
-    /// let errors = Errors::split(vec![warning, error]).unwrap_err();
-    /// // Source order, and the first error is not the warning.
+    /// let errors = Errors::check(vec![later.clone(), error, later]).unwrap_err();
     /// assert_eq!(errors.iter().map(|error| error.span().start).collect::<Vec<_>>(), [0, 6]);
-    /// assert!(!errors.first().is_warning());
     /// ```
     ///
     /// # Errors
-    /// If there is an error among them.
-    pub fn split(mut mistakes: Vec<Error>) -> Result<Vec<Error>, Self> {
-        // The body of a quantifier reports a mistake once for each of its copies.
-        sort(&mut mistakes);
+    /// If there is one among them.
+    pub fn check(mut mistakes: Vec<Error>) -> Result<(), Self> {
+        // Stable: mistakes at one place stay in the order in which they were found.
+        mistakes.sort_by_key(Error::span);
         let mut distinct: Vec<Error> = Vec::new();
         for mistake in mistakes {
             let mut here = distinct.iter().rev().take_while(|known| known.span == mistake.span);
@@ -311,23 +308,21 @@ impl Errors {
                 distinct.push(mistake);
             }
         }
-        let mut mistakes = distinct;
-        if mistakes.iter().all(Error::is_warning) {
-            mistakes.truncate(MOST);
-            return Ok(mistakes);
-        }
-        if mistakes.len() > MOST {
-            let (errors, warnings): (Vec<_>, Vec<_>) =
-                mistakes.into_iter().partition(|mistake| !mistake.is_warning());
-            mistakes = errors.into_iter().chain(warnings).take(MOST).collect();
-            sort(&mut mistakes);
-        }
-        Err(Self(mistakes))
+        distinct.truncate(MOST);
+        if distinct.is_empty() { Ok(()) } else { Err(Self(distinct)) }
     }
 
     /// The mistakes in source order.
     pub fn iter(&self) -> std::slice::Iter<'_, Error> {
         self.0.iter()
+    }
+
+    /// The same with `warnings` among them, in source order.
+    #[must_use]
+    pub fn with(mut self, warnings: Vec<Error>) -> Self {
+        self.0.extend(warnings);
+        self.0.sort_by_key(Error::span);
+        self
     }
 
     /// The first error; warnings are passed over.
@@ -342,12 +337,6 @@ impl Errors {
         let reports: Vec<_> = self.0.iter().map(|error| error.render(source, style)).collect();
         reports.join("\n")
     }
-}
-
-/// Sorts mistakes by their place. The sort is stable: those at one place stay in the order in which
-/// they were found.
-fn sort(mistakes: &mut [Error]) {
-    mistakes.sort_by_key(|mistake| mistake.span);
 }
 
 impl From<Error> for Errors {

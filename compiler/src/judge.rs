@@ -1,5 +1,4 @@
-//! Finds predicates and tasks that can hardly be meant, because they never hold or always do, and
-//! says why.
+//! Finds predicates and tasks that cannot be meant, because they never hold, and says why.
 //!
 //! Which letters can occur is known ([`Possible`]), so an unsatisfiable predicate is one that no
 //! possible letter has, and an unsatisfiable task one whose automaton has no accepting state. The
@@ -12,18 +11,18 @@
 //!    `x < 1` and `x > 3` exclude each other
 //! ```
 //!
-//! In a bare formula all of it is a warning: such a formula may be there to be explored. Nothing
-//! here changes an automaton. Cost: one emptiness test for each comparison of a contradiction.
+//! A bare formula is not judged when it is compiled: it may be there to be explored. Nothing here
+//! changes an automaton. Cost: one emptiness test for each comparison of a contradiction.
 //! Known weakness: a contradiction over several instants is found (the automaton shows it) but not
 //! explained.
 //!
 //! ```
 //! use tltl_compiler::{compile, source::Source, translate::Budget};
 //!
-//! let source = Source::new("formula", "F (x < 1 && x > 3)");
-//! let compiled = compile::formula(&source, Budget::EMITTED)?;
-//! assert!(compiled.warnings.iter().any(|warning| warning.kind().name() == "unsatisfiable"));
-//! # Ok::<(), tltl_compiler::error::Errors>(())
+//! let text = "state S { x: f64 }\npredicate stuck = x < 1 && x > 3\ntask t = F stuck\n";
+//! let errors = compile::file(&Source::new("s.tltl", text), Budget::EMITTED).unwrap_err();
+//! assert_eq!(errors.first().message(), "the predicate `stuck` can never hold");
+//! assert_eq!(errors.first().place_label(), "`x < 1` and `x > 3` exclude each other");
 //! ```
 
 use crate::arithmetic::{self, Possible};
@@ -33,7 +32,8 @@ use crate::predicate::{Condition, ConditionId, Module, Task};
 use crate::source::Span;
 
 /// The mistakes of one task, its predicates first.
-pub(crate) fn task(
+#[must_use]
+pub fn task(
     module: &Module,
     task: &Task,
     possible: &mut Possible,
@@ -41,41 +41,28 @@ pub(crate) fn task(
 ) -> Vec<Error> {
     let mut mistakes = predicates(module, task, possible);
     mistakes.extend(formula(module, task, possible, automata));
-    if task.name.is_none() {
-        mistakes = mistakes.into_iter().map(Error::warning).collect();
-    }
     mistakes
 }
 
-/// A mistake for each predicate that never holds, and a warning for each that always does.
+/// A mistake for each predicate that never holds.
 fn predicates(module: &Module, task: &Task, possible: &mut Possible) -> Vec<Error> {
     let mut mistakes = Vec::new();
     for (proposition, &id) in (0..).zip(&task.predicates) {
-        let predicate = &module.predicates[id.0 as usize];
-        let (name, condition) = (&predicate.name, predicate.condition);
-        let (can_hold, can_fail) = possible.values(proposition);
-        if can_hold && can_fail {
-            continue;
+        if possible.values(proposition) == (false, true) {
+            let predicate = &module.predicates[id.0 as usize];
+            let core = contradiction(module, &[(predicate.condition, true, predicate.span)]);
+            let message = format!("the predicate `{}` can never hold", predicate.name);
+            let error = Error::new(Kind::Unsatisfiable, message, predicate.span);
+            mistakes.push(pointing(error.label(never(&core)), &core));
         }
-        let core = contradiction(module, &[(condition, can_fail, predicate.span)]);
-        let error = match can_hold {
-            false => {
-                let message = format!("the predicate `{name}` can never hold");
-                Error::new(Kind::Unsatisfiable, message, predicate.span).label(never(&core))
-            }
-            true => {
-                let message = format!("the predicate `{name}` always holds");
-                Error::new(Kind::Valid, message, predicate.span).warning().label(always(&core))
-            }
-        };
-        mistakes.push(pointing(error, &core));
     }
     mistakes
 }
 
 /// The error with the places of the parts of a contradiction; a contradiction of one part has no
 /// place beside that of the error itself.
-fn pointing(error: Error, core: &[Part]) -> Error {
+#[must_use]
+pub fn pointing(error: Error, core: &[Part]) -> Error {
     let several = core.iter().filter(|_| core.len() > 1);
     several.fold(error, |error, part| match (part.place, part.holds) {
         (None, _) => error,
@@ -93,17 +80,9 @@ fn never(core: &[Part]) -> String {
     }
 }
 
-/// The reason why a predicate always holds: its negation never does.
-fn always(core: &[Part]) -> String {
-    match core {
-        [] => "every state satisfies this".to_owned(),
-        [one] => format!("it fails only for {}, which no value of its type satisfies", one.text),
-        all => format!("it fails only where {}", failing(&texts(all))),
-    }
-}
-
 /// The texts of some parts.
-fn texts(parts: &[Part]) -> Vec<String> {
+#[must_use]
+pub fn texts(parts: &[Part]) -> Vec<String> {
     parts.iter().map(|part| part.text.clone()).collect()
 }
 
@@ -115,8 +94,9 @@ fn excluding(all: &[String]) -> String {
     }
 }
 
-/// The same as the end of a sentence.
-fn failing(all: &[String]) -> String {
+/// The same as the end of a sentence: "`a` and `b`, which exclude each other".
+#[must_use]
+pub fn failing(all: &[String]) -> String {
     match all {
         [one, other] => format!("{one} and {other}, which exclude each other"),
         all => format!("{}, which cannot hold together", listed(all)),
@@ -132,21 +112,23 @@ fn listed(all: &[String]) -> String {
 }
 
 /// A part of a contradiction: a condition together with the value that it must have.
-struct Part {
-    id: ConditionId,
+pub struct Part {
+    /// The condition.
+    pub id: ConditionId,
     /// Whether it must hold; it must fail otherwise.
-    holds: bool,
+    pub holds: bool,
     /// The condition that must hold, as text in backquotes.
-    text: String,
+    pub text: String,
     /// The place in the source that says so; `None` if it follows from a type.
-    place: Option<Span>,
+    pub place: Option<Span>,
 }
 
 /// The parts of some conditions, or of their negations, that contradict each other. Each condition
 /// comes with the value that it must have and the place of its predicate.
 ///
 /// Empty if a condition is a constant, or if these parts alone do not contradict each other.
-fn contradiction(module: &Module, conditions: &[(ConditionId, bool, Span)]) -> Vec<Part> {
+#[must_use]
+pub fn contradiction(module: &Module, conditions: &[(ConditionId, bool, Span)]) -> Vec<Part> {
     let mut parts = parts(module, conditions);
     let roots: Vec<_> = parts.iter().map(|part| part.id).collect();
     let mut possible = arithmetic::possible_conditions(module, &roots);
@@ -239,45 +221,34 @@ fn core(possible: &mut Possible, mut literals: Vec<(u32, bool)>) -> Vec<(u32, bo
     literals
 }
 
-/// The mistake of a formula that no trajectory satisfies, or that every one does.
+/// The mistake of a formula that no trajectory satisfies.
 fn formula(
     module: &Module,
     task: &Task,
     possible: &mut Possible,
     automata: &Automata,
 ) -> Option<Error> {
-    let what = task.name.as_ref().map_or("the formula".to_owned(), |name| format!("task `{name}`"));
-    match automata.dfa.accepting {
-        None => {
-            let message = format!("{what} can never be satisfied");
-            let error = Error::new(Kind::Unsatisfiable, message, task.span)
-                .label("no trajectory satisfies this");
-            match obstacle(possible, &automata.propositional).as_deref() {
-                // The predicate itself has been reported.
-                Some([_]) => None,
-                Some(all) => {
-                    let condition = |&(proposition, holds): &(u32, bool)| {
-                        let id = task.predicates[proposition as usize];
-                        let predicate = &module.predicates[id.0 as usize];
-                        (predicate.condition, holds, predicate.span)
-                    };
-                    let conditions: Vec<_> = all.iter().map(condition).collect();
-                    let error = pointing(error, &contradiction(module, &conditions));
-                    let names: Vec<_> = all.iter().map(|one| name(task, *one)).collect();
-                    Some(error.help(format!("at one instant it needs {}", failing(&names))))
-                }
-                None => Some(error),
-            }
+    if automata.dfa.accepting.is_some() {
+        return None;
+    }
+    let message = format!("{} can never be satisfied", task.title());
+    let error = Error::new(Kind::Unsatisfiable, message, task.span);
+    let error = error.label("no trajectory satisfies this");
+    match obstacle(possible, &automata.propositional).as_deref() {
+        // The predicate itself has been reported.
+        Some([_]) => None,
+        Some(all) => {
+            let condition = |&(proposition, holds): &(u32, bool)| {
+                let id = task.predicates[proposition as usize];
+                let predicate = &module.predicates[id.0 as usize];
+                (predicate.condition, holds, predicate.span)
+            };
+            let conditions: Vec<_> = all.iter().map(condition).collect();
+            let error = pointing(error, &contradiction(module, &conditions));
+            let names: Vec<_> = all.iter().map(|one| name(task, *one)).collect();
+            Some(error.help(format!("at one instant it needs {}", failing(&names))))
         }
-        Some(0) => {
-            let message = format!("{what} is always satisfied");
-            Some(
-                Error::new(Kind::Valid, message, task.span)
-                    .label("every trajectory satisfies this")
-                    .warning(),
-            )
-        }
-        Some(_) => None,
+        None => Some(error),
     }
 }
 

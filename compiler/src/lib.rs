@@ -19,9 +19,9 @@
 //! of ids, operands first, so no pass recurses on what an author nests.
 //!
 //! Beside the pipeline stand [`factor`] (a conjunction taken apart), [`judge`] (predicates and
-//! tasks that can hardly be meant) and `hoa` (automata of other tools, with the feature of that
-//! name). Every user of the macros builds this crate, so the parts that only the command line needs
-//! (pictures, other formats, explanations) are in the package `tltlc`.
+//! tasks that can never hold) and `hoa` (automata of other tools, with the feature of that name).
+//! Every user of the macros builds this crate, so the parts that only the command line needs
+//! (warnings, pictures, other formats, explanations) are in the package `tltlc`.
 //!
 //! The compiler never learns, and does not know the runtime: the Rust that it writes is their only
 //! contract.

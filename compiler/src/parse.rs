@@ -96,23 +96,26 @@ pub fn is_keyword(word: &str) -> bool {
 }
 
 /// Parses a bare formula as far as possible, with its mistakes.
-pub(crate) fn recover_formula(source: &Source) -> (Ast, Vec<Error>) {
+#[must_use]
+pub fn recover_formula(source: &Source) -> (Ast, Vec<Error>) {
     one(source, Rule::formula)
 }
 
 /// Parses a task file as far as possible, with its mistakes.
-pub(crate) fn recover_file(source: &Source) -> (Ast, Vec<Error>) {
+#[must_use]
+pub fn recover_file(source: &Source) -> (Ast, Vec<Error>) {
     items(source)
 }
 
 /// Parses the input of the macro as far as possible, with its mistakes.
-pub(crate) fn recover_fragment(source: &Source) -> (Ast, Vec<Error>) {
+#[must_use]
+pub fn recover_fragment(source: &Source) -> (Ast, Vec<Error>) {
     if token::starts_with_item(source.text()) { items(source) } else { one(source, Rule::fragment) }
 }
 
 /// The tree, if there are no mistakes.
 fn finish((ast, mistakes): (Ast, Vec<Error>)) -> Result<Ast, Errors> {
-    Errors::split(mistakes).map(|_| ast)
+    Errors::check(mistakes).map(|()| ast)
 }
 
 /// Parses a source that is one formula.

@@ -30,7 +30,6 @@ pub use print::Printed;
 
 use crate::arena;
 use crate::ast::{Arithmetic, Comparison};
-use crate::error::Error;
 use crate::source::Span;
 use crate::spec::Spec;
 use crate::unit::{Unit, Units};
@@ -689,6 +688,14 @@ pub struct Task {
     pub options: Options,
 }
 
+impl Task {
+    /// The task as the subject of a sentence.
+    #[must_use]
+    pub fn title(&self) -> String {
+        self.name.as_ref().map_or("the formula".to_owned(), |name| format!("task `{name}`"))
+    }
+}
+
 /// How a task is compiled: the settings of its attributes. `None` leaves a bound to the caller's
 /// budget.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -731,8 +738,6 @@ pub struct Module {
     pub places: Vec<(ConditionId, Span)>,
     /// The tasks, in source order.
     pub tasks: Vec<Task>,
-    /// The warnings, in source order.
-    pub warnings: Vec<Error>,
 }
 
 impl Comparison {

@@ -40,9 +40,7 @@ pub(crate) fn inline(input: TokenStream) -> TokenStream {
             rust::code(&compiled, &options)
         }
         Err(errors) => {
-            // rustc would show a warning as one more error.
-            let errors = errors.iter().filter(|error| !error.is_warning());
-            let messages = errors.map(|error| message(error, &source, &flat));
+            let messages = errors.iter().map(|error| message(error, &source, &flat));
             // Items stand where no value can; a formula stands where one must.
             if is_items(&source) {
                 quote! { #(#messages)* }

@@ -72,7 +72,7 @@ fn the_examples_compile() {
         let compiled = compile::file(&source, Budget::default());
         let compiled = compiled
             .unwrap_or_else(|errors| panic!("{}", errors.render(&source, Default::default())));
-        let warnings = [compiled.warnings.clone(), tltlc::vacuity::advice(&compiled)].concat();
+        let warnings = tltlc::lint::warnings(&source, &compiled);
         assert!(warnings.is_empty(), "{warnings:?}");
     }
     for text in blocks(&reference, "rust") {

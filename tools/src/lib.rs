@@ -13,7 +13,7 @@
 //! | [`diff`](mod@diff) | two automata | "equal", or a shortest trajectory on which they differ |
 //! | [`product`](mod@product) | automata side by side | one automaton that knows the state of each |
 //! | [`trace`] | an automaton and a goal | the shortest trajectory that reaches it |
-//! | [`vacuity`] | a formula | warnings about the parts that could be left out |
+//! | [`lint`] | a source and what it compiles to | warnings about what is hardly meant |
 //! | [`format`](mod@format) | a task file | the same file, laid out |
 //! | [`emit`] | automata, saved policies | pictures, HOA, JSON, Graphviz, Mermaid, Rust |
 //! | [`semantics`] | a formula and a trajectory | its verdict and robustness by definition: the oracle of the tests |
@@ -47,9 +47,9 @@ pub mod emit;
 pub mod evaluate;
 pub mod explain;
 pub mod format;
+pub mod lint;
 pub mod product;
 pub mod semantics;
 pub mod tables;
 pub mod task;
 pub mod trace;
-pub mod vacuity;

@@ -20,7 +20,6 @@ impl Atoms<'_, '_> {
         arguments: &[ExpressionId],
     ) -> Option<Atom> {
         let resolved = self.resolved;
-        self.lowering.used[item] = true;
         let broken = matches!(resolved.item(item).kind, ItemKind::Broken(_));
         if broken || !resolved.scope.unclear(item).is_empty() {
             return None;
@@ -97,14 +96,7 @@ impl Atoms<'_, '_> {
             {
                 Some(self.lowering.parameter(id, *ty))
             }
-            (
-                Expression::Name(Name::Item(item, _) | Name::Parameter { item: Some(item), .. }),
-                _,
-            ) => {
-                self.lowering.used[*item] = true;
-                None
-            }
-            (Expression::Name(Name::Value(_) | Name::Parameter { .. }), _) => None,
+            (Expression::Name(Name::Item(..) | Name::Value(_) | Name::Parameter { .. }), _) => None,
             (Expression::Name(_) | Expression::Call(Callee { item: None, .. }, _), Names::Host) => {
                 return self.lowering.rust(id, false);
             }

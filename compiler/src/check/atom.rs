@@ -114,7 +114,6 @@ impl Atoms<'_, '_> {
     /// Another predicate or task, without arguments.
     fn item(&mut self, id: ExpressionId, item: usize) -> Option<Atom> {
         let resolved = self.resolved;
-        self.lowering.used[item] = true;
         if !resolved.scope.parameters(item).is_empty() {
             return self.lowering.refuse(self.without_arguments(id, item));
         }

@@ -1,10 +1,8 @@
-//! Temporal operators that cannot stand where they do, or that hardly mean what they seem to say.
+//! Temporal operators that cannot stand where they do.
 //!
 //! The logic is co-safe: a finite trajectory must be able to establish a formula for good. A
 //! negated temporal operator is a safety property, which none can. The errors here say so in terms
-//! of the author's own formula, and offer the `U` that is usually meant. The warnings are about the
-//! two formulas that authors of sequences get wrong: `F a T b` and `(a T b) T c` order less than
-//! they seem to.
+//! of the author's own formula, and offer the `U` that is usually meant.
 
 use crate::ast::{Infix, Prefix};
 use crate::error::{Error, Kind};
@@ -81,64 +79,4 @@ fn bracketed(resolved: &Resolved<'_>, id: ExpressionId) -> String {
         Expression::Prefix(..) | Expression::Infix(..) => format!("({text})"),
         _ => text,
     }
-}
-
-/// A warning if the operator `id` orders less than its author seems to think.
-pub(super) fn warning(resolved: &Resolved<'_>, id: ExpressionId) -> Option<Error> {
-    if let Expression::Infix(Infix::Until, left, right) = resolved[id].expression {
-        return idle_until(resolved, left, right);
-    }
-    let Expression::Infix(Infix::Then, left, right) = resolved[id].expression else { return None };
-    let right = resolved.quote(right);
-    match resolved[left].expression {
-        Expression::Prefix(Prefix::Eventually, a) if !resolved.is_bracketed(left) => {
-            let a = resolved.quote(a);
-            let f = resolved.symbol(left);
-            let message = format!(
-                "`{f} {a} T {right}` reads `({f} {a}) T {right}`, which does not order {a} before {right}"
-            );
-            Some(Error::new(Kind::Intent, message, resolved.span(left))
-                .warning()
-                .related(resolved.operator(id), "\"then\" waits only for \"eventually\" to be certain")
-                .help(format!("for {a} and later {right}, write `{a} T {right}`; to keep this meaning, write the brackets")))
-        }
-        Expression::Infix(Infix::Then, a, b) => {
-            let (a, b) = (resolved.quote(a), resolved.quote(b));
-            let message = format!("`({a} T {b}) T {right}` does not order {b} before {right}");
-            Some(
-                Error::new(Kind::Intent, message, resolved[left].outer)
-                    .warning()
-                    .label(format!("this holds from the start, before {b} has come"))
-                    .help(format!("for the three in this order, write `{a} T ({b} T {right})`")),
-            )
-        }
-        _ => None,
-    }
-}
-
-/// A warning for `a U F b`, which says no more than `F b`.
-fn idle_until(resolved: &Resolved<'_>, left: ExpressionId, right: ExpressionId) -> Option<Error> {
-    let goal = match resolved[right].expression {
-        Expression::Prefix(Prefix::Eventually, goal) => goal,
-        Expression::Infix(Infix::Then, goal, _) => goal,
-        _ => return None,
-    };
-    let (kept, text) = (resolved.quote(left), resolved.quote(right));
-    let operand = |id| match &resolved[id].expression {
-        Expression::Prefix(..) => resolved.quote(id),
-        _ => bracketed(resolved, id),
-    };
-    let (keep, goal) = (operand(left), operand(goal));
-    let message = format!(
-        "`{kept}` does not matter: `{text}` already looks ahead, so `U` need not wait for it"
-    );
-    Some(
-        Error::new(Kind::Vacuous, message, resolved[left].outer)
-            .warning()
-            .related(
-                resolved.operator(right),
-                "this is asked at the first state, not when it comes true",
-            )
-            .help(format!("to keep to {keep} until {goal} comes, write `{keep} U {goal}`")),
-    )
 }

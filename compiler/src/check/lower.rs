@@ -26,8 +26,6 @@ pub(super) struct Lowering<'r> {
     pub(super) places: Vec<(ConditionId, Span)>,
     /// The mistakes so far, in the order in which they were found.
     pub(super) mistakes: Vec<Error>,
-    /// Whether something uses each item.
-    pub(super) used: Vec<bool>,
     /// For each name that is declared outside of the source, whether its first use is a formula,
     /// and the place of that use.
     pub(super) free: FxHashMap<String, (bool, Span)>,
@@ -42,7 +40,6 @@ impl<'r> Lowering<'r> {
             arena: Arena::default(),
             places: Vec::new(),
             mistakes: Vec::new(),
-            used: vec![false; resolved.ast.items().len()],
             free: FxHashMap::default(),
         }
     }
@@ -190,7 +187,6 @@ impl<'r> Lowering<'r> {
 
     /// An item where a number should stand: a constant, or a mistake.
     fn number_item(&mut self, id: ExpressionId, item: usize) -> Option<TermId> {
-        self.used[item] = true;
         let entry = self.resolved.item(item);
         let what = match entry.kind {
             ItemKind::Constant(..) => {

@@ -149,7 +149,6 @@ impl Descent<'_> {
         let Role::Formula { negated } = role else {
             return self.refuse(id, self.temporal_predicate(id));
         };
-        self.mistakes.extend(intent::warning(self.resolved, id));
         self.mistakes.extend(negated.map(|by| intent::negated(self.resolved, id, by)));
         // The rest of the formula may hold mistakes of its own.
         self.give(id, Role::Formula { negated: None });

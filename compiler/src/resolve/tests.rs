@@ -25,8 +25,8 @@ pub(crate) fn read<T>(
 
 /// The messages of mistakes, in the order of the source.
 pub(crate) fn messages(mistakes: Vec<Error>) -> Vec<String> {
-    let mistakes = Errors::split(mistakes).unwrap_or_else(|errors| errors.into_iter().collect());
-    mistakes.iter().map(|error| error.message().to_owned()).collect()
+    let errors = Errors::check(mistakes).err().into_iter().flatten();
+    errors.map(|error| error.message().to_owned()).collect()
 }
 
 fn name(resolved: &Resolved<'_>, name: &Name) -> String {

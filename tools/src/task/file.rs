@@ -8,9 +8,11 @@ use std::borrow::Cow;
 use std::fmt;
 use std::sync::Arc;
 
+use tltl_compiler::ast::Ast;
 use tltl_compiler::compile::{self, Compiled};
 use tltl_compiler::dfa::Automata;
 use tltl_compiler::error::{Error, Errors, Style};
+use tltl_compiler::parse;
 use tltl_compiler::predicate;
 use tltl_compiler::source::Source;
 use tltl_compiler::translate::Budget;
@@ -18,7 +20,7 @@ use tltl_compiler::translate::Budget;
 use super::argument::{ArgumentError, Arguments, Parameter, Value, bind};
 use super::{Bound, Factored, Task};
 use crate::evaluate::Unreadable;
-use crate::vacuity::advice;
+use crate::lint;
 
 /// A task file, compiled. A clone costs a few reference counts.
 ///
@@ -60,7 +62,7 @@ impl TaskFile {
     /// ```
     pub fn new(source: Source, budget: Budget) -> Result<Self, CompileError> {
         let compiled = compile::file(&source, budget);
-        Self::compiled_from(source, compiled)
+        Self::compiled_from(source, compiled, parse::recover_file)
     }
 
     /// Compiles a bare formula: a file with one task, which has no name and no parameters.
@@ -70,16 +72,20 @@ impl TaskFile {
     pub fn of_formula(formula: &str, budget: Budget) -> Result<Self, CompileError> {
         let source = Source::new("formula", formula);
         let compiled = compile::formula(&source, budget);
-        Self::compiled_from(source, compiled)
+        Self::compiled_from(source, compiled, parse::recover_formula)
     }
 
     fn compiled_from(
         source: Source,
         compiled: Result<Compiled, Errors>,
+        read: fn(&Source) -> (Ast, Vec<Error>),
     ) -> Result<Self, CompileError> {
         match compiled {
             Ok(compiled) => Ok(Self { source, compiled: Arc::new(compiled) }),
-            Err(errors) => Err(CompileError { source, errors }),
+            Err(errors) => {
+                let errors = errors.with(lint::written(&read(&source)));
+                Err(CompileError { source, errors })
+            }
         }
     }
 
@@ -95,16 +101,12 @@ impl TaskFile {
         &self.compiled
     }
 
-    /// What the author should look at, in the order of the source: the warnings of the compiler,
-    /// and those of [`vacuity`](crate::vacuity).
+    /// What the author should look at, in the order of the source: the warnings of [`lint`].
     ///
-    /// The second kind costs a search, so it is made here, on demand, and not when the file is
-    /// compiled.
+    /// Some cost a search, so they are made on demand, and not when the file is compiled.
     #[must_use]
     pub fn warnings(&self) -> Vec<Error> {
-        let mut warnings = [self.compiled.warnings.clone(), advice(&self.compiled)].concat();
-        warnings.sort_by_key(Error::span);
-        warnings
+        lint::warnings(&self.source, &self.compiled)
     }
 
     /// Its tasks: the plain ones in the order of the source, then the factored ones in theirs.
@@ -279,7 +281,8 @@ impl CompileError {
         &self.source
     }
 
-    /// The mistakes, in the order of the source; at least one.
+    /// The mistakes, in the order of the source; at least one. Warnings about the text may stand
+    /// among them.
     #[must_use]
     pub fn errors(&self) -> &Errors {
         &self.errors

@@ -21,7 +21,6 @@
 
 use tltl_compiler::arithmetic::{self, Possible};
 use tltl_compiler::ast::quoted;
-use tltl_compiler::compile::Compiled;
 use tltl_compiler::dfa::{Automata, Dfa};
 use tltl_compiler::error::{Error, Kind};
 use tltl_compiler::minimize::minimize;
@@ -37,34 +36,11 @@ const MOST_OPERATORS: usize = 40;
 /// for a warning.
 const MOST_STATES: usize = 64;
 
-/// Warnings for each task about the largest parts of its formula that could be left out, in the
-/// order of the tasks.
+/// The warnings for one task, about the largest parts of its formula that could be left out.
 ///
-/// It is not a part of compiling: macros cannot warn on stable Rust, so they would search in vain.
-/// It is deterministic, and bounded: large formulas and automata are skipped.
-///
-/// ```
-/// use tltl_compiler::{compile, source::Source, translate::Budget};
-///
-/// let source = Source::new("formula", "F a || F (a && b)");
-/// let compiled = compile::formula(&source, Budget::default())?;
-/// let advice = tltlc::vacuity::advice(&compiled);
-/// assert_eq!(advice[0].kind().name(), "vacuous");
-/// assert!(advice[0].message().starts_with("`F (a && b)` does not matter"));
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-#[must_use]
-pub fn advice(compiled: &Compiled) -> Vec<Error> {
-    let tasks = compiled.module.tasks.iter().zip(&compiled.automata);
-    tasks.flat_map(|(task, automata)| parts(&compiled.module, task, automata)).collect()
-}
-
-/// The warnings for one task.
-///
-/// Formulas that always or never hold are skipped, since the compiler reports those with better
-/// words. So are literals of predicates that have only one value. Parts are visited from the whole
+/// Formulas that always or never hold are skipped, since those are reported with better words. So are literals of predicates that have only one value. Parts are visited from the whole
 /// to the operands; what lies within a part that was reported is marked and skipped.
-fn parts(module: &Module, task: &Task, automata: &Automata) -> Vec<Error> {
+pub(super) fn warnings(module: &Module, task: &Task, automata: &Automata) -> Vec<Error> {
     let spec = &task.spec;
     let reachable = spec.reachable();
     let count = reachable.iter().filter(|reachable| **reachable).count();
@@ -98,8 +74,8 @@ fn parts(module: &Module, task: &Task, automata: &Automata) -> Vec<Error> {
 /// no author wrote, has no span: the warning then stands at the task.
 fn vacuous_part(task: &Task, id: FormulaId, value: bool) -> Error {
     let text = quoted(&task.spec.text(id, 1024));
-    let what = task.name.as_ref().map_or("the formula".to_owned(), |name| format!("task `{name}`"));
-    let message = format!("`{text}` does not matter: {what} means the same without it");
+    let title = task.title();
+    let message = format!("`{text}` does not matter: {title} means the same without it");
     let span = task.spec.span(id);
     let span = if span == Span::default() { task.span } else { span };
     Error::new(Kind::Vacuous, message, span)
