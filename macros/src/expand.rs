@@ -3,6 +3,10 @@
 //!
 //! Tokens become text ([`Flat`]), the compiler compiles the text, and its result becomes tokens.
 //! Errors become `compile_error!` at the tokens that the author wrote.
+//!
+//! Nothing here knows what a formula means, and no error is worded here that is about a formula: those
+//! are the compiler's. What is decided here is only where code and messages go, and which names the code
+//! may see.
 
 use std::path::{Path, PathBuf};
 
@@ -51,6 +55,8 @@ pub(crate) fn inline(input: TokenStream) -> TokenStream {
     }
 }
 
+/// Compiles the text of a macro. The name of the source appears only in reports on string literals;
+/// elsewhere rustc shows the place.
 fn fragment(flat: &Flat) -> (Source, Result<Compiled, Errors>) {
     let source = Source::new("tltl!", flat.text.clone());
     let compiled = compile::fragment(&source, Budget::default());
@@ -73,6 +79,7 @@ fn variables(compiled: &Compiled) -> Vec<String> {
     words.filter(|word| !is_known(word)).map(str::to_owned).collect()
 }
 
+/// Whether a character can be a part of a name of Rust.
 fn is_of_a_word(c: char) -> bool {
     c.is_alphanumeric() || c == '_'
 }
@@ -102,6 +109,9 @@ pub(crate) fn include(input: TokenStream) -> TokenStream {
 }
 
 /// Expands a task file.
+///
+/// A name of the arguments that the file declares too would silently mean the file's, for the module
+/// sees its own items first; so that is refused.
 fn tasks(source: &Source, arguments: &Arguments) -> TokenStream {
     let compiled = match compile::file(source, Budget::default()) {
         Ok(compiled) => compiled,
@@ -246,6 +256,8 @@ impl Arguments {
     }
 
     /// Reads one `name = value`.
+    ///
+    /// Of two of the same name the last one counts, as a later line would.
     fn option(&mut self, part: &[TokenTree]) -> Result<(), (String, Span)> {
         let (name, equals, value) = match part {
             [TokenTree::Ident(name), TokenTree::Punct(equals), value @ ..] => {
@@ -267,6 +279,9 @@ impl Arguments {
     }
 
     /// The absolute path of the file, which the module includes.
+    ///
+    /// The author's path is relative to the package, and `include_bytes!` would take it as relative to the
+    /// source file.
     fn file(&self) -> PathBuf {
         let root = std::env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from).unwrap_or_default();
         let file = root.join(&self.path);
@@ -287,6 +302,8 @@ impl Arguments {
 
     /// The first word of a path in the arguments that would mean an item of the module inside it,
     /// and its place.
+    ///
+    /// `state = Cell` beside a file that declares a struct `Cell` is such a word.
     fn hidden(&self, compiled: &Compiled) -> Option<(String, Span)> {
         let module = &compiled.module;
         let factored = compiled.factored.iter().map(|factored| &factored.task);
@@ -329,6 +346,8 @@ impl Arguments {
 
 /// A path of the arguments as it is written inside the module: `super` and `self` are one level
 /// further out there.
+///
+/// `crate::…` and `::…` mean the same everywhere, and a plain name is found through `use super::*`.
 fn outward(path: TokenStream) -> TokenStream {
     let mut trees = path.clone().into_iter();
     match trees.next() {

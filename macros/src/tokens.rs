@@ -59,6 +59,8 @@ impl Flat {
         (!renamed.is_empty()).then(|| Self::renaming(input, renamed))
     }
 
+    /// The text with the words of `renamed` in place of those that were written; places stay those of
+    /// the author's tokens, so errors and code still have the names that the author wrote.
     fn renaming(input: TokenStream, renamed: BTreeMap<(String, String), String>) -> Self {
         let mut trees = visible(input.clone());
         if let [TokenTree::Literal(literal)] = trees.as_slice()
@@ -206,6 +208,8 @@ pub(crate) fn visible(stream: TokenStream) -> Vec<TokenTree> {
 }
 
 /// Whether a token can be a part of a path.
+///
+/// `$` stands in `$crate::…`.
 fn is_of_a_path(tree: &TokenTree) -> bool {
     match tree {
         TokenTree::Ident(_) => true,
@@ -215,6 +219,9 @@ fn is_of_a_path(tree: &TokenTree) -> bool {
 }
 
 /// The tokens with the span of another place.
+///
+/// Rust inside of a string literal is parsed into tokens without a place of their own; this gives them
+/// that of the literal, so that rustc underlines it and finds the names that are visible there.
 fn placed(stream: TokenStream, span: Span) -> TokenStream {
     let placed = stream.into_iter().map(|mut tree| {
         if let TokenTree::Group(group) = &tree {
@@ -290,6 +297,8 @@ fn unquote(literal: &str) -> Option<String> {
 }
 
 /// The character that an escape stands for, after its backslash.
+///
+/// Those of Rust: `\n`, `\x41`, `\u{25c7}` and the rest. rustc has refused all others by then.
 fn escaped(rest: &mut std::str::Chars<'_>) -> Option<char> {
     Some(match rest.next()? {
         'n' => '\n',

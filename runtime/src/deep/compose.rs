@@ -36,6 +36,8 @@ use crate::reward::Mode;
 use crate::task;
 
 /// A skill that was learned: what [`Learner::learned`](super::Learner::learned) gives.
+///
+/// A skill from a file is one too: its network is in the document, its experience in the checkpoint.
 pub struct Learned<'a, S> {
     /// Its values; the heads are the task's live states in order.
     pub network: Network,
@@ -57,6 +59,30 @@ impl<S> core::fmt::Debug for Learned<'_, S> {
 }
 
 /// What several skills see, side by side. All must have the same entities.
+///
+/// A composition's own network sees the state so.
+///
+/// ```
+/// use tltl::deep::Joint;
+/// use tltl::network::Features;
+///
+/// /// How far a place is away.
+/// struct Distance(f32);
+///
+/// impl Features<f32> for Distance {
+///     fn inputs(&self) -> usize {
+///         1
+///     }
+///     fn write(&self, s: &f32, inputs: &mut [f32], _: &mut [f32]) {
+///         inputs[0] = s - self.0;
+///     }
+/// }
+///
+/// let both = Joint(vec![&Distance(1.0), &Distance(4.0)]);
+/// let mut inputs = [0.0; 2];
+/// both.write(&2.0, &mut inputs, &mut []);
+/// assert_eq!(inputs, [1.0, -2.0]);
+/// ```
 pub struct Joint<'a, S>(pub Vec<&'a dyn Features<S>>);
 
 impl<S> core::fmt::Debug for Joint<'_, S> {
@@ -89,6 +115,8 @@ impl<S> Features<S> for Joint<'_, S> {
 }
 
 /// A skill, ready to be evaluated.
+///
+/// Its network lies on the device, and what it is scaled by is known.
 struct Ready<'a, S> {
     features: &'a dyn Features<S>,
     task: &'a dyn Monitor<S>,
@@ -110,6 +138,41 @@ impl<S> Ready<'_, S> {
 }
 
 /// Learned skills that are composed.
+///
+/// ```
+/// use tltl::compose::Compose as _;
+/// use tltl::deep::{AsGiven, Composition, Device, Learner, Settings, Skill};
+/// use tltl::model;
+/// use tltl::network::Features;
+/// use tltl::prelude::{Combine, ModelEnv, Product, tltl};
+/// # #[derive(Clone, Copy)]
+/// # struct Place;
+/// # impl Features<usize> for Place {
+/// #     fn inputs(&self) -> usize { 5 }
+/// #     fn write(&self, s: &usize, inputs: &mut [f32], _: &mut [f32]) { inputs[*s] = 1.0; }
+/// # }
+///
+/// // Five cells in a row: action 0 goes left, action 1 right. Two skills: reach an end each.
+/// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+/// let mut env = ModelEnv::new(row)?;
+/// let (left, right) = (tltl! { |s: &usize| F ({ *s } == 0) }, tltl! { |s: &usize| F ({ *s } == 4) });
+/// let settings = Settings::default().with_hidden([16])?.with_batch(16)?.with_warmup(50)?;
+/// let device = Device::flex();
+/// let mut one = Learner::new(Skill::new(&left, Place), &env, settings.clone(), &device, 1);
+/// let mut two = Learner::new(Skill::new(&right, Place), &env, settings.clone(), &device, 2);
+/// one.train(&mut env, 1_000)?;
+/// two.train(&mut env, 1_000)?;
+///
+/// // Both, by what the skills have seen. Beside an end the nearer one comes first.
+/// let (steps, product) = (env.steps(), Product::conjunction(&[&left, &right]));
+/// let skills = [one.learned()?, two.learned()?];
+/// let mut both =
+///     Composition::new(&product, &skills, AsGiven, Combine::Sum, settings, &device, 3)?;
+/// both.refine(300)?;
+/// assert_eq!([both.act(0, &1)?, both.act(0, &3)?], [0, 1]);
+/// assert_eq!((both.updates(), env.steps()), (300, steps), "and not a step was taken");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct Composition<'a, S, G> {
     product: &'a Product<'a, S>,
     settings: Settings,
@@ -199,6 +262,7 @@ impl<'a, S: Clone, G: Relabel<S>> Composition<'a, S, G> {
 
     /// Divides each skill's values by their largest in what was seen.
     fn normalise(&mut self) -> Result<(), Error> {
+        // Enough to meet states beside the goals, which are worth the most, at the price of one batch.
         const LOOK: usize = 2_000;
         let step = (self.replay.len() / LOOK).max(1);
         let states = self.replay.moments().iter().step_by(step).map(|m| m.state.clone());
@@ -280,6 +344,9 @@ impl<S: Clone, G: Relabel<S>> Compose for Composition<'_, S, G> {
 }
 
 /// `Ok` if there is a network for each operand, all with the same actions.
+///
+/// That a network is *of* the operand cannot be seen, only that it has as many heads as the operand
+/// has live states.
 fn check<S>(product: &Product<'_, S>, skills: &[Learned<'_, S>]) -> Result<(), Mismatch> {
     let operands = product.operands();
     if skills.len() != operands.len() {
@@ -303,12 +370,16 @@ fn check<S>(product: &Product<'_, S>, skills: &[Learned<'_, S>]) -> Result<(), M
 }
 
 /// The least and the largest reward of the environment that was seen.
+///
+/// Together with the task's they bound every value.
 fn worst<S>(replay: &Replay<S>, environment: f64) -> (f64, f64) {
     let seen = replay.moments().iter().map(|moment| environment * moment.reward);
     seen.fold((0.0, 0.0), |(least, most), r| (f64::min(least, r), f64::max(most, r)))
 }
 
 /// The skills that read states at `q` and are not done, and where they are.
+///
+/// In a sequence only the operand that runs.
 fn active<'p, S>(
     product: &'p Product<'_, S>,
     parts: &'p [Ready<'_, S>],
@@ -342,6 +413,9 @@ fn combined<S>(
 }
 
 /// What the further network is to learn beside the skills.
+///
+/// Steps 3–5 evaluate the sum's greedy policy, which is fixed; step 6 improves the policy of sum and
+/// network together. The two differ in what is paid, who chooses, and what bounds the values.
 struct Base<'a, S> {
     product: &'a Product<'a, S>,
     parts: &'a [Ready<'a, S>],

@@ -1,4 +1,9 @@
 //! The deep learner: acts, remembers, learns.
+//!
+//! [`Learner`] runs in the loop of [`episode`], as tables do. It acts
+//! ε-greedily by its network, puts every state into its [`Replay`], and after each few steps makes one
+//! update (`trainer`). It never looks at the environment's model, and its task only through
+//! [`Monitor`].
 
 use burn::tensor::Device;
 use rand::rngs::Xoshiro256PlusPlus;
@@ -53,6 +58,8 @@ use crate::task;
 /// assert_eq!(learner.act(0, &3)?, 1);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+///
+/// To watch or save it, train in slices; each call runs whole episodes.
 pub struct Learner<S, M, F, G> {
     skill: Skill<M, F, G>,
     moves: Moves,
@@ -63,6 +70,8 @@ pub struct Learner<S, M, F, G> {
 }
 
 /// All that learning changes, but for the random generator.
+///
+/// Apart from the learner, so that it can be borrowed while the skill is read.
 struct Core<S> {
     settings: Settings,
     /// What the actions are called.
@@ -239,6 +248,29 @@ where
     /// The same learner, which explores by drawing from `actions`, each as often as it is listed.
     /// (By default all are as likely, which wastes exploration where most actions are of one kind.)
     ///
+    /// ```
+    /// use tltl::deep::{Device, Learner, Settings, Skill};
+    /// use tltl::model;
+    /// use tltl::network::Features;
+    /// use tltl::prelude::*;
+    /// # struct Place;
+    /// # impl Features<usize> for Place {
+    /// #     fn inputs(&self) -> usize { 5 }
+    /// #     fn write(&self, s: &usize, inputs: &mut [f32], _: &mut [f32]) { inputs[*s] = 1.0; }
+    /// # }
+    ///
+    /// // Action 2 looks around and never moves. It is explored too, but half as often as the others.
+    /// let row = model::from_fn(5, 3, |s, a| [([s.saturating_sub(1), (s + 1).min(4), s][a], 1.0)]);
+    /// let mut env = ModelEnv::new(row)?;
+    /// let skill = Skill::new(tltl! { |s: &usize| F ({ *s } == 4) }, Place);
+    /// let settings = Settings::default().with_hidden([4])?;
+    /// let learner = Learner::new(skill, &env, settings, &Device::flex(), 1);
+    /// let mut learner = learner.exploring(vec![0, 0, 1, 1, 2]);
+    /// learner.train(&mut env, 100)?; // no update before the warm-up of 1,000 steps
+    /// assert!(learner.steps() >= 100 && learner.updates() == 0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
     /// # Panics
     /// If the list is empty, or names an action that the world does not have.
     #[must_use]
@@ -292,6 +324,8 @@ where
 
     /// The skill as it was learned, to be composed with others.
     ///
+    /// [`Composition`](super::Composition) shows its use.
+    ///
     /// # Errors
     /// As [`Self::network`].
     pub fn learned(&self) -> Result<Learned<'_, S>, NetworkError> {
@@ -300,6 +334,34 @@ where
     }
 
     /// The greedy policy so far, saying how it was learned: to be saved, and emitted as Rust.
+    ///
+    /// ```
+    /// use tltl::deep::{Device, Learner, Settings, Skill};
+    /// use tltl::model;
+    /// use tltl::network::Features;
+    /// use tltl::network::policy::NetworkPolicy;
+    /// use tltl::prelude::*;
+    /// # struct Place;
+    /// # impl Features<usize> for Place {
+    /// #     fn inputs(&self) -> usize { 5 }
+    /// #     fn write(&self, s: &usize, inputs: &mut [f32], _: &mut [f32]) { inputs[*s] = 1.0; }
+    /// # }
+    ///
+    /// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+    /// let mut env = ModelEnv::new(row)?;
+    /// let skill = Skill::new(tltl! { |s: &usize| F ({ *s } == 4) }, Place);
+    /// let settings = Settings::default().with_hidden([16])?.with_batch(16)?.with_warmup(50)?;
+    /// let mut learner = Learner::new(skill, &env, settings, &Device::flex(), 1);
+    /// learner.train(&mut env, 300)?;
+    /// // It needs no tensor library from here on.
+    /// let text = serde_json::to_string(&learner.policy()?)?;
+    /// let policy: NetworkPolicy = serde_json::from_str(&text)?;
+    /// let mut inputs = [0.0; 5];
+    /// inputs[2] = 1.0;
+    /// assert_eq!(policy.act(0, &inputs, &[]), learner.act(0, &2)?);
+    /// assert_eq!(policy.document().training[0], learner.training());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     ///
     /// # Errors
     /// As [`Self::network`].
@@ -332,6 +394,28 @@ where
     }
 
     /// What was seen.
+    ///
+    /// ```
+    /// use tltl::deep::{Device, Learner, Settings, Skill};
+    /// use tltl::model;
+    /// use tltl::network::Features;
+    /// use tltl::prelude::*;
+    /// # struct Place;
+    /// # impl Features<usize> for Place {
+    /// #     fn inputs(&self) -> usize { 5 }
+    /// #     fn write(&self, s: &usize, inputs: &mut [f32], _: &mut [f32]) { inputs[*s] = 1.0; }
+    /// # }
+    ///
+    /// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+    /// let mut env = ModelEnv::new(row)?;
+    /// let skill = Skill::new(tltl! { |s: &usize| F ({ *s } == 4) }, Place);
+    /// let settings = Settings::default().with_hidden([4])?.with_capacity(64)?;
+    /// let mut learner = Learner::new(skill, &env, settings, &Device::flex(), 1);
+    /// assert!(learner.replay().is_empty());
+    /// learner.train(&mut env, 200)?;
+    /// assert_eq!(learner.replay().len(), 64, "the last 64 states");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub const fn replay(&self) -> &Replay<S> {
         &self.core.replay
     }
@@ -352,6 +436,33 @@ where
     }
 
     /// All that learning has changed, to be saved.
+    ///
+    /// ```
+    /// use tltl::deep::{Checkpoint, Device, Learner, Settings, Skill};
+    /// use tltl::model;
+    /// use tltl::network::Features;
+    /// use tltl::prelude::*;
+    /// # #[derive(Clone, Copy)]
+    /// # struct Place;
+    /// # impl Features<usize> for Place {
+    /// #     fn inputs(&self) -> usize { 5 }
+    /// #     fn write(&self, s: &usize, inputs: &mut [f32], _: &mut [f32]) { inputs[*s] = 1.0; }
+    /// # }
+    ///
+    /// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+    /// let (mut env, device) = (ModelEnv::new(row)?, Device::flex());
+    /// let end = tltl! { |s: &usize| F ({ *s } == 4) };
+    /// let settings = Settings::default().with_hidden([8])?.with_batch(8)?.with_warmup(50)?;
+    /// let mut learner = Learner::new(Skill::new(&end, Place), &env, settings, &device, 1);
+    /// learner.train(&mut env, 200)?;
+    /// let text = serde_json::to_string(&learner.checkpoint())?;
+    /// let saved: Checkpoint<usize> = serde_json::from_str(&text)?;
+    /// let mut resumed = Learner::resume(Skill::new(&end, Place), &env, saved, &device)?;
+    /// learner.train(&mut env.clone(), 300)?;
+    /// resumed.train(&mut env, 300)?;
+    /// assert_eq!(learner.checkpoint(), resumed.checkpoint());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn checkpoint(&self) -> Checkpoint<S>
     where
         S: Clone,
@@ -424,6 +535,9 @@ where
 }
 
 /// All that learning changes, and which task it was for; see [`Learner::checkpoint`].
+///
+/// The replay is most of it: its states are saved as serde writes them, so a state should be small, or
+/// the capacity.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Checkpoint<S> {
     settings: Settings,

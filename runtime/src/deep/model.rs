@@ -1,4 +1,12 @@
 //! The network as tensors: batched forward passes, gradients, Adam.
+//!
+//! [`Network`] is the form that runs anywhere; a [`Model`] is the same on a device, in the form in which
+//! it is trained: with a value for each state beside what actions add to it. Both turn into each other
+//! without a loss but for rounding, so what is saved as a policy is what was trained. The forward pass
+//! exists twice, here in batches and there in plain Rust; a test compares them.
+//!
+//! Shapes are written `[batch, heads, actions]`. Nothing here is random, and on the CPU backend the same
+//! numbers come out on every run; other devices may add up in another order.
 
 use burn::optim::{Adam, AdamConfig, AdamState, AdaptiveMomentumState, Optimizer};
 use burn::tensor::{Device, Int, Tensor, TensorData, activation::relu};
@@ -9,6 +17,8 @@ use super::popart::PopArt;
 use crate::network::{Dense, Features, Network, NetworkError, Shape};
 
 /// The features of some states.
+///
+/// Features lie one state after the other in buffers that are used again for the next batch.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Batch {
     len: usize,
@@ -44,6 +54,7 @@ impl Batch {
         Err(all.take_while(|x| x.is_finite()).count())
     }
 
+    /// `[batch, inputs]` and `[batch, channels, entities]`, as [`Model::forward`] takes them.
     fn tensors(&self, shape: &Shape, device: &Device) -> (Tensor<2>, Tensor<3>) {
         let inputs = TensorData::new(self.inputs.clone(), [self.len, shape.inputs]);
         let entities =
@@ -87,6 +98,8 @@ pub(super) struct Model {
 }
 
 /// What one value of the network is to become.
+///
+/// A weight of 0 leaves the value alone: the head was not to learn from this step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Target {
     /// What the value should be, normalised.
@@ -97,6 +110,9 @@ pub(super) struct Target {
 
 impl Model {
     /// The model of a network, with state values of 0.
+    ///
+    /// The last layer becomes wider by one column for each head, of weights 0: the values of states
+    /// start as 0 and what the network says stays the same.
     pub(super) fn new(network: &Network, device: &Device) -> Self {
         let (shape, mut layers) = (network.shape().clone(), network.layers().to_vec());
         let width = shape.head_width();
@@ -200,6 +216,10 @@ impl Model {
     /// The weighted Huber loss of the values of `actions` (one a row) under all heads, with
     /// `targets` indexed `row * heads + head`, and `penalty` times the mean square of what the actions
     /// add to the values of states; the values; and the gradients, layer by layer.
+    ///
+    /// Huber's loss (1964) is quadratic near 0 and linear beyond 1, so that one surprising reward does
+    /// not throw the weights about. The penalty is multiplied by the number of heads, for the loss is a
+    /// sum over them.
     pub(super) fn gradients(
         &self,
         batch: &Batch,
@@ -239,6 +259,9 @@ impl Model {
     }
 
     /// Moves every weight to `other`'s by the share `rate`.
+    ///
+    /// The soft target of Lillicrap et al. (2016): bootstrapping from a network that moves slowly keeps
+    /// errors from chasing each other.
     pub(super) fn follow(&mut self, other: &Self, rate: f64) {
         for (layer, to) in self.layers.iter_mut().zip(&other.layers) {
             layer.weights = layer.weights.clone()
@@ -274,12 +297,18 @@ impl Model {
 }
 
 /// Adam (Kingma and Ba 2015) on all layers of a model, with a bound on the norm of the gradient.
+///
+/// Adam's ε is 1e-8, the paper's: it is added to the root of the second moment, and larger ones slow down
+/// weights with small gradients. The bound is on the norm over all layers together, so that a shortened
+/// gradient keeps its direction.
 pub(super) struct Optimiser {
     adam: Adam,
     moments: Vec<(Option<AdamState<2>>, Option<AdamState<1>>)>,
 }
 
 /// Adam's moments as numbers.
+///
+/// Saved with a learner, without which training would go on with other steps than before.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct AdamMoments {
     time: usize,

@@ -1,4 +1,7 @@
 //! Adaptive normalisation of targets that preserves outputs (PopArt, van Hasselt et al. 2016).
+//!
+//! Rewards of 1 at the end of a long way make values from 0.01 to 1, each automaton state at another
+//! height, and one step size serves all. With targets of mean 0 and deviation 1 it does.
 
 use serde::{Deserialize, Serialize};
 use std::vec::Vec;
@@ -22,7 +25,7 @@ struct TargetMoments {
     squares: f64,
 }
 
-/// The least and the largest σ.
+/// The least and the largest σ: where all targets are alike σ would be 0, and the loss infinite.
 const RANGE: (f64, f64) = (1e-2, 1e6);
 
 impl PopArt {
@@ -47,6 +50,9 @@ impl PopArt {
     }
 
     /// Takes in some targets of a head.
+    ///
+    /// The sums start from 0 and are divided by `share`, which corrects the start as Adam's moments are
+    /// corrected; so the first targets count in full.
     ///
     /// # Panics
     /// If there is no such head.

@@ -1,4 +1,9 @@
 //! What was seen, and which of it to learn from: prioritized replay (Schaul et al. 2016).
+//!
+//! The replay keeps *states* and not transitions, each once, in the order in which they were met: half
+//! the memory, and n-step returns and other goals are had by walking on from any place. What a step
+//! pays is not kept, but what the environment paid; the rest depends on q and on the goal, and is
+//! computed when the step is drawn.
 
 use rand::Rng;
 use serde::{Deserialize, Serialize};
@@ -8,6 +13,9 @@ use crate::env::{Step, below, unit};
 
 /// Non-negative weights in a binary tree of sums: to change one and to draw one in proportion cost
 /// log₂ n.
+///
+/// Schaul et al. call it so. Sums are added up anew along the path to the root at each change and never
+/// corrected by differences, so that after any number of changes they are sums of what is there.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct SumTree {
     /// Node i has the children 2i and 2i + 1; the leaves are `leaves..2 * leaves`.
@@ -48,6 +56,8 @@ impl SumTree {
     }
 
     /// The number whose share of the sum `mass` falls into, 0 ≤ `mass` < [`Self::total`].
+    ///
+    /// Rounding may leave a `mass` that no leaf holds; it never leads to a leaf of weight 0.
     pub(super) fn find(&self, mut mass: f64) -> usize {
         let mut node = 1;
         while node < self.leaves {
@@ -84,6 +94,12 @@ pub(super) struct Visit<S> {
 ///
 /// States are kept once: the step from place i leads to place i + 1. The last state of an episode has
 /// no step and the priority 0.
+///
+/// When the ring is full the oldest state is overwritten. An episode whose beginning is gone is still
+/// whole from where it goes on.
+///
+/// [`Learner::replay`](super::Learner::replay) shows it, and [`Composition`](super::Composition) learns
+/// from those of its skills.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Replay<S> {
     moments: Vec<Visit<S>>,
@@ -170,6 +186,8 @@ impl<S> Replay<S> {
     }
 
     /// How many steps of its episode follow the place, itself included.
+    ///
+    /// A step that has been overwritten is not asked for: its place has another priority by then.
     pub(super) fn steps_from(&self, place: usize) -> usize {
         let since = (self.head + self.capacity - place) % self.capacity;
         if since <= self.age {
@@ -184,6 +202,8 @@ impl<S> Replay<S> {
     }
 
     /// Draws a step uniformly: its place.
+    ///
+    /// Drawn again where the place has no step: all but the last states of episodes have one.
     ///
     /// # Panics
     /// If there are no steps.
@@ -212,6 +232,8 @@ impl<S> Replay<S> {
     }
 
     /// Sets the priority of the step at `place`; it must be positive.
+    ///
+    /// New steps get the largest priority so far, so that each is drawn soon once.
     pub(super) fn prioritise(&mut self, place: usize, priority: f64) {
         self.largest = self.largest.max(priority);
         self.priorities.set(place, priority);
@@ -223,6 +245,9 @@ impl<S> Replay<S> {
     }
 
     /// Adds all of another replay's episodes.
+    ///
+    /// Steps that are not whole in a full ring (its oldest state may be in the middle of an episode)
+    /// begin an episode of their own.
     pub(super) fn extend(&mut self, other: &Self)
     where
         S: Clone,

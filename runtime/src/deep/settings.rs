@@ -1,4 +1,8 @@
 //! The settings of a deep learner.
+//!
+//! Several defaults are those of the literature: n = 3 as in Rainbow (Hessel et al. 2018), a soft target
+//! of 0.005 as in TD3 (Fujimoto et al. 2018), a bound of 10 on the gradient's norm as in dueling networks
+//! (Wang et al. 2016).
 
 use serde::{Deserialize, Serialize};
 use std::vec::Vec;
@@ -102,6 +106,21 @@ impl Settings {
     }
 
     /// Adam's step size, at the number of earlier updates.
+    ///
+    /// ```
+    /// use tltl::deep::Settings;
+    /// use tltl::learn::{Schedule, Updates};
+    ///
+    /// // Anneal over 20,000 updates; explore less and less for 5,000 steps; only the head of the step.
+    /// let settings = Settings::default()
+    ///     .with_learning_rate(Schedule::linear(1e-3, 1e-5, 20_000)?)?
+    ///     .with_epsilon(Schedule::linear(1.0, 0.1, 5_000)?)?
+    ///     .with_importance(Schedule::constant(1.0)?)?
+    ///     .with_updates(Updates::Current);
+    /// assert_eq!((settings.learning_rate().at(0), settings.updates()), (1e-3, Updates::Current));
+    /// assert!(settings.with_learning_rate(Schedule::constant(0.0)?).is_err());
+    /// # Ok::<(), tltl::OutOfRange>(())
+    /// ```
     #[must_use]
     pub const fn learning_rate(&self) -> Schedule {
         self.learning_rate

@@ -1,4 +1,16 @@
 //! One update of a network from replayed steps.
+//!
+//! An update draws a batch of steps, walks from each up to n steps on, asks the automaton what these do
+//! at *every* live state, makes a target of it, and moves the weights: double DQN (the network chooses
+//! the next action, its slow target values it), weights against the bias of prioritized replay, and
+//! targets normalised for each head.
+//!
+//! [`Objective`] says what is learned: the optimum of one task ([`TaskObjective`]), or what is to be
+//! added to skills that are composed. The trainer knows nothing of either.
+//!
+//! An n-step return is of the actions that were taken, for q they were perhaps not taken for. It is
+//! therefore biased towards what was done in the automaton state of the time; n = 1 has no such bias and
+//! mostly learns slower.
 
 use rand::Rng;
 use std::vec::Vec;
@@ -18,10 +30,13 @@ use crate::q::argmax;
 use crate::reward::{Mode, Rewards};
 use crate::task;
 
-/// Added to every error before it becomes a priority, so that no step is forgotten.
+/// Added to every error before it becomes a priority, so that no step is forgotten. Errors are of
+/// normalised values, whose size is 1; a thousandth is well below what learning leaves.
 const LEAST_ERROR: f64 = 1e-3;
 
 /// The heads of a network: one for each automaton state in which the task goes on.
+///
+/// Decided states have none: nothing can be had there, and their value is 0.
 #[derive(Clone, Debug)]
 pub(super) struct Heads {
     /// The automaton state of each head.
@@ -45,6 +60,8 @@ impl Heads {
 }
 
 /// What an update is to learn.
+///
+/// What it does not override is as for a single task: no base, no bounds, everything learned.
 pub(super) trait Objective<S> {
     /// What a step does at `q`, and what it pays there.
     fn read(&self, q: u32, step: &Step<S>) -> Result<Move, task::Error>;
@@ -106,6 +123,9 @@ impl<S, M: Monitor<S>> Objective<S> for TaskObjective<'_, M> {
 
 /// For each automaton state the least and the most that can be had, from the most that the task
 /// pays and the least and the largest reward of the environment.
+///
+/// Both are generous: a bound that is too wide costs nothing, one that is too narrow would cut true
+/// values off.
 pub(super) fn bounds(most: &[f64], rewards: &Rewards, environment: (f64, f64)) -> Vec<(f64, f64)> {
     let for_ever = 1.0 / (1.0 - rewards.gamma());
     let each = environment.0
@@ -120,6 +140,8 @@ pub(super) fn bounds(most: &[f64], rewards: &Rewards, environment: (f64, f64)) -
 }
 
 /// The n-step return of some replayed steps, up to the value after them.
+///
+/// Where the task or the episode ends within the steps, nothing follows and the discount is 0.
 struct Return {
     /// The discounted rewards of the steps.
     reward: f64,
@@ -130,6 +152,9 @@ struct Return {
 }
 
 /// Replayed steps, ready to learn from.
+///
+/// Columns of one entry for each step that was drawn, in that order; `returns` has one for each step and
+/// head.
 struct Sample<S> {
     places: Vec<usize>,
     weights: Vec<f64>,
@@ -142,6 +167,8 @@ struct Sample<S> {
 }
 
 /// A network, its target, and what moves them.
+///
+/// `before` and `after` are buffers of features, kept so that an update allocates none.
 pub(super) struct Trainer {
     pub heads: Heads,
     pub model: Model,
@@ -186,6 +213,9 @@ impl Trainer {
     }
 
     /// Learns from one batch of steps; the loss.
+    ///
+    /// On an error nothing has been learned from the batch, and no priority has changed. (The
+    /// normalisation has moved, which changes no value.)
     pub(super) fn update<S, F, G, O, R>(
         &mut self,
         replay: &mut Replay<S>,
@@ -222,6 +252,8 @@ impl Trainer {
         Ok(f64::from(loss))
     }
 
+    /// Weights are probability^-β over the largest of the batch (Schaul et al. 2016), so that they only
+    /// shorten steps.
     fn sample<S, G, O, R>(
         &self,
         replay: &Replay<S>,
@@ -356,6 +388,8 @@ impl Trainer {
     }
 
     /// Takes the targets into the normalisation.
+    ///
+    /// Network and target are both rewritten: their values stay what they were.
     fn normalise(&mut self, wanted: &[f64], counts: &[bool]) {
         let old = self.popart.clone();
         let heads = self.heads.states.len();
@@ -367,6 +401,7 @@ impl Trainer {
         self.target.rescale(&old, &self.popart);
     }
 
+    /// The targets, normalised, each with the weight of its step, or 0 where it is not learned.
     fn weighted<S>(&self, sample: &Sample<S>, wanted: &[f64], counts: &[bool]) -> Vec<Target> {
         let heads = self.heads.states.len();
         let targets = wanted.iter().zip(counts).enumerate().map(|(i, (wanted, counts))| {
@@ -377,6 +412,8 @@ impl Trainer {
         targets.collect()
     }
 
+    /// A step's priority is the mean error over the heads that learned from it, to the power of the
+    /// settings.
     fn prioritise<S>(
         &self,
         replay: &mut Replay<S>,
@@ -402,6 +439,8 @@ impl Trainer {
 }
 
 /// A step or several, with one goal; the first one leads to the state before them.
+///
+/// All of them get one goal, chosen from what is known in the first state.
 fn relabelled<S: Clone, G: Relabel<S>, R: Rng + ?Sized>(
     replay: &Replay<S>,
     place: usize,
