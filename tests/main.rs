@@ -26,6 +26,7 @@ mod semantics;
 mod static_corpus;
 mod stages;
 mod static_corpus_source;
+mod surface;
 mod tables;
 mod tasks;
 mod ui;

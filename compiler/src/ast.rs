@@ -43,6 +43,8 @@ pub enum Prefix {
     Eventually,
     /// ○φ
     Next,
+    /// □φ; of the language only with a bound, or where a negation makes it ◇¬φ.
+    Always,
     /// −x
     Minus,
 }
@@ -80,8 +82,12 @@ pub enum Arithmetic {
 /// An operator between two operands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Infix {
+    /// φ `ensuring` p
+    Ensuring,
     /// φ ⇒ ψ
     Implies,
+    /// p ⇔ q, of state formulas
+    Iff,
     /// φ ∨ ψ
     Or,
     /// φ ∧ ψ
@@ -90,10 +96,32 @@ pub enum Infix {
     Until,
     /// φ T ψ
     Then,
+    /// φ R ψ; of the language only under a negation, as the other two here.
+    Release,
+    /// φ W ψ
+    WeakUntil,
+    /// φ M ψ
+    StrongRelease,
     /// `x < y` and its like
     Compare(Comparison),
     /// `x + y` and its like
     Calculate(Arithmetic),
+}
+
+impl Infix {
+    /// Whether it relates instants.
+    #[must_use]
+    pub const fn is_temporal(self) -> bool {
+        matches!(
+            self,
+            Self::Until
+                | Self::Then
+                | Self::Release
+                | Self::WeakUntil
+                | Self::StrongRelease
+                | Self::Ensuring
+        )
+    }
 }
 
 /// One expression. The text of names and numbers is that of the source; see [`Ast::text`].
@@ -157,16 +185,42 @@ pub struct Quantifier {
     pub body: NodeId,
 }
 
+/// The bound of a temporal operator, as written.
+#[derive(Clone, Debug)]
+pub struct Bound {
+    /// Its ends: two of `[a,b]`, one of `[<=b]` and of `[b]`.
+    pub ends: Vec<End>,
+    /// Whether it is `[<=b]`.
+    pub at_most: bool,
+    /// The whole bound, with its brackets.
+    pub span: Span,
+}
+
+/// An end of a [`Bound`], as written: `3`, `0.5 s`, `-1`, or the name of a number.
+#[derive(Clone, Copy, Debug)]
+pub struct End {
+    /// The number or the name, without sign and unit.
+    pub node: NodeId,
+    /// Whether a minus stands before it.
+    pub negative: bool,
+    /// The unit after a number.
+    pub unit: Option<Span>,
+    /// All of it.
+    pub span: Span,
+}
+
 /// A node with its places in the source.
 #[derive(Clone, Debug)]
 pub struct Entry {
     /// The expression.
     pub node: Node,
+    /// The bound of its operator.
+    pub bound: Option<Box<Bound>>,
     /// The whole expression, without brackets around it.
     pub span: Span,
     /// The whole expression, with the brackets around it if there are any.
     pub outer: Span,
-    /// Its operator; the whole expression if it has none. Messages underline it.
+    /// Its operator, with the bound; the whole expression if it has none. Messages underline it.
     pub operator: Span,
 }
 
@@ -244,6 +298,13 @@ pub enum ItemKind {
     Predicate(Vec<Declaration>, NodeId),
     /// `task name = formula`; a bare formula is a task whose name is empty.
     Task(Vec<Declaration>, NodeId),
+    /// `step 0.1 s`: how long a step lasts. It has no name.
+    Step {
+        /// The number.
+        amount: Span,
+        /// Its unit.
+        unit: Span,
+    },
     /// An item that could not be parsed. Its name is known, so uses of it are not reported, and
     /// perhaps its parameters.
     Broken(Vec<Declaration>),
@@ -379,12 +440,15 @@ impl Ast {
         }
     }
 
-    /// The first operand of an expression, where [`operands`](Self::operands) has one.
+    /// The first operand of an expression, where [`operands`](Self::operands) has one, or the first
+    /// end of the bound that stands before it.
     pub(crate) fn leftmost(&self, id: NodeId) -> Option<NodeId> {
-        match self.node(id) {
+        let Entry { node, bound, .. } = self.entry(id);
+        match node {
+            Node::Prefix(_, a) => Some(bound.as_ref().map_or(*a, |bound| bound.ends[0].node)),
             Node::Field { base, .. } | Node::Index { base, .. } => Some(*base),
             Node::Call { callee, .. } => Some(*callee),
-            Node::Prefix(_, a) | Node::Infix(_, a, _) => Some(*a),
+            Node::Infix(_, a, _) => Some(*a),
             Node::Quantified(Quantifier { elements, body, .. }) => {
                 Some(*self.arguments(elements).first().unwrap_or(body))
             }
@@ -405,8 +469,13 @@ impl Ast {
     /// Adds an expression; its operands must be there already.
     pub(crate) fn push(&mut self, node: Node, span: Span, operator: Span) -> NodeId {
         let id = u32::try_from(self.entries.len()).expect("fewer than 2^32 expressions");
-        self.entries.push(Entry { node, span, outer: span, operator });
+        self.entries.push(Entry { node, bound: None, span, outer: span, operator });
         NodeId(id)
+    }
+
+    /// Gives the operator of an expression its bound.
+    pub(crate) fn bind(&mut self, id: NodeId, bound: Option<Box<Bound>>) {
+        self.entries[id.0 as usize].bound = bound;
     }
 
     /// Notes the brackets around an expression.

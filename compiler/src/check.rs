@@ -32,6 +32,7 @@
 mod apply;
 mod atom;
 mod attribute;
+mod bound;
 mod condition;
 mod intent;
 mod lower;
@@ -154,7 +155,7 @@ impl<'r> Checker<'r> {
         let role = match resolved.item(item).kind {
             ItemKind::Constant(..) => Role::Number,
             ItemKind::Predicate(..) => Role::Condition,
-            _ => Role::Formula { negated: None },
+            _ => Role::FORMULA,
         };
         let known = self.lowering.mistakes.len();
         self.lowering.item = item;

@@ -61,6 +61,8 @@ pub enum Kind {
     Type,
     /// Numbers of different units, or a unit that does not exist.
     Unit,
+    /// A bound of a temporal operator that is empty, lies in the past or cannot stand there.
+    Bound,
     /// A comparison chain that points both ways.
     Chain,
     /// A declaration that nothing uses.
@@ -99,6 +101,7 @@ impl Kind {
             Self::Cycle => "cycle",
             Self::Type => "type",
             Self::Unit => "unit",
+            Self::Bound => "bound",
             Self::Chain => "chain",
             Self::Unused => "unused",
             Self::Unsatisfiable => "unsatisfiable",

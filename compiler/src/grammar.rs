@@ -33,6 +33,7 @@ pub enum Rule {
     r#constant,
     r#predicate,
     r#task,
+    r#step,
     r#fields,
     r#parameters,
     r#field_declaration,
@@ -54,12 +55,16 @@ pub enum Rule {
     r#word_const,
     r#word_predicate,
     r#word_task,
+    r#word_step,
     r#expression,
     r#operand,
     r#prefix,
     r#not,
     r#eventually,
     r#next_op,
+    r#always,
+    r#brackets,
+    r#operand_start,
     r#minus,
     r#quantifier,
     r#set,
@@ -77,7 +82,7 @@ pub enum Rule {
     r#or,
     r#and,
     r#until,
-    r#then,
+    r#ensuring,
     r#equal,
     r#unequal,
     r#at_most,
@@ -90,6 +95,9 @@ pub enum Rule {
     r#comma,
     r#call,
     r#index,
+    r#bound,
+    r#bound_end,
+    r#amount,
     r#open,
     r#close,
     r#empty_call,
@@ -137,6 +145,7 @@ impl Rule {
             Rule::r#constant,
             Rule::r#predicate,
             Rule::r#task,
+            Rule::r#step,
             Rule::r#fields,
             Rule::r#parameters,
             Rule::r#field_declaration,
@@ -158,12 +167,16 @@ impl Rule {
             Rule::r#word_const,
             Rule::r#word_predicate,
             Rule::r#word_task,
+            Rule::r#word_step,
             Rule::r#expression,
             Rule::r#operand,
             Rule::r#prefix,
             Rule::r#not,
             Rule::r#eventually,
             Rule::r#next_op,
+            Rule::r#always,
+            Rule::r#brackets,
+            Rule::r#operand_start,
             Rule::r#minus,
             Rule::r#quantifier,
             Rule::r#set,
@@ -181,7 +194,7 @@ impl Rule {
             Rule::r#or,
             Rule::r#and,
             Rule::r#until,
-            Rule::r#then,
+            Rule::r#ensuring,
             Rule::r#equal,
             Rule::r#unequal,
             Rule::r#at_most,
@@ -194,6 +207,9 @@ impl Rule {
             Rule::r#comma,
             Rule::r#call,
             Rule::r#index,
+            Rule::r#bound,
+            Rule::r#bound_end,
+            Rule::r#amount,
             Rule::r#open,
             Rule::r#close,
             Rule::r#empty_call,
@@ -377,6 +393,7 @@ impl ::pest::Parser<Rule> for Grammar {
                     self::r#doc(state)
                         .or_else(self::r#attribute as crate::grammar::Step)
                         .or_else(step_62 as crate::grammar::Step)
+                        .or_else(step_64 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -385,7 +402,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#attribute, step_83 as crate::grammar::Step)
+                    state.rule(Rule::r#attribute, step_85 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -394,7 +411,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#setting, step_86 as crate::grammar::Step)
+                    state.rule(Rule::r#setting, step_88 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -403,7 +420,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#doc, step_90 as crate::grammar::Step)
+                    state.rule(Rule::r#doc, step_92 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -412,7 +429,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#file_doc, step_93 as crate::grammar::Step)
+                    state.rule(Rule::r#file_doc, step_95 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -421,7 +438,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#state, step_99 as crate::grammar::Step)
+                    state.rule(Rule::r#state, step_101 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -430,7 +447,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#record, step_101 as crate::grammar::Step)
+                    state.rule(Rule::r#record, step_103 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -439,7 +456,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#enumeration, step_116 as crate::grammar::Step)
+                    state.rule(Rule::r#enumeration, step_118 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -448,7 +465,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#constant, step_121 as crate::grammar::Step)
+                    state.rule(Rule::r#constant, step_123 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -457,7 +474,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#predicate, step_124 as crate::grammar::Step)
+                    state.rule(Rule::r#predicate, step_126 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -466,7 +483,16 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#task, step_126 as crate::grammar::Step)
+                    state.rule(Rule::r#task, step_128 as crate::grammar::Step)
+                }
+                #[inline]
+                #[allow(non_snake_case, unused_variables)]
+                pub fn r#step(
+                    state: ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                ) -> ::pest::ParseResult<
+                    ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                > {
+                    state.rule(Rule::r#step, step_130 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -475,7 +501,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#fields, step_139 as crate::grammar::Step)
+                    state.rule(Rule::r#fields, step_143 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -484,7 +510,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#parameters, step_141 as crate::grammar::Step)
+                    state.rule(Rule::r#parameters, step_145 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -496,7 +522,7 @@ impl ::pest::Parser<Rule> for Grammar {
                     state
                         .rule(
                             Rule::r#field_declaration,
-                            step_149 as crate::grammar::Step,
+                            step_153 as crate::grammar::Step,
                         )
                 }
                 #[inline]
@@ -506,7 +532,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#field_type, step_163 as crate::grammar::Step)
+                    state.rule(Rule::r#field_type, step_167 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -515,7 +541,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#path, step_171 as crate::grammar::Step)
+                    state.rule(Rule::r#path, step_175 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -524,7 +550,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#optional, step_172 as crate::grammar::Step)
+                    state.rule(Rule::r#optional, step_176 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -533,7 +559,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#array_open, step_63 as crate::grammar::Step)
+                    state.rule(Rule::r#array_open, step_65 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -542,7 +568,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#array_close, step_175 as crate::grammar::Step)
+                    state.rule(Rule::r#array_close, step_179 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -551,7 +577,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#unit, step_185 as crate::grammar::Step)
+                    state.rule(Rule::r#unit, step_189 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -560,7 +586,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#unit_one, step_189 as crate::grammar::Step)
+                    state.rule(Rule::r#unit_one, step_193 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -569,7 +595,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#unit_power, step_195 as crate::grammar::Step)
+                    state.rule(Rule::r#unit_power, step_199 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -578,7 +604,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#header, step_198 as crate::grammar::Step)
+                    state.rule(Rule::r#header, step_202 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -587,7 +613,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#header_type, step_204 as crate::grammar::Step)
+                    state.rule(Rule::r#header_type, step_208 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -596,7 +622,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#host_type, step_211 as crate::grammar::Step)
+                    state.rule(Rule::r#host_type, step_215 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -620,7 +646,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#word_state, step_214 as crate::grammar::Step)
+                    state.rule(Rule::r#word_state, step_218 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -629,7 +655,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#word_struct, step_217 as crate::grammar::Step)
+                    state.rule(Rule::r#word_struct, step_221 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -638,7 +664,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#word_enum, step_220 as crate::grammar::Step)
+                    state.rule(Rule::r#word_enum, step_224 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -647,7 +673,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#word_const, step_223 as crate::grammar::Step)
+                    state.rule(Rule::r#word_const, step_227 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -656,7 +682,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#word_predicate, step_226 as crate::grammar::Step)
+                    state.rule(Rule::r#word_predicate, step_230 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -665,7 +691,16 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#word_task, step_229 as crate::grammar::Step)
+                    state.rule(Rule::r#word_task, step_233 as crate::grammar::Step)
+                }
+                #[inline]
+                #[allow(non_snake_case, unused_variables)]
+                pub fn r#word_step(
+                    state: ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                ) -> ::pest::ParseResult<
+                    ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                > {
+                    state.rule(Rule::r#word_step, step_236 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -674,7 +709,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#expression, step_239 as crate::grammar::Step)
+                    state.rule(Rule::r#expression, step_246 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -683,7 +718,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.sequence(step_253 as crate::grammar::Step)
+                    state.sequence(step_260 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -694,8 +729,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 > {
                     let state = state.check_stack_limit()?;
                     self::r#not(state)
-                        .or_else(self::r#eventually as crate::grammar::Step)
-                        .or_else(self::r#next_op as crate::grammar::Step)
+                        .or_else(step_263 as crate::grammar::Step)
                         .or_else(self::r#minus as crate::grammar::Step)
                         .or_else(self::r#quantifier as crate::grammar::Step)
                 }
@@ -706,7 +740,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#not, step_260 as crate::grammar::Step)
+                    state.rule(Rule::r#not, step_270 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -715,7 +749,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#eventually, step_266 as crate::grammar::Step)
+                    state.rule(Rule::r#eventually, step_276 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -724,7 +758,49 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#next_op, step_270 as crate::grammar::Step)
+                    state.rule(Rule::r#next_op, step_280 as crate::grammar::Step)
+                }
+                #[inline]
+                #[allow(non_snake_case, unused_variables)]
+                pub fn r#always(
+                    state: ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                ) -> ::pest::ParseResult<
+                    ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                > {
+                    state.rule(Rule::r#always, step_291 as crate::grammar::Step)
+                }
+                #[inline]
+                #[allow(non_snake_case, unused_variables)]
+                pub fn r#brackets(
+                    state: ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                ) -> ::pest::ParseResult<
+                    ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                > {
+                    state.sequence(step_300 as crate::grammar::Step)
+                }
+                #[inline]
+                #[allow(non_snake_case, unused_variables)]
+                pub fn r#operand_start(
+                    state: ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                ) -> ::pest::ParseResult<
+                    ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                > {
+                    let state = state.check_stack_limit()?;
+                    state
+                        .sequence(step_301 as crate::grammar::Step)
+                        .or_else(step_266 as crate::grammar::Step)
+                        .or_else(step_302 as crate::grammar::Step)
+                        .or_else(step_273 as crate::grammar::Step)
+                        .or_else(step_274 as crate::grammar::Step)
+                        .or_else(step_278 as crate::grammar::Step)
+                        .or_else(step_288 as crate::grammar::Step)
+                        .or_else(step_289 as crate::grammar::Step)
+                        .or_else(step_303 as crate::grammar::Step)
+                        .or_else(step_304 as crate::grammar::Step)
+                        .or_else(step_104 as crate::grammar::Step)
+                        .or_else(step_305 as crate::grammar::Step)
+                        .or_else(self::r#ASCII_DIGIT as crate::grammar::Step)
+                        .or_else(step_321 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -733,7 +809,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#minus, step_276 as crate::grammar::Step)
+                    state.rule(Rule::r#minus, step_327 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -742,7 +818,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#quantifier, step_279 as crate::grammar::Step)
+                    state.rule(Rule::r#quantifier, step_330 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -751,7 +827,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#set, step_292 as crate::grammar::Step)
+                    state.rule(Rule::r#set, step_343 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -760,7 +836,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#element, step_293 as crate::grammar::Step)
+                    state.rule(Rule::r#element, step_344 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -769,7 +845,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#range, step_297 as crate::grammar::Step)
+                    state.rule(Rule::r#range, step_348 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -778,7 +854,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#end, step_173 as crate::grammar::Step)
+                    state.rule(Rule::r#end, step_177 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -787,7 +863,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#inclusive, step_84 as crate::grammar::Step)
+                    state.rule(Rule::r#inclusive, step_86 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -796,7 +872,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#word_for, step_300 as crate::grammar::Step)
+                    state.rule(Rule::r#word_for, step_351 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -805,7 +881,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#word_all, step_303 as crate::grammar::Step)
+                    state.rule(Rule::r#word_all, step_354 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -814,7 +890,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#word_some, step_306 as crate::grammar::Step)
+                    state.rule(Rule::r#word_some, step_357 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -823,7 +899,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#word_in, step_309 as crate::grammar::Step)
+                    state.rule(Rule::r#word_in, step_360 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -837,8 +913,8 @@ impl ::pest::Parser<Rule> for Grammar {
                         .or_else(self::r#iff as crate::grammar::Step)
                         .or_else(self::r#or as crate::grammar::Step)
                         .or_else(self::r#and as crate::grammar::Step)
-                        .or_else(self::r#until as crate::grammar::Step)
-                        .or_else(self::r#then as crate::grammar::Step)
+                        .or_else(step_362 as crate::grammar::Step)
+                        .or_else(self::r#ensuring as crate::grammar::Step)
                         .or_else(self::r#equal as crate::grammar::Step)
                         .or_else(self::r#unequal as crate::grammar::Step)
                         .or_else(self::r#at_most as crate::grammar::Step)
@@ -860,7 +936,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#implies, step_312 as crate::grammar::Step)
+                    state.rule(Rule::r#implies, step_365 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -869,7 +945,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#iff, step_315 as crate::grammar::Step)
+                    state.rule(Rule::r#iff, step_368 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -878,7 +954,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#or, step_320 as crate::grammar::Step)
+                    state.rule(Rule::r#or, step_373 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -887,7 +963,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#and, step_326 as crate::grammar::Step)
+                    state.rule(Rule::r#and, step_379 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -896,16 +972,16 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#until, step_329 as crate::grammar::Step)
+                    state.rule(Rule::r#until, step_382 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
-                pub fn r#then(
+                pub fn r#ensuring(
                     state: ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#then, step_332 as crate::grammar::Step)
+                    state.rule(Rule::r#ensuring, step_385 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -914,7 +990,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#equal, step_333 as crate::grammar::Step)
+                    state.rule(Rule::r#equal, step_386 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -923,7 +999,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#unequal, step_335 as crate::grammar::Step)
+                    state.rule(Rule::r#unequal, step_388 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -932,7 +1008,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#at_most, step_337 as crate::grammar::Step)
+                    state.rule(Rule::r#at_most, step_390 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -941,7 +1017,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#at_least, step_339 as crate::grammar::Step)
+                    state.rule(Rule::r#at_least, step_392 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -950,7 +1026,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#less, step_340 as crate::grammar::Step)
+                    state.rule(Rule::r#less, step_393 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -959,7 +1035,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#greater, step_271 as crate::grammar::Step)
+                    state.rule(Rule::r#greater, step_322 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -968,7 +1044,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#plus, step_341 as crate::grammar::Step)
+                    state.rule(Rule::r#plus, step_394 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -977,7 +1053,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#times, step_343 as crate::grammar::Step)
+                    state.rule(Rule::r#times, step_396 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -986,7 +1062,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#divide, step_345 as crate::grammar::Step)
+                    state.rule(Rule::r#divide, step_398 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -995,7 +1071,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#comma, step_72 as crate::grammar::Step)
+                    state.rule(Rule::r#comma, step_74 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1004,7 +1080,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#call, step_346 as crate::grammar::Step)
+                    state.rule(Rule::r#call, step_302 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1013,7 +1089,34 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#index, step_63 as crate::grammar::Step)
+                    state.rule(Rule::r#index, step_65 as crate::grammar::Step)
+                }
+                #[inline]
+                #[allow(non_snake_case, unused_variables)]
+                pub fn r#bound(
+                    state: ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                ) -> ::pest::ParseResult<
+                    ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                > {
+                    state.rule(Rule::r#bound, step_407 as crate::grammar::Step)
+                }
+                #[inline]
+                #[allow(non_snake_case, unused_variables)]
+                pub fn r#bound_end(
+                    state: ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                ) -> ::pest::ParseResult<
+                    ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                > {
+                    state.rule(Rule::r#bound_end, step_412 as crate::grammar::Step)
+                }
+                #[inline]
+                #[allow(non_snake_case, unused_variables)]
+                pub fn r#amount(
+                    state: ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                ) -> ::pest::ParseResult<
+                    ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
+                > {
+                    state.rule(Rule::r#amount, step_419 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1022,7 +1125,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#open, step_346 as crate::grammar::Step)
+                    state.rule(Rule::r#open, step_302 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1031,7 +1134,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#close, step_347 as crate::grammar::Step)
+                    state.rule(Rule::r#close, step_420 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1040,7 +1143,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#empty_call, step_349 as crate::grammar::Step)
+                    state.rule(Rule::r#empty_call, step_422 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1049,7 +1152,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#field, step_352 as crate::grammar::Step)
+                    state.rule(Rule::r#field, step_425 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1058,7 +1161,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#position, step_358 as crate::grammar::Step)
+                    state.rule(Rule::r#position, step_431 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1082,7 +1185,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#truth, step_362 as crate::grammar::Step)
+                    state.rule(Rule::r#truth, step_435 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1091,7 +1194,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#falsity, step_366 as crate::grammar::Step)
+                    state.rule(Rule::r#falsity, step_439 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1100,7 +1203,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#name, step_377 as crate::grammar::Step)
+                    state.rule(Rule::r#name, step_452 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1120,7 +1223,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#reserved, step_386 as crate::grammar::Step)
+                    state.rule(Rule::r#reserved, step_458 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1129,7 +1232,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#number, step_401 as crate::grammar::Step)
+                    state.rule(Rule::r#number, step_469 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1138,7 +1241,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#text, step_402 as crate::grammar::Step)
+                    state.rule(Rule::r#text, step_470 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1147,7 +1250,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#verbatim, step_403 as crate::grammar::Step)
+                    state.rule(Rule::r#verbatim, step_471 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1156,7 +1259,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#digits, step_408 as crate::grammar::Step)
+                    state.rule(Rule::r#digits, step_476 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1165,7 +1268,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#fraction, step_408 as crate::grammar::Step)
+                    state.rule(Rule::r#fraction, step_476 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1174,7 +1277,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#exponent, step_415 as crate::grammar::Step)
+                    state.rule(Rule::r#exponent, step_483 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1183,7 +1286,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#suffix, step_425 as crate::grammar::Step)
+                    state.rule(Rule::r#suffix, step_493 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1192,7 +1295,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#identifier, step_431 as crate::grammar::Step)
+                    state.rule(Rule::r#identifier, step_498 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1202,7 +1305,7 @@ impl ::pest::Parser<Rule> for Grammar {
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
                     let state = state.check_stack_limit()?;
-                    self::r#XID_CONTINUE(state).or_else(step_164 as crate::grammar::Step)
+                    self::r#XID_CONTINUE(state).or_else(step_168 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1211,7 +1314,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#braces, step_439 as crate::grammar::Step)
+                    state.rule(Rule::r#braces, step_506 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1220,7 +1323,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#string, step_448 as crate::grammar::Step)
+                    state.rule(Rule::r#string, step_514 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(non_snake_case, unused_variables)]
@@ -1229,7 +1332,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::r#character, step_455 as crate::grammar::Step)
+                    state.rule(Rule::r#character, step_521 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(dead_code, non_snake_case, unused_variables)]
@@ -1247,7 +1350,7 @@ impl ::pest::Parser<Rule> for Grammar {
                 ) -> ::pest::ParseResult<
                     ::std::boxed::Box<::pest::ParserState<'_, Rule>>,
                 > {
-                    state.rule(Rule::EOI, step_456 as crate::grammar::Step)
+                    state.rule(Rule::EOI, step_522 as crate::grammar::Step)
                 }
                 #[inline]
                 #[allow(dead_code, non_snake_case, unused_variables)]
@@ -1613,6 +1716,7 @@ impl ::pest::Parser<Rule> for Grammar {
                         .or_else(self::r#constant as crate::grammar::Step)
                         .or_else(self::r#predicate as crate::grammar::Step)
                         .or_else(self::r#task as crate::grammar::Step)
+                        .or_else(self::r#step as crate::grammar::Step)
                 }
                 fn step_55(
                     state: crate::grammar::State<'_>,
@@ -1666,25 +1770,27 @@ impl ::pest::Parser<Rule> for Grammar {
                 fn step_63(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("[")
+                    self::r#word_step(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#digits as crate::grammar::Step)
                 }
                 fn step_64(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_63 as crate::grammar::Step)
+                }
+                fn step_65(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("[")
+                }
+                fn step_66(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state
                         .match_string(",")
                         .and_then(super::hidden::skip as crate::grammar::Step)
                         .and_then(self::r#setting as crate::grammar::Step)
-                }
-                fn step_65(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_64 as crate::grammar::Step)
-                }
-                fn step_66(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    super::hidden::skip(state).and_then(step_65 as crate::grammar::Step)
                 }
                 fn step_67(
                     state: crate::grammar::State<'_>,
@@ -1694,123 +1800,133 @@ impl ::pest::Parser<Rule> for Grammar {
                 fn step_68(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.repeat(step_67 as crate::grammar::Step)
+                    super::hidden::skip(state).and_then(step_67 as crate::grammar::Step)
                 }
                 fn step_69(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .sequence(step_64 as crate::grammar::Step)
-                        .and_then(step_68 as crate::grammar::Step)
+                    state.sequence(step_68 as crate::grammar::Step)
                 }
                 fn step_70(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.optional(step_69 as crate::grammar::Step)
+                    state.repeat(step_69 as crate::grammar::Step)
                 }
                 fn step_71(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_70 as crate::grammar::Step)
+                    state
+                        .sequence(step_66 as crate::grammar::Step)
+                        .and_then(step_70 as crate::grammar::Step)
                 }
                 fn step_72(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string(",")
+                    state.optional(step_71 as crate::grammar::Step)
                 }
                 fn step_73(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.optional(step_72 as crate::grammar::Step)
+                    state.sequence(step_72 as crate::grammar::Step)
                 }
                 fn step_74(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    self::r#setting(state)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_71 as crate::grammar::Step)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_73 as crate::grammar::Step)
+                    state.match_string(",")
                 }
                 fn step_75(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_74 as crate::grammar::Step)
+                    state.optional(step_74 as crate::grammar::Step)
                 }
                 fn step_76(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.optional(step_75 as crate::grammar::Step)
+                    self::r#setting(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_73 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_75 as crate::grammar::Step)
                 }
                 fn step_77(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string(")")
+                    state.sequence(step_76 as crate::grammar::Step)
                 }
                 fn step_78(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_77 as crate::grammar::Step)
+                }
+                fn step_79(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string(")")
+                }
+                fn step_80(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state
                         .match_string("(")
                         .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_76 as crate::grammar::Step)
+                        .and_then(step_78 as crate::grammar::Step)
                         .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_77 as crate::grammar::Step)
-                }
-                fn step_79(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_78 as crate::grammar::Step)
-                }
-                fn step_80(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.optional(step_79 as crate::grammar::Step)
+                        .and_then(step_79 as crate::grammar::Step)
                 }
                 fn step_81(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("]")
+                    state.sequence(step_80 as crate::grammar::Step)
                 }
                 fn step_82(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_81 as crate::grammar::Step)
+                }
+                fn step_83(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("]")
+                }
+                fn step_84(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state
                         .match_string("#")
                         .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_63 as crate::grammar::Step)
+                        .and_then(step_65 as crate::grammar::Step)
                         .and_then(super::hidden::skip as crate::grammar::Step)
                         .and_then(self::r#identifier as crate::grammar::Step)
                         .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_80 as crate::grammar::Step)
+                        .and_then(step_82 as crate::grammar::Step)
                         .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_81 as crate::grammar::Step)
-                }
-                fn step_83(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_82 as crate::grammar::Step)
-                }
-                fn step_84(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("=")
+                        .and_then(step_83 as crate::grammar::Step)
                 }
                 fn step_85(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    self::r#identifier(state)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_84 as crate::grammar::Step)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(self::r#digits as crate::grammar::Step)
+                    state.sequence(step_84 as crate::grammar::Step)
                 }
                 fn step_86(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_85 as crate::grammar::Step)
+                    state.match_string("=")
                 }
                 fn step_87(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#identifier(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_86 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#digits as crate::grammar::Step)
+                }
+                fn step_88(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_87 as crate::grammar::Step)
+                }
+                fn step_89(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     {
@@ -1818,53 +1934,53 @@ impl ::pest::Parser<Rule> for Grammar {
                         state.skip_until(&strings)
                     }
                 }
-                fn step_88(
+                fn step_90(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state
                         .match_string("///")
                         .and_then(step_6 as crate::grammar::Step)
-                        .and_then(step_87 as crate::grammar::Step)
-                }
-                fn step_89(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_88 as crate::grammar::Step)
-                }
-                fn step_90(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .atomic(
-                            ::pest::Atomicity::Atomic,
-                            step_89 as crate::grammar::Step,
-                        )
+                        .and_then(step_89 as crate::grammar::Step)
                 }
                 fn step_91(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("//!").and_then(step_87 as crate::grammar::Step)
+                    state.sequence(step_90 as crate::grammar::Step)
                 }
                 fn step_92(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_91 as crate::grammar::Step)
-                }
-                fn step_93(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state
                         .atomic(
                             ::pest::Atomicity::Atomic,
-                            step_92 as crate::grammar::Step,
+                            step_91 as crate::grammar::Step,
                         )
+                }
+                fn step_93(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("//!").and_then(step_89 as crate::grammar::Step)
                 }
                 fn step_94(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.lookahead(true, step_55 as crate::grammar::Step)
+                    state.sequence(step_93 as crate::grammar::Step)
                 }
                 fn step_95(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_94 as crate::grammar::Step,
+                        )
+                }
+                fn step_96(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.lookahead(true, step_55 as crate::grammar::Step)
+                }
+                fn step_97(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state
@@ -1872,40 +1988,26 @@ impl ::pest::Parser<Rule> for Grammar {
                         .and_then(super::hidden::skip as crate::grammar::Step)
                         .and_then(self::r#host_type as crate::grammar::Step)
                         .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_94 as crate::grammar::Step)
-                }
-                fn step_96(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_95 as crate::grammar::Step)
-                }
-                fn step_97(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    self::r#fields(state).or_else(step_96 as crate::grammar::Step)
+                        .and_then(step_96 as crate::grammar::Step)
                 }
                 fn step_98(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_97 as crate::grammar::Step)
+                }
+                fn step_99(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#fields(state).or_else(step_98 as crate::grammar::Step)
+                }
+                fn step_100(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     self::r#word_state(state)
                         .and_then(super::hidden::skip as crate::grammar::Step)
                         .and_then(self::r#identifier as crate::grammar::Step)
                         .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_97 as crate::grammar::Step)
-                }
-                fn step_99(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_98 as crate::grammar::Step)
-                }
-                fn step_100(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    self::r#word_struct(state)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(self::r#identifier as crate::grammar::Step)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(self::r#fields as crate::grammar::Step)
+                        .and_then(step_99 as crate::grammar::Step)
                 }
                 fn step_101(
                     state: crate::grammar::State<'_>,
@@ -1915,25 +2017,29 @@ impl ::pest::Parser<Rule> for Grammar {
                 fn step_102(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("{")
+                    self::r#word_struct(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#identifier as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#fields as crate::grammar::Step)
                 }
                 fn step_103(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_102 as crate::grammar::Step)
+                }
+                fn step_104(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("{")
+                }
+                fn step_105(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state
                         .match_string(",")
                         .and_then(super::hidden::skip as crate::grammar::Step)
                         .and_then(self::r#identifier as crate::grammar::Step)
-                }
-                fn step_104(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_103 as crate::grammar::Step)
-                }
-                fn step_105(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    super::hidden::skip(state).and_then(step_104 as crate::grammar::Step)
                 }
                 fn step_106(
                     state: crate::grammar::State<'_>,
@@ -1943,33 +2049,29 @@ impl ::pest::Parser<Rule> for Grammar {
                 fn step_107(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.repeat(step_106 as crate::grammar::Step)
+                    super::hidden::skip(state).and_then(step_106 as crate::grammar::Step)
                 }
                 fn step_108(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .sequence(step_103 as crate::grammar::Step)
-                        .and_then(step_107 as crate::grammar::Step)
+                    state.sequence(step_107 as crate::grammar::Step)
                 }
                 fn step_109(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.optional(step_108 as crate::grammar::Step)
+                    state.repeat(step_108 as crate::grammar::Step)
                 }
                 fn step_110(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_109 as crate::grammar::Step)
+                    state
+                        .sequence(step_105 as crate::grammar::Step)
+                        .and_then(step_109 as crate::grammar::Step)
                 }
                 fn step_111(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    self::r#identifier(state)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_110 as crate::grammar::Step)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_73 as crate::grammar::Step)
+                    state.optional(step_110 as crate::grammar::Step)
                 }
                 fn step_112(
                     state: crate::grammar::State<'_>,
@@ -1979,37 +2081,39 @@ impl ::pest::Parser<Rule> for Grammar {
                 fn step_113(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.optional(step_112 as crate::grammar::Step)
+                    self::r#identifier(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_112 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_75 as crate::grammar::Step)
                 }
                 fn step_114(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("}")
+                    state.sequence(step_113 as crate::grammar::Step)
                 }
                 fn step_115(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_114 as crate::grammar::Step)
+                }
+                fn step_116(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("}")
+                }
+                fn step_117(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     self::r#word_enum(state)
                         .and_then(super::hidden::skip as crate::grammar::Step)
                         .and_then(self::r#identifier as crate::grammar::Step)
                         .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_102 as crate::grammar::Step)
+                        .and_then(step_104 as crate::grammar::Step)
                         .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_113 as crate::grammar::Step)
+                        .and_then(step_115 as crate::grammar::Step)
                         .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_114 as crate::grammar::Step)
-                }
-                fn step_116(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_115 as crate::grammar::Step)
-                }
-                fn step_117(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    self::r#word_in(state)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(self::r#unit as crate::grammar::Step)
+                        .and_then(step_116 as crate::grammar::Step)
                 }
                 fn step_118(
                     state: crate::grammar::State<'_>,
@@ -2019,59 +2123,53 @@ impl ::pest::Parser<Rule> for Grammar {
                 fn step_119(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.optional(step_118 as crate::grammar::Step)
+                    self::r#word_in(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#unit as crate::grammar::Step)
                 }
                 fn step_120(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_119 as crate::grammar::Step)
+                }
+                fn step_121(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_120 as crate::grammar::Step)
+                }
+                fn step_122(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     self::r#word_const(state)
                         .and_then(super::hidden::skip as crate::grammar::Step)
                         .and_then(self::r#identifier as crate::grammar::Step)
                         .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_119 as crate::grammar::Step)
+                        .and_then(step_121 as crate::grammar::Step)
                         .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_84 as crate::grammar::Step)
+                        .and_then(step_86 as crate::grammar::Step)
                         .and_then(super::hidden::skip as crate::grammar::Step)
                         .and_then(self::r#expression as crate::grammar::Step)
                 }
-                fn step_121(
+                fn step_123(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_120 as crate::grammar::Step)
+                    state.sequence(step_122 as crate::grammar::Step)
                 }
-                fn step_122(
+                fn step_124(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state.optional(self::r#parameters as crate::grammar::Step)
                 }
-                fn step_123(
+                fn step_125(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     self::r#word_predicate(state)
                         .and_then(super::hidden::skip as crate::grammar::Step)
                         .and_then(self::r#identifier as crate::grammar::Step)
                         .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_122 as crate::grammar::Step)
+                        .and_then(step_124 as crate::grammar::Step)
                         .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_84 as crate::grammar::Step)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(self::r#expression as crate::grammar::Step)
-                }
-                fn step_124(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_123 as crate::grammar::Step)
-                }
-                fn step_125(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    self::r#word_task(state)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(self::r#identifier as crate::grammar::Step)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_122 as crate::grammar::Step)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_84 as crate::grammar::Step)
+                        .and_then(step_86 as crate::grammar::Step)
                         .and_then(super::hidden::skip as crate::grammar::Step)
                         .and_then(self::r#expression as crate::grammar::Step)
                 }
@@ -2083,10 +2181,15 @@ impl ::pest::Parser<Rule> for Grammar {
                 fn step_127(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .match_string(",")
+                    self::r#word_task(state)
                         .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(self::r#field_declaration as crate::grammar::Step)
+                        .and_then(self::r#identifier as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_124 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_86 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#expression as crate::grammar::Step)
                 }
                 fn step_128(
                     state: crate::grammar::State<'_>,
@@ -2096,7 +2199,11 @@ impl ::pest::Parser<Rule> for Grammar {
                 fn step_129(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    super::hidden::skip(state).and_then(step_128 as crate::grammar::Step)
+                    self::r#word_step(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#amount as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#identifier as crate::grammar::Step)
                 }
                 fn step_130(
                     state: crate::grammar::State<'_>,
@@ -2106,19 +2213,20 @@ impl ::pest::Parser<Rule> for Grammar {
                 fn step_131(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.repeat(step_130 as crate::grammar::Step)
+                    state
+                        .match_string(",")
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#field_declaration as crate::grammar::Step)
                 }
                 fn step_132(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .sequence(step_127 as crate::grammar::Step)
-                        .and_then(step_131 as crate::grammar::Step)
+                    state.sequence(step_131 as crate::grammar::Step)
                 }
                 fn step_133(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.optional(step_132 as crate::grammar::Step)
+                    super::hidden::skip(state).and_then(step_132 as crate::grammar::Step)
                 }
                 fn step_134(
                     state: crate::grammar::State<'_>,
@@ -2128,16 +2236,14 @@ impl ::pest::Parser<Rule> for Grammar {
                 fn step_135(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    self::r#field_declaration(state)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_134 as crate::grammar::Step)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_73 as crate::grammar::Step)
+                    state.repeat(step_134 as crate::grammar::Step)
                 }
                 fn step_136(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_135 as crate::grammar::Step)
+                    state
+                        .sequence(step_131 as crate::grammar::Step)
+                        .and_then(step_135 as crate::grammar::Step)
                 }
                 fn step_137(
                     state: crate::grammar::State<'_>,
@@ -2147,38 +2253,36 @@ impl ::pest::Parser<Rule> for Grammar {
                 fn step_138(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .match_string("{")
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_137 as crate::grammar::Step)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_114 as crate::grammar::Step)
+                    state.sequence(step_137 as crate::grammar::Step)
                 }
                 fn step_139(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_138 as crate::grammar::Step)
+                    self::r#field_declaration(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_138 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_75 as crate::grammar::Step)
                 }
                 fn step_140(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .match_string("(")
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_137 as crate::grammar::Step)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_77 as crate::grammar::Step)
+                    state.sequence(step_139 as crate::grammar::Step)
                 }
                 fn step_141(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_140 as crate::grammar::Step)
+                    state.optional(step_140 as crate::grammar::Step)
                 }
                 fn step_142(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    super::hidden::skip(state)
-                        .and_then(self::r#doc as crate::grammar::Step)
+                    state
+                        .match_string("{")
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_141 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_116 as crate::grammar::Step)
                 }
                 fn step_143(
                     state: crate::grammar::State<'_>,
@@ -2188,98 +2292,104 @@ impl ::pest::Parser<Rule> for Grammar {
                 fn step_144(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.repeat(step_143 as crate::grammar::Step)
+                    state
+                        .match_string("(")
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_141 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_79 as crate::grammar::Step)
                 }
                 fn step_145(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    self::r#doc(state).and_then(step_144 as crate::grammar::Step)
+                    state.sequence(step_144 as crate::grammar::Step)
                 }
                 fn step_146(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.optional(step_145 as crate::grammar::Step)
+                    super::hidden::skip(state)
+                        .and_then(self::r#doc as crate::grammar::Step)
                 }
                 fn step_147(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string(":")
+                    state.sequence(step_146 as crate::grammar::Step)
                 }
                 fn step_148(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .sequence(step_146 as crate::grammar::Step)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(self::r#identifier as crate::grammar::Step)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_147 as crate::grammar::Step)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(self::r#field_type as crate::grammar::Step)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_119 as crate::grammar::Step)
+                    state.repeat(step_147 as crate::grammar::Step)
                 }
                 fn step_149(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_148 as crate::grammar::Step)
+                    self::r#doc(state).and_then(step_148 as crate::grammar::Step)
                 }
                 fn step_150(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_149 as crate::grammar::Step)
+                }
+                fn step_151(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string(":")
+                }
+                fn step_152(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .sequence(step_150 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#identifier as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_151 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#field_type as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_121 as crate::grammar::Step)
+                }
+                fn step_153(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_152 as crate::grammar::Step)
+                }
+                fn step_154(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     super::hidden::skip(state)
                         .and_then(self::r#array_open as crate::grammar::Step)
                 }
-                fn step_151(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_150 as crate::grammar::Step)
-                }
-                fn step_152(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.repeat(step_151 as crate::grammar::Step)
-                }
-                fn step_153(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    self::r#array_open(state).and_then(step_152 as crate::grammar::Step)
-                }
-                fn step_154(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.optional(step_153 as crate::grammar::Step)
-                }
                 fn step_155(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.optional(self::r#optional as crate::grammar::Step)
+                    state.sequence(step_154 as crate::grammar::Step)
                 }
                 fn step_156(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    super::hidden::skip(state)
-                        .and_then(self::r#array_close as crate::grammar::Step)
+                    state.repeat(step_155 as crate::grammar::Step)
                 }
                 fn step_157(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_156 as crate::grammar::Step)
+                    self::r#array_open(state).and_then(step_156 as crate::grammar::Step)
                 }
                 fn step_158(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.repeat(step_157 as crate::grammar::Step)
+                    state.optional(step_157 as crate::grammar::Step)
                 }
                 fn step_159(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    self::r#array_close(state).and_then(step_158 as crate::grammar::Step)
+                    state.optional(self::r#optional as crate::grammar::Step)
                 }
                 fn step_160(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.optional(step_159 as crate::grammar::Step)
+                    super::hidden::skip(state)
+                        .and_then(self::r#array_close as crate::grammar::Step)
                 }
                 fn step_161(
                     state: crate::grammar::State<'_>,
@@ -2289,38 +2399,34 @@ impl ::pest::Parser<Rule> for Grammar {
                 fn step_162(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .sequence(step_154 as crate::grammar::Step)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(self::r#path as crate::grammar::Step)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_155 as crate::grammar::Step)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_161 as crate::grammar::Step)
+                    state.repeat(step_161 as crate::grammar::Step)
                 }
                 fn step_163(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_162 as crate::grammar::Step)
+                    self::r#array_close(state).and_then(step_162 as crate::grammar::Step)
                 }
                 fn step_164(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("::")
+                    state.optional(step_163 as crate::grammar::Step)
                 }
                 fn step_165(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.repeat(self::r#trivia as crate::grammar::Step)
+                    state.sequence(step_164 as crate::grammar::Step)
                 }
                 fn step_166(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state
-                        .repeat(self::r#trivia as crate::grammar::Step)
-                        .and_then(step_164 as crate::grammar::Step)
+                        .sequence(step_158 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#path as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_159 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
                         .and_then(step_165 as crate::grammar::Step)
-                        .and_then(self::r#identifier as crate::grammar::Step)
                 }
                 fn step_167(
                     state: crate::grammar::State<'_>,
@@ -2330,70 +2436,71 @@ impl ::pest::Parser<Rule> for Grammar {
                 fn step_168(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.repeat(step_167 as crate::grammar::Step)
+                    state.match_string("::")
                 }
                 fn step_169(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    self::r#identifier(state).and_then(step_168 as crate::grammar::Step)
+                    state.repeat(self::r#trivia as crate::grammar::Step)
                 }
                 fn step_170(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_169 as crate::grammar::Step)
+                    state
+                        .repeat(self::r#trivia as crate::grammar::Step)
+                        .and_then(step_168 as crate::grammar::Step)
+                        .and_then(step_169 as crate::grammar::Step)
+                        .and_then(self::r#identifier as crate::grammar::Step)
                 }
                 fn step_171(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_170 as crate::grammar::Step)
+                }
+                fn step_172(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.repeat(step_171 as crate::grammar::Step)
+                }
+                fn step_173(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#identifier(state).and_then(step_172 as crate::grammar::Step)
+                }
+                fn step_174(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_173 as crate::grammar::Step)
+                }
+                fn step_175(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state
                         .atomic(
                             ::pest::Atomicity::Atomic,
-                            step_170 as crate::grammar::Step,
+                            step_174 as crate::grammar::Step,
                         )
                 }
-                fn step_172(
+                fn step_176(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state.match_string("?")
                 }
-                fn step_173(
+                fn step_177(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     self::r#digits(state)
                         .or_else(self::r#identifier as crate::grammar::Step)
                 }
-                fn step_174(
+                fn step_178(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state
                         .match_string(";")
                         .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_173 as crate::grammar::Step)
+                        .and_then(step_177 as crate::grammar::Step)
                         .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_81 as crate::grammar::Step)
-                }
-                fn step_175(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_174 as crate::grammar::Step)
-                }
-                fn step_176(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    self::r#times(state)
-                        .or_else(self::r#divide as crate::grammar::Step)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(self::r#unit_power as crate::grammar::Step)
-                }
-                fn step_177(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_176 as crate::grammar::Step)
-                }
-                fn step_178(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    super::hidden::skip(state).and_then(step_177 as crate::grammar::Step)
+                        .and_then(step_83 as crate::grammar::Step)
                 }
                 fn step_179(
                     state: crate::grammar::State<'_>,
@@ -2403,19 +2510,20 @@ impl ::pest::Parser<Rule> for Grammar {
                 fn step_180(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.repeat(step_179 as crate::grammar::Step)
+                    self::r#times(state)
+                        .or_else(self::r#divide as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#unit_power as crate::grammar::Step)
                 }
                 fn step_181(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .sequence(step_176 as crate::grammar::Step)
-                        .and_then(step_180 as crate::grammar::Step)
+                    state.sequence(step_180 as crate::grammar::Step)
                 }
                 fn step_182(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.optional(step_181 as crate::grammar::Step)
+                    super::hidden::skip(state).and_then(step_181 as crate::grammar::Step)
                 }
                 fn step_183(
                     state: crate::grammar::State<'_>,
@@ -2425,54 +2533,47 @@ impl ::pest::Parser<Rule> for Grammar {
                 fn step_184(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    self::r#unit_one(state)
-                        .or_else(self::r#unit_power as crate::grammar::Step)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_183 as crate::grammar::Step)
+                    state.repeat(step_183 as crate::grammar::Step)
                 }
                 fn step_185(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_184 as crate::grammar::Step)
+                    state
+                        .sequence(step_180 as crate::grammar::Step)
+                        .and_then(step_184 as crate::grammar::Step)
                 }
                 fn step_186(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.lookahead(false, self::r#XID_CONTINUE as crate::grammar::Step)
+                    state.optional(step_185 as crate::grammar::Step)
                 }
                 fn step_187(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("1").and_then(step_186 as crate::grammar::Step)
+                    state.sequence(step_186 as crate::grammar::Step)
                 }
                 fn step_188(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_187 as crate::grammar::Step)
+                    self::r#unit_one(state)
+                        .or_else(self::r#unit_power as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_187 as crate::grammar::Step)
                 }
                 fn step_189(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .atomic(
-                            ::pest::Atomicity::Atomic,
-                            step_188 as crate::grammar::Step,
-                        )
+                    state.sequence(step_188 as crate::grammar::Step)
                 }
                 fn step_190(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.optional(self::r#minus as crate::grammar::Step)
+                    state.lookahead(false, self::r#XID_CONTINUE as crate::grammar::Step)
                 }
                 fn step_191(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .match_string("^")
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_190 as crate::grammar::Step)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(self::r#digits as crate::grammar::Step)
+                    state.match_string("1").and_then(step_190 as crate::grammar::Step)
                 }
                 fn step_192(
                     state: crate::grammar::State<'_>,
@@ -2482,26 +2583,55 @@ impl ::pest::Parser<Rule> for Grammar {
                 fn step_193(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.optional(step_192 as crate::grammar::Step)
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_192 as crate::grammar::Step,
+                        )
                 }
                 fn step_194(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    self::r#identifier(state)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_193 as crate::grammar::Step)
+                    state.optional(self::r#minus as crate::grammar::Step)
                 }
                 fn step_195(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_194 as crate::grammar::Step)
+                    state
+                        .match_string("^")
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_194 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#digits as crate::grammar::Step)
                 }
                 fn step_196(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("|")
+                    state.sequence(step_195 as crate::grammar::Step)
                 }
                 fn step_197(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_196 as crate::grammar::Step)
+                }
+                fn step_198(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#identifier(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_197 as crate::grammar::Step)
+                }
+                fn step_199(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_198 as crate::grammar::Step)
+                }
+                fn step_200(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("|")
+                }
+                fn step_201(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state
@@ -2509,70 +2639,40 @@ impl ::pest::Parser<Rule> for Grammar {
                         .and_then(super::hidden::skip as crate::grammar::Step)
                         .and_then(self::r#identifier as crate::grammar::Step)
                         .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_147 as crate::grammar::Step)
+                        .and_then(step_151 as crate::grammar::Step)
                         .and_then(super::hidden::skip as crate::grammar::Step)
                         .and_then(self::r#header_type as crate::grammar::Step)
                         .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_196 as crate::grammar::Step)
-                }
-                fn step_198(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_197 as crate::grammar::Step)
-                }
-                fn step_199(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .lookahead(false, step_196 as crate::grammar::Step)
-                        .and_then(self::r#ANY as crate::grammar::Step)
-                }
-                fn step_200(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_199 as crate::grammar::Step)
-                }
-                fn step_201(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.repeat(step_200 as crate::grammar::Step)
+                        .and_then(step_200 as crate::grammar::Step)
                 }
                 fn step_202(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .sequence(step_199 as crate::grammar::Step)
-                        .and_then(step_201 as crate::grammar::Step)
+                    state.sequence(step_201 as crate::grammar::Step)
                 }
                 fn step_203(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_202 as crate::grammar::Step)
+                    state
+                        .lookahead(false, step_200 as crate::grammar::Step)
+                        .and_then(self::r#ANY as crate::grammar::Step)
                 }
                 fn step_204(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .atomic(
-                            ::pest::Atomicity::Atomic,
-                            step_203 as crate::grammar::Step,
-                        )
+                    state.sequence(step_203 as crate::grammar::Step)
                 }
                 fn step_205(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .match_string(";")
-                        .or_else(step_84 as crate::grammar::Step)
-                        .or_else(step_102 as crate::grammar::Step)
-                        .or_else(step_2 as crate::grammar::Step)
+                    state.repeat(step_204 as crate::grammar::Step)
                 }
                 fn step_206(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state
-                        .lookahead(false, step_205 as crate::grammar::Step)
-                        .and_then(self::r#ANY as crate::grammar::Step)
+                        .sequence(step_203 as crate::grammar::Step)
+                        .and_then(step_205 as crate::grammar::Step)
                 }
                 fn step_207(
                     state: crate::grammar::State<'_>,
@@ -2582,383 +2682,388 @@ impl ::pest::Parser<Rule> for Grammar {
                 fn step_208(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.repeat(step_207 as crate::grammar::Step)
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_207 as crate::grammar::Step,
+                        )
                 }
                 fn step_209(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state
-                        .sequence(step_206 as crate::grammar::Step)
-                        .and_then(step_208 as crate::grammar::Step)
+                        .match_string(";")
+                        .or_else(step_86 as crate::grammar::Step)
+                        .or_else(step_104 as crate::grammar::Step)
+                        .or_else(step_2 as crate::grammar::Step)
                 }
                 fn step_210(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_209 as crate::grammar::Step)
+                    state
+                        .lookahead(false, step_209 as crate::grammar::Step)
+                        .and_then(self::r#ANY as crate::grammar::Step)
                 }
                 fn step_211(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .atomic(
-                            ::pest::Atomicity::Atomic,
-                            step_210 as crate::grammar::Step,
-                        )
+                    state.sequence(step_210 as crate::grammar::Step)
                 }
                 fn step_212(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .match_string("state")
-                        .and_then(step_186 as crate::grammar::Step)
+                    state.repeat(step_211 as crate::grammar::Step)
                 }
                 fn step_213(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_212 as crate::grammar::Step)
+                    state
+                        .sequence(step_210 as crate::grammar::Step)
+                        .and_then(step_212 as crate::grammar::Step)
                 }
                 fn step_214(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .atomic(
-                            ::pest::Atomicity::Atomic,
-                            step_213 as crate::grammar::Step,
-                        )
+                    state.sequence(step_213 as crate::grammar::Step)
                 }
                 fn step_215(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state
-                        .match_string("struct")
-                        .and_then(step_186 as crate::grammar::Step)
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_214 as crate::grammar::Step,
+                        )
                 }
                 fn step_216(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_215 as crate::grammar::Step)
+                    state
+                        .match_string("state")
+                        .and_then(step_190 as crate::grammar::Step)
                 }
                 fn step_217(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .atomic(
-                            ::pest::Atomicity::Atomic,
-                            step_216 as crate::grammar::Step,
-                        )
+                    state.sequence(step_216 as crate::grammar::Step)
                 }
                 fn step_218(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("enum").and_then(step_186 as crate::grammar::Step)
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_217 as crate::grammar::Step,
+                        )
                 }
                 fn step_219(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_218 as crate::grammar::Step)
+                    state
+                        .match_string("struct")
+                        .and_then(step_190 as crate::grammar::Step)
                 }
                 fn step_220(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .atomic(
-                            ::pest::Atomicity::Atomic,
-                            step_219 as crate::grammar::Step,
-                        )
+                    state.sequence(step_219 as crate::grammar::Step)
                 }
                 fn step_221(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state
-                        .match_string("const")
-                        .and_then(step_186 as crate::grammar::Step)
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_220 as crate::grammar::Step,
+                        )
                 }
                 fn step_222(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_221 as crate::grammar::Step)
+                    state.match_string("enum").and_then(step_190 as crate::grammar::Step)
                 }
                 fn step_223(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .atomic(
-                            ::pest::Atomicity::Atomic,
-                            step_222 as crate::grammar::Step,
-                        )
+                    state.sequence(step_222 as crate::grammar::Step)
                 }
                 fn step_224(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state
-                        .match_string("predicate")
-                        .and_then(step_186 as crate::grammar::Step)
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_223 as crate::grammar::Step,
+                        )
                 }
                 fn step_225(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_224 as crate::grammar::Step)
+                    state
+                        .match_string("const")
+                        .and_then(step_190 as crate::grammar::Step)
                 }
                 fn step_226(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .atomic(
-                            ::pest::Atomicity::Atomic,
-                            step_225 as crate::grammar::Step,
-                        )
+                    state.sequence(step_225 as crate::grammar::Step)
                 }
                 fn step_227(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("task").and_then(step_186 as crate::grammar::Step)
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_226 as crate::grammar::Step,
+                        )
                 }
                 fn step_228(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_227 as crate::grammar::Step)
+                    state
+                        .match_string("predicate")
+                        .and_then(step_190 as crate::grammar::Step)
                 }
                 fn step_229(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_228 as crate::grammar::Step)
+                }
+                fn step_230(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state
                         .atomic(
                             ::pest::Atomicity::Atomic,
-                            step_228 as crate::grammar::Step,
+                            step_229 as crate::grammar::Step,
                         )
                 }
-                fn step_230(
+                fn step_231(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("task").and_then(step_190 as crate::grammar::Step)
+                }
+                fn step_232(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_231 as crate::grammar::Step)
+                }
+                fn step_233(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_232 as crate::grammar::Step,
+                        )
+                }
+                fn step_234(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("step").and_then(step_190 as crate::grammar::Step)
+                }
+                fn step_235(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_234 as crate::grammar::Step)
+                }
+                fn step_236(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_235 as crate::grammar::Step,
+                        )
+                }
+                fn step_237(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     self::r#infix(state)
                         .and_then(super::hidden::skip as crate::grammar::Step)
                         .and_then(self::r#operand as crate::grammar::Step)
                 }
-                fn step_231(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_230 as crate::grammar::Step)
-                }
-                fn step_232(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    super::hidden::skip(state).and_then(step_231 as crate::grammar::Step)
-                }
-                fn step_233(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_232 as crate::grammar::Step)
-                }
-                fn step_234(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.repeat(step_233 as crate::grammar::Step)
-                }
-                fn step_235(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .sequence(step_230 as crate::grammar::Step)
-                        .and_then(step_234 as crate::grammar::Step)
-                }
-                fn step_236(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.optional(step_235 as crate::grammar::Step)
-                }
-                fn step_237(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_236 as crate::grammar::Step)
-                }
                 fn step_238(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    self::r#operand(state)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_237 as crate::grammar::Step)
+                    state.sequence(step_237 as crate::grammar::Step)
                 }
                 fn step_239(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_238 as crate::grammar::Step)
+                    super::hidden::skip(state).and_then(step_238 as crate::grammar::Step)
                 }
                 fn step_240(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    self::r#prefix(state).or_else(self::r#open as crate::grammar::Step)
+                    state.sequence(step_239 as crate::grammar::Step)
                 }
                 fn step_241(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    super::hidden::skip(state).and_then(step_240 as crate::grammar::Step)
+                    state.repeat(step_240 as crate::grammar::Step)
                 }
                 fn step_242(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_241 as crate::grammar::Step)
+                    state
+                        .sequence(step_237 as crate::grammar::Step)
+                        .and_then(step_241 as crate::grammar::Step)
                 }
                 fn step_243(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.repeat(step_242 as crate::grammar::Step)
+                    state.optional(step_242 as crate::grammar::Step)
                 }
                 fn step_244(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    self::r#prefix(state)
-                        .or_else(self::r#open as crate::grammar::Step)
-                        .and_then(step_243 as crate::grammar::Step)
+                    state.sequence(step_243 as crate::grammar::Step)
                 }
                 fn step_245(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.optional(step_244 as crate::grammar::Step)
+                    self::r#operand(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_244 as crate::grammar::Step)
                 }
                 fn step_246(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    self::r#field(state)
-                        .or_else(self::r#empty_call as crate::grammar::Step)
-                        .or_else(self::r#close as crate::grammar::Step)
+                    state.sequence(step_245 as crate::grammar::Step)
                 }
                 fn step_247(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    super::hidden::skip(state).and_then(step_246 as crate::grammar::Step)
+                    self::r#prefix(state).or_else(self::r#open as crate::grammar::Step)
                 }
                 fn step_248(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_247 as crate::grammar::Step)
+                    super::hidden::skip(state).and_then(step_247 as crate::grammar::Step)
                 }
                 fn step_249(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.repeat(step_248 as crate::grammar::Step)
+                    state.sequence(step_248 as crate::grammar::Step)
                 }
                 fn step_250(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.repeat(step_249 as crate::grammar::Step)
+                }
+                fn step_251(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#prefix(state)
+                        .or_else(self::r#open as crate::grammar::Step)
+                        .and_then(step_250 as crate::grammar::Step)
+                }
+                fn step_252(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_251 as crate::grammar::Step)
+                }
+                fn step_253(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     self::r#field(state)
                         .or_else(self::r#empty_call as crate::grammar::Step)
                         .or_else(self::r#close as crate::grammar::Step)
-                        .and_then(step_249 as crate::grammar::Step)
-                }
-                fn step_251(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.optional(step_250 as crate::grammar::Step)
-                }
-                fn step_252(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_251 as crate::grammar::Step)
-                }
-                fn step_253(
-                    state: crate::grammar::State<'_>,
-                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .sequence(step_245 as crate::grammar::Step)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(self::r#primary as crate::grammar::Step)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_252 as crate::grammar::Step)
                 }
                 fn step_254(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.lookahead(false, step_84 as crate::grammar::Step)
+                    super::hidden::skip(state).and_then(step_253 as crate::grammar::Step)
                 }
                 fn step_255(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("!").and_then(step_254 as crate::grammar::Step)
+                    state.sequence(step_254 as crate::grammar::Step)
                 }
                 fn step_256(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("¬")
+                    state.repeat(step_255 as crate::grammar::Step)
                 }
                 fn step_257(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("not").and_then(step_186 as crate::grammar::Step)
+                    self::r#field(state)
+                        .or_else(self::r#empty_call as crate::grammar::Step)
+                        .or_else(self::r#close as crate::grammar::Step)
+                        .and_then(step_256 as crate::grammar::Step)
                 }
                 fn step_258(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_257 as crate::grammar::Step)
+                    state.optional(step_257 as crate::grammar::Step)
                 }
                 fn step_259(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .sequence(step_255 as crate::grammar::Step)
-                        .or_else(step_256 as crate::grammar::Step)
-                        .or_else(step_258 as crate::grammar::Step)
+                    state.sequence(step_258 as crate::grammar::Step)
                 }
                 fn step_260(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state
-                        .atomic(
-                            ::pest::Atomicity::Atomic,
-                            step_259 as crate::grammar::Step,
-                        )
+                        .sequence(step_252 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#primary as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_259 as crate::grammar::Step)
                 }
                 fn step_261(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.lookahead(false, self::r#word_rest as crate::grammar::Step)
+                    state.optional(self::r#bound as crate::grammar::Step)
                 }
                 fn step_262(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("F").and_then(step_261 as crate::grammar::Step)
+                    self::r#eventually(state)
+                        .or_else(self::r#next_op as crate::grammar::Step)
+                        .or_else(self::r#always as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_261 as crate::grammar::Step)
                 }
                 fn step_263(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("◇")
+                    state.sequence(step_262 as crate::grammar::Step)
                 }
                 fn step_264(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("<>")
+                    state.lookahead(false, step_86 as crate::grammar::Step)
                 }
                 fn step_265(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .sequence(step_262 as crate::grammar::Step)
-                        .or_else(step_263 as crate::grammar::Step)
-                        .or_else(step_264 as crate::grammar::Step)
+                    state.match_string("!").and_then(step_264 as crate::grammar::Step)
                 }
                 fn step_266(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .atomic(
-                            ::pest::Atomicity::Atomic,
-                            step_265 as crate::grammar::Step,
-                        )
+                    state.match_string("¬")
                 }
                 fn step_267(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("X").and_then(step_261 as crate::grammar::Step)
+                    state.match_string("not").and_then(step_190 as crate::grammar::Step)
                 }
                 fn step_268(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("○")
+                    state.sequence(step_267 as crate::grammar::Step)
                 }
                 fn step_269(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state
-                        .sequence(step_267 as crate::grammar::Step)
+                        .sequence(step_265 as crate::grammar::Step)
+                        .or_else(step_266 as crate::grammar::Step)
                         .or_else(step_268 as crate::grammar::Step)
                 }
                 fn step_270(
@@ -2973,28 +3078,29 @@ impl ::pest::Parser<Rule> for Grammar {
                 fn step_271(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string(">")
+                    state.lookahead(false, self::r#word_rest as crate::grammar::Step)
                 }
                 fn step_272(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.lookahead(false, step_271 as crate::grammar::Step)
+                    state.match_string("F").and_then(step_271 as crate::grammar::Step)
                 }
                 fn step_273(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("-").and_then(step_272 as crate::grammar::Step)
+                    state.match_string("◇")
                 }
                 fn step_274(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("−")
+                    state.match_string("<>")
                 }
                 fn step_275(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state
-                        .sequence(step_273 as crate::grammar::Step)
+                        .sequence(step_272 as crate::grammar::Step)
+                        .or_else(step_273 as crate::grammar::Step)
                         .or_else(step_274 as crate::grammar::Step)
                 }
                 fn step_276(
@@ -3009,146 +3115,136 @@ impl ::pest::Parser<Rule> for Grammar {
                 fn step_277(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    self::r#word_all(state)
-                        .or_else(self::r#word_some as crate::grammar::Step)
+                    state.match_string("X").and_then(step_271 as crate::grammar::Step)
                 }
                 fn step_278(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    self::r#word_for(state)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_277 as crate::grammar::Step)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(self::r#identifier as crate::grammar::Step)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(self::r#word_in as crate::grammar::Step)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(self::r#set as crate::grammar::Step)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_147 as crate::grammar::Step)
+                    state.match_string("○")
                 }
                 fn step_279(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_278 as crate::grammar::Step)
+                    state
+                        .sequence(step_277 as crate::grammar::Step)
+                        .or_else(step_278 as crate::grammar::Step)
                 }
                 fn step_280(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state
-                        .match_string(",")
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(self::r#element as crate::grammar::Step)
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_279 as crate::grammar::Step,
+                        )
                 }
                 fn step_281(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_280 as crate::grammar::Step)
+                    self::r#brackets(state).and_then(step_169 as crate::grammar::Step)
                 }
                 fn step_282(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    super::hidden::skip(state).and_then(step_281 as crate::grammar::Step)
+                    state.sequence(step_281 as crate::grammar::Step)
                 }
                 fn step_283(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_282 as crate::grammar::Step)
+                    state.optional(step_282 as crate::grammar::Step)
                 }
                 fn step_284(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.repeat(step_283 as crate::grammar::Step)
+                    state
+                        .repeat(self::r#trivia as crate::grammar::Step)
+                        .and_then(step_283 as crate::grammar::Step)
+                        .and_then(self::r#operand_start as crate::grammar::Step)
                 }
                 fn step_285(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .sequence(step_280 as crate::grammar::Step)
-                        .and_then(step_284 as crate::grammar::Step)
+                    state.sequence(step_284 as crate::grammar::Step)
                 }
                 fn step_286(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.optional(step_285 as crate::grammar::Step)
+                    state.lookahead(true, step_285 as crate::grammar::Step)
                 }
                 fn step_287(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_286 as crate::grammar::Step)
+                    state
+                        .match_string("G")
+                        .and_then(step_271 as crate::grammar::Step)
+                        .and_then(step_286 as crate::grammar::Step)
                 }
                 fn step_288(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    self::r#element(state)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_287 as crate::grammar::Step)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_73 as crate::grammar::Step)
+                    state.match_string("□")
                 }
                 fn step_289(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_288 as crate::grammar::Step)
+                    state.match_string("[]")
                 }
                 fn step_290(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.optional(step_289 as crate::grammar::Step)
+                    state
+                        .sequence(step_287 as crate::grammar::Step)
+                        .or_else(step_288 as crate::grammar::Step)
+                        .or_else(step_289 as crate::grammar::Step)
                 }
                 fn step_291(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state
-                        .match_string("{")
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_290 as crate::grammar::Step)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_114 as crate::grammar::Step)
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_290 as crate::grammar::Step,
+                        )
                 }
                 fn step_292(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state
-                        .sequence(step_291 as crate::grammar::Step)
-                        .or_else(self::r#range as crate::grammar::Step)
-                        .or_else(self::r#identifier as crate::grammar::Step)
+                        .lookahead(false, step_83 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#ANY as crate::grammar::Step)
                 }
                 fn step_293(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    self::r#digits(state).or_else(self::r#path as crate::grammar::Step)
+                    state.sequence(step_292 as crate::grammar::Step)
                 }
                 fn step_294(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("..")
+                    super::hidden::skip(state).and_then(step_293 as crate::grammar::Step)
                 }
                 fn step_295(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.optional(self::r#inclusive as crate::grammar::Step)
+                    state.sequence(step_294 as crate::grammar::Step)
                 }
                 fn step_296(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    self::r#end(state)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_294 as crate::grammar::Step)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_295 as crate::grammar::Step)
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(self::r#end as crate::grammar::Step)
+                    state.repeat(step_295 as crate::grammar::Step)
                 }
                 fn step_297(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_296 as crate::grammar::Step)
+                    state
+                        .sequence(step_292 as crate::grammar::Step)
+                        .and_then(step_296 as crate::grammar::Step)
                 }
                 fn step_298(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("for").and_then(step_186 as crate::grammar::Step)
+                    state.optional(step_297 as crate::grammar::Step)
                 }
                 fn step_299(
                     state: crate::grammar::State<'_>,
@@ -3159,653 +3255,670 @@ impl ::pest::Parser<Rule> for Grammar {
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state
-                        .atomic(
-                            ::pest::Atomicity::Atomic,
-                            step_299 as crate::grammar::Step,
-                        )
+                        .match_string("[")
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_299 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_83 as crate::grammar::Step)
                 }
                 fn step_301(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("all").and_then(step_186 as crate::grammar::Step)
+                    state
+                        .match_string("!")
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_264 as crate::grammar::Step)
                 }
                 fn step_302(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_301 as crate::grammar::Step)
+                    state.match_string("(")
                 }
                 fn step_303(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .atomic(
-                            ::pest::Atomicity::Atomic,
-                            step_302 as crate::grammar::Step,
-                        )
+                    state.match_string("⊤")
                 }
                 fn step_304(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("some").and_then(step_186 as crate::grammar::Step)
+                    state.match_string("⊥")
                 }
                 fn step_305(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_304 as crate::grammar::Step)
+                    state.match_string("\"")
                 }
                 fn step_306(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .atomic(
-                            ::pest::Atomicity::Atomic,
-                            step_305 as crate::grammar::Step,
-                        )
+                    state.match_string("T")
                 }
                 fn step_307(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("in").and_then(step_186 as crate::grammar::Step)
+                    state.match_string("R")
                 }
                 fn step_308(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_307 as crate::grammar::Step)
+                    state.match_string("W")
                 }
                 fn step_309(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .atomic(
-                            ::pest::Atomicity::Atomic,
-                            step_308 as crate::grammar::Step,
-                        )
+                    state.match_string("M")
                 }
                 fn step_310(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("⇒")
+                    state.match_string("V")
                 }
                 fn step_311(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("->")
+                    state.match_string("S")
                 }
                 fn step_312(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .match_string("=>")
-                        .or_else(step_310 as crate::grammar::Step)
-                        .or_else(step_311 as crate::grammar::Step)
+                    state.match_string("and")
                 }
                 fn step_313(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("<->")
+                    state.match_string("or")
                 }
                 fn step_314(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("⇔")
+                    state.match_string("in")
                 }
                 fn step_315(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .match_string("<=>")
-                        .or_else(step_313 as crate::grammar::Step)
-                        .or_else(step_314 as crate::grammar::Step)
+                    state.match_string("ensuring")
                 }
                 fn step_316(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("∨")
+                    state
+                        .match_string("U")
+                        .or_else(step_306 as crate::grammar::Step)
+                        .or_else(step_307 as crate::grammar::Step)
+                        .or_else(step_308 as crate::grammar::Step)
+                        .or_else(step_309 as crate::grammar::Step)
+                        .or_else(step_310 as crate::grammar::Step)
+                        .or_else(step_311 as crate::grammar::Step)
+                        .or_else(step_312 as crate::grammar::Step)
+                        .or_else(step_313 as crate::grammar::Step)
+                        .or_else(step_314 as crate::grammar::Step)
+                        .or_else(step_315 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_190 as crate::grammar::Step)
                 }
                 fn step_317(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("or").and_then(step_186 as crate::grammar::Step)
+                    state.sequence(step_316 as crate::grammar::Step)
                 }
                 fn step_318(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_317 as crate::grammar::Step)
+                    state.match_string("_")
                 }
                 fn step_319(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .match_string("||")
-                        .or_else(step_316 as crate::grammar::Step)
-                        .or_else(step_196 as crate::grammar::Step)
-                        .or_else(step_318 as crate::grammar::Step)
+                    self::r#XID_START(state).or_else(step_318 as crate::grammar::Step)
                 }
                 fn step_320(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state
-                        .atomic(
-                            ::pest::Atomicity::Atomic,
-                            step_319 as crate::grammar::Step,
-                        )
+                        .lookahead(false, step_317 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_319 as crate::grammar::Step)
                 }
                 fn step_321(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("∧")
+                    state.sequence(step_320 as crate::grammar::Step)
                 }
                 fn step_322(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("&")
+                    state.match_string(">")
                 }
                 fn step_323(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("and").and_then(step_186 as crate::grammar::Step)
+                    state.lookahead(false, step_322 as crate::grammar::Step)
                 }
                 fn step_324(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_323 as crate::grammar::Step)
+                    state.match_string("-").and_then(step_323 as crate::grammar::Step)
                 }
                 fn step_325(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .match_string("&&")
-                        .or_else(step_321 as crate::grammar::Step)
-                        .or_else(step_322 as crate::grammar::Step)
-                        .or_else(step_324 as crate::grammar::Step)
+                    state.match_string("−")
                 }
                 fn step_326(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state
-                        .atomic(
-                            ::pest::Atomicity::Atomic,
-                            step_325 as crate::grammar::Step,
-                        )
+                        .sequence(step_324 as crate::grammar::Step)
+                        .or_else(step_325 as crate::grammar::Step)
                 }
                 fn step_327(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("U").and_then(step_186 as crate::grammar::Step)
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_326 as crate::grammar::Step,
+                        )
                 }
                 fn step_328(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_327 as crate::grammar::Step)
+                    self::r#word_all(state)
+                        .or_else(self::r#word_some as crate::grammar::Step)
                 }
                 fn step_329(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .atomic(
-                            ::pest::Atomicity::Atomic,
-                            step_328 as crate::grammar::Step,
-                        )
+                    self::r#word_for(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_328 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#identifier as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#word_in as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#set as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_151 as crate::grammar::Step)
                 }
                 fn step_330(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("T").and_then(step_186 as crate::grammar::Step)
+                    state.sequence(step_329 as crate::grammar::Step)
                 }
                 fn step_331(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_330 as crate::grammar::Step)
+                    state
+                        .match_string(",")
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#element as crate::grammar::Step)
                 }
                 fn step_332(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .atomic(
-                            ::pest::Atomicity::Atomic,
-                            step_331 as crate::grammar::Step,
-                        )
+                    state.sequence(step_331 as crate::grammar::Step)
                 }
                 fn step_333(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("==")
+                    super::hidden::skip(state).and_then(step_332 as crate::grammar::Step)
                 }
                 fn step_334(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("≠")
+                    state.sequence(step_333 as crate::grammar::Step)
                 }
                 fn step_335(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("!=").or_else(step_334 as crate::grammar::Step)
+                    state.repeat(step_334 as crate::grammar::Step)
                 }
                 fn step_336(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("≤")
+                    state
+                        .sequence(step_331 as crate::grammar::Step)
+                        .and_then(step_335 as crate::grammar::Step)
                 }
                 fn step_337(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("<=").or_else(step_336 as crate::grammar::Step)
+                    state.optional(step_336 as crate::grammar::Step)
                 }
                 fn step_338(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("≥")
+                    state.sequence(step_337 as crate::grammar::Step)
                 }
                 fn step_339(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string(">=").or_else(step_338 as crate::grammar::Step)
+                    self::r#element(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_338 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_75 as crate::grammar::Step)
                 }
                 fn step_340(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("<")
+                    state.sequence(step_339 as crate::grammar::Step)
                 }
                 fn step_341(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("+")
+                    state.optional(step_340 as crate::grammar::Step)
                 }
                 fn step_342(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("×")
+                    state
+                        .match_string("{")
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_341 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_116 as crate::grammar::Step)
                 }
                 fn step_343(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("*").or_else(step_342 as crate::grammar::Step)
+                    state
+                        .sequence(step_342 as crate::grammar::Step)
+                        .or_else(self::r#range as crate::grammar::Step)
+                        .or_else(self::r#identifier as crate::grammar::Step)
                 }
                 fn step_344(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("÷")
+                    self::r#digits(state).or_else(self::r#path as crate::grammar::Step)
                 }
                 fn step_345(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("/").or_else(step_344 as crate::grammar::Step)
+                    state.match_string("..")
                 }
                 fn step_346(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("(")
+                    state.optional(self::r#inclusive as crate::grammar::Step)
                 }
                 fn step_347(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string(")").or_else(step_81 as crate::grammar::Step)
+                    self::r#end(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_345 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_346 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#end as crate::grammar::Step)
                 }
                 fn step_348(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .match_string("(")
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_77 as crate::grammar::Step)
+                    state.sequence(step_347 as crate::grammar::Step)
                 }
                 fn step_349(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_348 as crate::grammar::Step)
+                    state.match_string("for").and_then(step_190 as crate::grammar::Step)
                 }
                 fn step_350(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    self::r#identifier(state)
-                        .or_else(self::r#position as crate::grammar::Step)
+                    state.sequence(step_349 as crate::grammar::Step)
                 }
                 fn step_351(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state
-                        .match_string(".")
-                        .and_then(super::hidden::skip as crate::grammar::Step)
-                        .and_then(step_350 as crate::grammar::Step)
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_350 as crate::grammar::Step,
+                        )
                 }
                 fn step_352(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_351 as crate::grammar::Step)
+                    state.match_string("all").and_then(step_190 as crate::grammar::Step)
                 }
                 fn step_353(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .match_string(".")
-                        .and_then(self::r#digits as crate::grammar::Step)
+                    state.sequence(step_352 as crate::grammar::Step)
                 }
                 fn step_354(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_353 as crate::grammar::Step)
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_353 as crate::grammar::Step,
+                        )
                 }
                 fn step_355(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.optional(step_354 as crate::grammar::Step)
+                    state.match_string("some").and_then(step_190 as crate::grammar::Step)
                 }
                 fn step_356(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    self::r#digits(state)
-                        .and_then(step_355 as crate::grammar::Step)
-                        .and_then(step_186 as crate::grammar::Step)
+                    state.sequence(step_355 as crate::grammar::Step)
                 }
                 fn step_357(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_356 as crate::grammar::Step)
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_356 as crate::grammar::Step,
+                        )
                 }
                 fn step_358(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .atomic(
-                            ::pest::Atomicity::Atomic,
-                            step_357 as crate::grammar::Step,
-                        )
+                    state.match_string("in").and_then(step_190 as crate::grammar::Step)
                 }
                 fn step_359(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("true").and_then(step_186 as crate::grammar::Step)
+                    state.sequence(step_358 as crate::grammar::Step)
                 }
                 fn step_360(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_359 as crate::grammar::Step)
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_359 as crate::grammar::Step,
+                        )
                 }
                 fn step_361(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("⊤").or_else(step_360 as crate::grammar::Step)
+                    self::r#until(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_261 as crate::grammar::Step)
                 }
                 fn step_362(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .atomic(
-                            ::pest::Atomicity::Atomic,
-                            step_361 as crate::grammar::Step,
-                        )
+                    state.sequence(step_361 as crate::grammar::Step)
                 }
                 fn step_363(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .match_string("false")
-                        .and_then(step_186 as crate::grammar::Step)
+                    state.match_string("⇒")
                 }
                 fn step_364(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_363 as crate::grammar::Step)
+                    state.match_string("->")
                 }
                 fn step_365(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("⊥").or_else(step_364 as crate::grammar::Step)
+                    state
+                        .match_string("=>")
+                        .or_else(step_363 as crate::grammar::Step)
+                        .or_else(step_364 as crate::grammar::Step)
                 }
                 fn step_366(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .atomic(
-                            ::pest::Atomicity::Atomic,
-                            step_365 as crate::grammar::Step,
-                        )
+                    state.match_string("<->")
                 }
                 fn step_367(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    self::r#trivia(state).and_then(step_165 as crate::grammar::Step)
+                    state.match_string("⇔")
                 }
                 fn step_368(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_367 as crate::grammar::Step)
+                    state
+                        .match_string("<=>")
+                        .or_else(step_366 as crate::grammar::Step)
+                        .or_else(step_367 as crate::grammar::Step)
                 }
                 fn step_369(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    self::r#item_word(state)
-                        .and_then(step_368 as crate::grammar::Step)
-                        .and_then(self::r#identifier as crate::grammar::Step)
+                    state.match_string("∨")
                 }
                 fn step_370(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_369 as crate::grammar::Step)
+                    state.match_string("or").and_then(step_190 as crate::grammar::Step)
                 }
                 fn step_371(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    self::r#reserved(state).or_else(step_370 as crate::grammar::Step)
+                    state.sequence(step_370 as crate::grammar::Step)
                 }
                 fn step_372(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("::").and_then(step_165 as crate::grammar::Step)
+                    state
+                        .match_string("||")
+                        .or_else(step_369 as crate::grammar::Step)
+                        .or_else(step_200 as crate::grammar::Step)
+                        .or_else(step_371 as crate::grammar::Step)
                 }
                 fn step_373(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_372 as crate::grammar::Step)
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_372 as crate::grammar::Step,
+                        )
                 }
                 fn step_374(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.optional(step_373 as crate::grammar::Step)
+                    state.match_string("∧")
                 }
                 fn step_375(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .lookahead(false, step_371 as crate::grammar::Step)
-                        .and_then(step_374 as crate::grammar::Step)
-                        .and_then(self::r#identifier as crate::grammar::Step)
-                        .and_then(step_168 as crate::grammar::Step)
+                    state.match_string("&")
                 }
                 fn step_376(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_375 as crate::grammar::Step)
+                    state.match_string("and").and_then(step_190 as crate::grammar::Step)
                 }
                 fn step_377(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .atomic(
-                            ::pest::Atomicity::Atomic,
-                            step_376 as crate::grammar::Step,
-                        )
+                    state.sequence(step_376 as crate::grammar::Step)
                 }
                 fn step_378(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("X")
+                    state
+                        .match_string("&&")
+                        .or_else(step_374 as crate::grammar::Step)
+                        .or_else(step_375 as crate::grammar::Step)
+                        .or_else(step_377 as crate::grammar::Step)
                 }
                 fn step_379(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("U")
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_378 as crate::grammar::Step,
+                        )
                 }
                 fn step_380(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("T")
+                    state
+                        .match_string("U")
+                        .or_else(step_306 as crate::grammar::Step)
+                        .or_else(step_307 as crate::grammar::Step)
+                        .or_else(step_308 as crate::grammar::Step)
+                        .or_else(step_309 as crate::grammar::Step)
+                        .and_then(step_190 as crate::grammar::Step)
                 }
                 fn step_381(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("not")
+                    state.sequence(step_380 as crate::grammar::Step)
                 }
                 fn step_382(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("and")
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_381 as crate::grammar::Step,
+                        )
                 }
                 fn step_383(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("or")
+                    state
+                        .match_string("ensuring")
+                        .and_then(step_190 as crate::grammar::Step)
                 }
                 fn step_384(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .match_string("F")
-                        .or_else(step_378 as crate::grammar::Step)
-                        .or_else(step_379 as crate::grammar::Step)
-                        .or_else(step_380 as crate::grammar::Step)
-                        .or_else(step_381 as crate::grammar::Step)
-                        .or_else(step_382 as crate::grammar::Step)
-                        .or_else(step_383 as crate::grammar::Step)
-                        .and_then(step_186 as crate::grammar::Step)
+                    state.sequence(step_383 as crate::grammar::Step)
                 }
                 fn step_385(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_384 as crate::grammar::Step)
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_384 as crate::grammar::Step,
+                        )
                 }
                 fn step_386(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .atomic(
-                            ::pest::Atomicity::Atomic,
-                            step_385 as crate::grammar::Step,
-                        )
+                    state.match_string("==")
                 }
                 fn step_387(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("_")
+                    state.match_string("≠")
                 }
                 fn step_388(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .match_string(".")
-                        .or_else(step_387 as crate::grammar::Step)
-                        .or_else(self::r#XID_START as crate::grammar::Step)
+                    state.match_string("!=").or_else(step_387 as crate::grammar::Step)
                 }
                 fn step_389(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.lookahead(false, step_388 as crate::grammar::Step)
+                    state.match_string("≤")
                 }
                 fn step_390(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string(".").and_then(step_389 as crate::grammar::Step)
+                    state.match_string("<=").or_else(step_389 as crate::grammar::Step)
                 }
                 fn step_391(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_390 as crate::grammar::Step)
+                    state.match_string("≥")
                 }
                 fn step_392(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.optional(step_391 as crate::grammar::Step)
+                    state.match_string(">=").or_else(step_391 as crate::grammar::Step)
                 }
                 fn step_393(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.optional(self::r#fraction as crate::grammar::Step)
+                    state.match_string("<")
                 }
                 fn step_394(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    self::r#digits(state)
-                        .and_then(step_392 as crate::grammar::Step)
-                        .and_then(step_393 as crate::grammar::Step)
+                    state.match_string("+")
                 }
                 fn step_395(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .match_string(".")
-                        .and_then(self::r#fraction as crate::grammar::Step)
+                    state.match_string("×")
                 }
                 fn step_396(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_395 as crate::grammar::Step)
+                    state.match_string("*").or_else(step_395 as crate::grammar::Step)
                 }
                 fn step_397(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.optional(self::r#exponent as crate::grammar::Step)
+                    state.match_string("÷")
                 }
                 fn step_398(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.optional(self::r#suffix as crate::grammar::Step)
+                    state.match_string("/").or_else(step_397 as crate::grammar::Step)
                 }
                 fn step_399(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .sequence(step_394 as crate::grammar::Step)
-                        .or_else(step_396 as crate::grammar::Step)
-                        .and_then(step_397 as crate::grammar::Step)
-                        .and_then(step_398 as crate::grammar::Step)
-                        .and_then(step_186 as crate::grammar::Step)
+                    self::r#at_most(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#bound_end as crate::grammar::Step)
                 }
                 fn step_400(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_399 as crate::grammar::Step)
+                    state
+                        .match_string(",")
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(self::r#bound_end as crate::grammar::Step)
                 }
                 fn step_401(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .atomic(
-                            ::pest::Atomicity::Atomic,
-                            step_400 as crate::grammar::Step,
-                        )
+                    state.sequence(step_400 as crate::grammar::Step)
                 }
                 fn step_402(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .atomic(
-                            ::pest::Atomicity::Atomic,
-                            self::r#string as crate::grammar::Step,
-                        )
+                    state.optional(step_401 as crate::grammar::Step)
                 }
                 fn step_403(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .atomic(
-                            ::pest::Atomicity::Atomic,
-                            self::r#braces as crate::grammar::Step,
-                        )
+                    self::r#bound_end(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_402 as crate::grammar::Step)
                 }
                 fn step_404(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    self::r#ASCII_DIGIT(state).or_else(step_387 as crate::grammar::Step)
+                    state.sequence(step_403 as crate::grammar::Step)
                 }
                 fn step_405(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.repeat(step_404 as crate::grammar::Step)
+                    state
+                        .sequence(step_399 as crate::grammar::Step)
+                        .or_else(step_404 as crate::grammar::Step)
                 }
                 fn step_406(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    self::r#ASCII_DIGIT(state).and_then(step_405 as crate::grammar::Step)
+                    state
+                        .match_string("[")
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_405 as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_83 as crate::grammar::Step)
                 }
                 fn step_407(
                     state: crate::grammar::State<'_>,
@@ -3815,40 +3928,41 @@ impl ::pest::Parser<Rule> for Grammar {
                 fn step_408(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .atomic(
-                            ::pest::Atomicity::Atomic,
-                            step_407 as crate::grammar::Step,
-                        )
+                    state.optional(self::r#identifier as crate::grammar::Step)
                 }
                 fn step_409(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("E")
+                    self::r#amount(state)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_408 as crate::grammar::Step)
                 }
                 fn step_410(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("-")
+                    state
+                        .sequence(step_409 as crate::grammar::Step)
+                        .or_else(self::r#identifier as crate::grammar::Step)
                 }
                 fn step_411(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("+").or_else(step_410 as crate::grammar::Step)
+                    state
+                        .optional(self::r#minus as crate::grammar::Step)
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_410 as crate::grammar::Step)
                 }
                 fn step_412(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.optional(step_411 as crate::grammar::Step)
+                    state.sequence(step_411 as crate::grammar::Step)
                 }
                 fn step_413(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state
-                        .match_string("e")
-                        .or_else(step_409 as crate::grammar::Step)
-                        .and_then(step_412 as crate::grammar::Step)
-                        .and_then(self::r#digits as crate::grammar::Step)
+                        .match_string(".")
+                        .and_then(self::r#fraction as crate::grammar::Step)
                 }
                 fn step_414(
                     state: crate::grammar::State<'_>,
@@ -3858,98 +3972,94 @@ impl ::pest::Parser<Rule> for Grammar {
                 fn step_415(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .atomic(
-                            ::pest::Atomicity::Atomic,
-                            step_414 as crate::grammar::Step,
-                        )
+                    state.optional(step_414 as crate::grammar::Step)
                 }
                 fn step_416(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("f32")
+                    state.optional(self::r#exponent as crate::grammar::Step)
                 }
                 fn step_417(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("u")
+                    self::r#digits(state)
+                        .and_then(step_415 as crate::grammar::Step)
+                        .and_then(step_416 as crate::grammar::Step)
                 }
                 fn step_418(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("16")
+                    state.sequence(step_417 as crate::grammar::Step)
                 }
                 fn step_419(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("32")
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_418 as crate::grammar::Step,
+                        )
                 }
                 fn step_420(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("64")
+                    state.match_string(")").or_else(step_83 as crate::grammar::Step)
                 }
                 fn step_421(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state
-                        .match_string("8")
-                        .or_else(step_418 as crate::grammar::Step)
-                        .or_else(step_419 as crate::grammar::Step)
-                        .or_else(step_420 as crate::grammar::Step)
+                        .match_string("(")
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_79 as crate::grammar::Step)
                 }
                 fn step_422(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .match_string("i")
-                        .or_else(step_417 as crate::grammar::Step)
-                        .and_then(step_421 as crate::grammar::Step)
+                    state.sequence(step_421 as crate::grammar::Step)
                 }
                 fn step_423(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_422 as crate::grammar::Step)
+                    self::r#identifier(state)
+                        .or_else(self::r#position as crate::grammar::Step)
                 }
                 fn step_424(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state
-                        .match_string("f64")
-                        .or_else(step_416 as crate::grammar::Step)
-                        .or_else(step_423 as crate::grammar::Step)
+                        .match_string(".")
+                        .and_then(super::hidden::skip as crate::grammar::Step)
+                        .and_then(step_423 as crate::grammar::Step)
                 }
                 fn step_425(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .atomic(
-                            ::pest::Atomicity::Atomic,
-                            step_424 as crate::grammar::Step,
-                        )
+                    state.sequence(step_424 as crate::grammar::Step)
                 }
                 fn step_426(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("r#")
+                    state
+                        .match_string(".")
+                        .and_then(self::r#digits as crate::grammar::Step)
                 }
                 fn step_427(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    self::r#XID_START(state).or_else(step_387 as crate::grammar::Step)
+                    state.sequence(step_426 as crate::grammar::Step)
                 }
                 fn step_428(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.repeat(self::r#XID_CONTINUE as crate::grammar::Step)
+                    state.optional(step_427 as crate::grammar::Step)
                 }
                 fn step_429(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .optional(step_426 as crate::grammar::Step)
-                        .and_then(step_427 as crate::grammar::Step)
+                    self::r#digits(state)
                         .and_then(step_428 as crate::grammar::Step)
+                        .and_then(step_190 as crate::grammar::Step)
                 }
                 fn step_430(
                     state: crate::grammar::State<'_>,
@@ -3968,45 +4078,43 @@ impl ::pest::Parser<Rule> for Grammar {
                 fn step_432(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("{").or_else(step_114 as crate::grammar::Step)
+                    state.match_string("true").and_then(step_190 as crate::grammar::Step)
                 }
                 fn step_433(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .lookahead(false, step_432 as crate::grammar::Step)
-                        .and_then(self::r#ANY as crate::grammar::Step)
+                    state.sequence(step_432 as crate::grammar::Step)
                 }
                 fn step_434(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_433 as crate::grammar::Step)
+                    state.match_string("⊤").or_else(step_433 as crate::grammar::Step)
                 }
                 fn step_435(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    self::r#braces(state)
-                        .or_else(self::r#string as crate::grammar::Step)
-                        .or_else(self::r#character as crate::grammar::Step)
-                        .or_else(step_434 as crate::grammar::Step)
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_434 as crate::grammar::Step,
+                        )
                 }
                 fn step_436(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.repeat(step_435 as crate::grammar::Step)
+                    state
+                        .match_string("false")
+                        .and_then(step_190 as crate::grammar::Step)
                 }
                 fn step_437(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .match_string("{")
-                        .and_then(step_436 as crate::grammar::Step)
-                        .and_then(step_114 as crate::grammar::Step)
+                    state.sequence(step_436 as crate::grammar::Step)
                 }
                 fn step_438(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_437 as crate::grammar::Step)
+                    state.match_string("⊥").or_else(step_437 as crate::grammar::Step)
                 }
                 fn step_439(
                     state: crate::grammar::State<'_>,
@@ -4020,21 +4128,19 @@ impl ::pest::Parser<Rule> for Grammar {
                 fn step_440(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .match_string("\\")
-                        .and_then(self::r#ANY as crate::grammar::Step)
+                    self::r#trivia(state).and_then(step_169 as crate::grammar::Step)
                 }
                 fn step_441(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.match_string("\"")
+                    state.sequence(step_440 as crate::grammar::Step)
                 }
                 fn step_442(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .lookahead(false, step_441 as crate::grammar::Step)
-                        .and_then(self::r#ANY as crate::grammar::Step)
+                    self::r#item_word(state)
+                        .and_then(step_441 as crate::grammar::Step)
+                        .and_then(self::r#identifier as crate::grammar::Step)
                 }
                 fn step_443(
                     state: crate::grammar::State<'_>,
@@ -4044,38 +4150,463 @@ impl ::pest::Parser<Rule> for Grammar {
                 fn step_444(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .sequence(step_440 as crate::grammar::Step)
-                        .or_else(step_443 as crate::grammar::Step)
+                    self::r#word_step(state)
+                        .and_then(step_441 as crate::grammar::Step)
+                        .and_then(self::r#ASCII_DIGIT as crate::grammar::Step)
                 }
                 fn step_445(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.repeat(step_444 as crate::grammar::Step)
+                    state.sequence(step_444 as crate::grammar::Step)
                 }
                 fn step_446(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state
-                        .match_string("\"")
-                        .and_then(step_445 as crate::grammar::Step)
-                        .and_then(step_441 as crate::grammar::Step)
+                    self::r#reserved(state)
+                        .or_else(step_443 as crate::grammar::Step)
+                        .or_else(step_445 as crate::grammar::Step)
                 }
                 fn step_447(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_446 as crate::grammar::Step)
+                    state.match_string("::").and_then(step_169 as crate::grammar::Step)
                 }
                 fn step_448(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_447 as crate::grammar::Step)
+                }
+                fn step_449(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_448 as crate::grammar::Step)
+                }
+                fn step_450(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .lookahead(false, step_446 as crate::grammar::Step)
+                        .and_then(step_449 as crate::grammar::Step)
+                        .and_then(self::r#identifier as crate::grammar::Step)
+                        .and_then(step_172 as crate::grammar::Step)
+                }
+                fn step_451(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_450 as crate::grammar::Step)
+                }
+                fn step_452(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state
                         .atomic(
                             ::pest::Atomicity::Atomic,
-                            step_447 as crate::grammar::Step,
+                            step_451 as crate::grammar::Step,
                         )
                 }
-                fn step_449(
+                fn step_453(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("X")
+                }
+                fn step_454(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("U")
+                }
+                fn step_455(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("not")
+                }
+                fn step_456(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("F")
+                        .or_else(step_453 as crate::grammar::Step)
+                        .or_else(step_454 as crate::grammar::Step)
+                        .or_else(step_306 as crate::grammar::Step)
+                        .or_else(step_455 as crate::grammar::Step)
+                        .or_else(step_312 as crate::grammar::Step)
+                        .or_else(step_313 as crate::grammar::Step)
+                        .and_then(step_190 as crate::grammar::Step)
+                }
+                fn step_457(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_456 as crate::grammar::Step)
+                }
+                fn step_458(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_457 as crate::grammar::Step,
+                        )
+                }
+                fn step_459(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string(".")
+                        .or_else(step_318 as crate::grammar::Step)
+                        .or_else(self::r#XID_START as crate::grammar::Step)
+                }
+                fn step_460(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.lookahead(false, step_459 as crate::grammar::Step)
+                }
+                fn step_461(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string(".").and_then(step_460 as crate::grammar::Step)
+                }
+                fn step_462(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_461 as crate::grammar::Step)
+                }
+                fn step_463(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_462 as crate::grammar::Step)
+                }
+                fn step_464(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(self::r#fraction as crate::grammar::Step)
+                }
+                fn step_465(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#digits(state)
+                        .and_then(step_463 as crate::grammar::Step)
+                        .and_then(step_464 as crate::grammar::Step)
+                }
+                fn step_466(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(self::r#suffix as crate::grammar::Step)
+                }
+                fn step_467(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .sequence(step_465 as crate::grammar::Step)
+                        .or_else(step_414 as crate::grammar::Step)
+                        .and_then(step_416 as crate::grammar::Step)
+                        .and_then(step_466 as crate::grammar::Step)
+                        .and_then(step_190 as crate::grammar::Step)
+                }
+                fn step_468(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_467 as crate::grammar::Step)
+                }
+                fn step_469(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_468 as crate::grammar::Step,
+                        )
+                }
+                fn step_470(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            self::r#string as crate::grammar::Step,
+                        )
+                }
+                fn step_471(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            self::r#braces as crate::grammar::Step,
+                        )
+                }
+                fn step_472(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#ASCII_DIGIT(state).or_else(step_318 as crate::grammar::Step)
+                }
+                fn step_473(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.repeat(step_472 as crate::grammar::Step)
+                }
+                fn step_474(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#ASCII_DIGIT(state).and_then(step_473 as crate::grammar::Step)
+                }
+                fn step_475(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_474 as crate::grammar::Step)
+                }
+                fn step_476(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_475 as crate::grammar::Step,
+                        )
+                }
+                fn step_477(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("E")
+                }
+                fn step_478(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("-")
+                }
+                fn step_479(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("+").or_else(step_478 as crate::grammar::Step)
+                }
+                fn step_480(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.optional(step_479 as crate::grammar::Step)
+                }
+                fn step_481(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("e")
+                        .or_else(step_477 as crate::grammar::Step)
+                        .and_then(step_480 as crate::grammar::Step)
+                        .and_then(self::r#digits as crate::grammar::Step)
+                }
+                fn step_482(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_481 as crate::grammar::Step)
+                }
+                fn step_483(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_482 as crate::grammar::Step,
+                        )
+                }
+                fn step_484(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("f32")
+                }
+                fn step_485(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("u")
+                }
+                fn step_486(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("16")
+                }
+                fn step_487(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("32")
+                }
+                fn step_488(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("64")
+                }
+                fn step_489(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("8")
+                        .or_else(step_486 as crate::grammar::Step)
+                        .or_else(step_487 as crate::grammar::Step)
+                        .or_else(step_488 as crate::grammar::Step)
+                }
+                fn step_490(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("i")
+                        .or_else(step_485 as crate::grammar::Step)
+                        .and_then(step_489 as crate::grammar::Step)
+                }
+                fn step_491(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_490 as crate::grammar::Step)
+                }
+                fn step_492(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("f64")
+                        .or_else(step_484 as crate::grammar::Step)
+                        .or_else(step_491 as crate::grammar::Step)
+                }
+                fn step_493(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_492 as crate::grammar::Step,
+                        )
+                }
+                fn step_494(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("r#")
+                }
+                fn step_495(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.repeat(self::r#XID_CONTINUE as crate::grammar::Step)
+                }
+                fn step_496(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .optional(step_494 as crate::grammar::Step)
+                        .and_then(step_319 as crate::grammar::Step)
+                        .and_then(step_495 as crate::grammar::Step)
+                }
+                fn step_497(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_496 as crate::grammar::Step)
+                }
+                fn step_498(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_497 as crate::grammar::Step,
+                        )
+                }
+                fn step_499(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.match_string("{").or_else(step_116 as crate::grammar::Step)
+                }
+                fn step_500(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .lookahead(false, step_499 as crate::grammar::Step)
+                        .and_then(self::r#ANY as crate::grammar::Step)
+                }
+                fn step_501(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_500 as crate::grammar::Step)
+                }
+                fn step_502(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    self::r#braces(state)
+                        .or_else(self::r#string as crate::grammar::Step)
+                        .or_else(self::r#character as crate::grammar::Step)
+                        .or_else(step_501 as crate::grammar::Step)
+                }
+                fn step_503(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.repeat(step_502 as crate::grammar::Step)
+                }
+                fn step_504(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("{")
+                        .and_then(step_503 as crate::grammar::Step)
+                        .and_then(step_116 as crate::grammar::Step)
+                }
+                fn step_505(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_504 as crate::grammar::Step)
+                }
+                fn step_506(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_505 as crate::grammar::Step,
+                        )
+                }
+                fn step_507(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("\\")
+                        .and_then(self::r#ANY as crate::grammar::Step)
+                }
+                fn step_508(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .lookahead(false, step_305 as crate::grammar::Step)
+                        .and_then(self::r#ANY as crate::grammar::Step)
+                }
+                fn step_509(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_508 as crate::grammar::Step)
+                }
+                fn step_510(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .sequence(step_507 as crate::grammar::Step)
+                        .or_else(step_509 as crate::grammar::Step)
+                }
+                fn step_511(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.repeat(step_510 as crate::grammar::Step)
+                }
+                fn step_512(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .match_string("\"")
+                        .and_then(step_511 as crate::grammar::Step)
+                        .and_then(step_305 as crate::grammar::Step)
+                }
+                fn step_513(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state.sequence(step_512 as crate::grammar::Step)
+                }
+                fn step_514(
+                    state: crate::grammar::State<'_>,
+                ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
+                    state
+                        .atomic(
+                            ::pest::Atomicity::Atomic,
+                            step_513 as crate::grammar::Step,
+                        )
+                }
+                fn step_515(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     {
@@ -4083,49 +4614,49 @@ impl ::pest::Parser<Rule> for Grammar {
                         state.skip_until(&strings)
                     }
                 }
-                fn step_450(
+                fn step_516(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state
                         .match_string("\\")
                         .and_then(self::r#ANY as crate::grammar::Step)
-                        .and_then(step_449 as crate::grammar::Step)
+                        .and_then(step_515 as crate::grammar::Step)
                 }
-                fn step_451(
+                fn step_517(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state
-                        .sequence(step_450 as crate::grammar::Step)
+                        .sequence(step_516 as crate::grammar::Step)
                         .or_else(self::r#ANY as crate::grammar::Step)
                 }
-                fn step_452(
+                fn step_518(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state.match_string("'")
                 }
-                fn step_453(
+                fn step_519(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state
                         .match_string("'")
-                        .and_then(step_451 as crate::grammar::Step)
-                        .and_then(step_452 as crate::grammar::Step)
+                        .and_then(step_517 as crate::grammar::Step)
+                        .and_then(step_518 as crate::grammar::Step)
                 }
-                fn step_454(
+                fn step_520(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
-                    state.sequence(step_453 as crate::grammar::Step)
+                    state.sequence(step_519 as crate::grammar::Step)
                 }
-                fn step_455(
+                fn step_521(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state
                         .atomic(
                             ::pest::Atomicity::Atomic,
-                            step_454 as crate::grammar::Step,
+                            step_520 as crate::grammar::Step,
                         )
                 }
-                fn step_456(
+                fn step_522(
                     state: crate::grammar::State<'_>,
                 ) -> ::pest::ParseResult<crate::grammar::State<'_>> {
                     state.end_of_input()
@@ -4157,6 +4688,7 @@ impl ::pest::Parser<Rule> for Grammar {
                     Rule::r#constant => rules::r#constant(state),
                     Rule::r#predicate => rules::r#predicate(state),
                     Rule::r#task => rules::r#task(state),
+                    Rule::r#step => rules::r#step(state),
                     Rule::r#fields => rules::r#fields(state),
                     Rule::r#parameters => rules::r#parameters(state),
                     Rule::r#field_declaration => rules::r#field_declaration(state),
@@ -4178,12 +4710,16 @@ impl ::pest::Parser<Rule> for Grammar {
                     Rule::r#word_const => rules::r#word_const(state),
                     Rule::r#word_predicate => rules::r#word_predicate(state),
                     Rule::r#word_task => rules::r#word_task(state),
+                    Rule::r#word_step => rules::r#word_step(state),
                     Rule::r#expression => rules::r#expression(state),
                     Rule::r#operand => rules::r#operand(state),
                     Rule::r#prefix => rules::r#prefix(state),
                     Rule::r#not => rules::r#not(state),
                     Rule::r#eventually => rules::r#eventually(state),
                     Rule::r#next_op => rules::r#next_op(state),
+                    Rule::r#always => rules::r#always(state),
+                    Rule::r#brackets => rules::r#brackets(state),
+                    Rule::r#operand_start => rules::r#operand_start(state),
                     Rule::r#minus => rules::r#minus(state),
                     Rule::r#quantifier => rules::r#quantifier(state),
                     Rule::r#set => rules::r#set(state),
@@ -4201,7 +4737,7 @@ impl ::pest::Parser<Rule> for Grammar {
                     Rule::r#or => rules::r#or(state),
                     Rule::r#and => rules::r#and(state),
                     Rule::r#until => rules::r#until(state),
-                    Rule::r#then => rules::r#then(state),
+                    Rule::r#ensuring => rules::r#ensuring(state),
                     Rule::r#equal => rules::r#equal(state),
                     Rule::r#unequal => rules::r#unequal(state),
                     Rule::r#at_most => rules::r#at_most(state),
@@ -4214,6 +4750,9 @@ impl ::pest::Parser<Rule> for Grammar {
                     Rule::r#comma => rules::r#comma(state),
                     Rule::r#call => rules::r#call(state),
                     Rule::r#index => rules::r#index(state),
+                    Rule::r#bound => rules::r#bound(state),
+                    Rule::r#bound_end => rules::r#bound_end(state),
+                    Rule::r#amount => rules::r#amount(state),
                     Rule::r#open => rules::r#open(state),
                     Rule::r#close => rules::r#close(state),
                     Rule::r#empty_call => rules::r#empty_call(state),

@@ -52,7 +52,7 @@ const BRACES: usize = 64;
 /// let errors = parse::formula(&Source::new("formula", "F a & & b")).unwrap_err();
 /// assert_eq!(errors.first().kind().name(), "syntax");
 /// // Operators of other logics have an error of their own.
-/// let errors = parse::formula(&Source::new("formula", "G a")).unwrap_err();
+/// let errors = parse::formula(&Source::new("formula", "a S b")).unwrap_err();
 /// assert_eq!(errors.first().kind().name(), "unsupported-operator");
 /// ```
 ///
@@ -94,6 +94,9 @@ pub fn fragment(source: &Source) -> Result<Ast, Errors> {
 pub fn is_keyword(word: &str) -> bool {
     token::keyword(word).is_some()
 }
+
+/// The error for an operator of another temporal logic.
+pub(crate) use message::unsupported;
 
 /// Parses a bare formula as far as possible, with its mistakes.
 #[must_use]

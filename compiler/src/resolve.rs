@@ -24,6 +24,7 @@
 //! # Ok::<(), tltl_compiler::error::Errors>(())
 //! ```
 
+mod decimal;
 mod declare;
 mod expand;
 pub(crate) mod name;
@@ -39,6 +40,7 @@ use crate::error::{Error, Kind};
 use crate::predicate::{Function, ParameterType, Scalar, Type};
 use crate::source::Span;
 use crate::unit::Unit;
+pub(crate) use decimal::{Decimal, Fraction};
 pub(crate) use declare::large_unit;
 use expand::{Binder, Environment};
 pub(crate) use expand::{Bound, MOST_NODES};
@@ -205,6 +207,8 @@ pub(crate) struct Entry {
     pub(crate) outer: Span,
     /// The first of the expressions that are parts of it, which are neighbours.
     pub(crate) first: ExpressionId,
+    /// The ends of its operator's bound.
+    pub(crate) ends: Vec<ExpressionId>,
     /// Its value, if it is a number made of numbers and constants alone.
     pub(crate) value: Option<f64>,
     /// The names that quantifiers bind around it.
@@ -300,6 +304,18 @@ impl Resolved<'_> {
         value.is_finite().then_some(value + 0.0)
     }
 
+    /// Whether an expression is a truth value with a name: a field, a parameter, a predicate.
+    fn is_truth(&self, id: ExpressionId) -> bool {
+        let is_predicate = |item: usize| matches!(self.item(item).kind, ItemKind::Predicate(..));
+        match &self[id].expression {
+            Expression::Name(Name::Place(place, _)) => place.scalar() == Some(Scalar::Bool),
+            Expression::Name(Name::Parameter { ty, .. }) => ty.scalar() == Some(Scalar::Bool),
+            Expression::Name(Name::Item(item, _))
+            | Expression::Call(Callee { item: Some(item), .. }, _) => is_predicate(*item),
+            _ => false,
+        }
+    }
+
     /// Whether an expression is a name, or a path of fields and indices.
     pub(crate) fn is_path(&self, id: ExpressionId) -> bool {
         let node = self.ast.node(self[id].node);
@@ -356,7 +372,7 @@ impl Resolved<'_> {
 
     /// Whether the left operand of a comparison is the chain before it, as `a < b` in `a < b < c`.
     pub(crate) fn is_chained(&self, left: ExpressionId) -> bool {
-        matches!(&self[left].expression, Expression::Infix(Infix::Compare(_), ..))
+        matches!(self.ast.node(self[left].node), Node::Infix(Infix::Compare(_), ..))
             && !self.is_bracketed(left)
     }
 

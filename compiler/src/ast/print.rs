@@ -19,6 +19,8 @@ pub struct Printed<'a> {
 enum Piece {
     Node(NodeId),
     Text(&'static str),
+    /// The bound of an expression's operator.
+    Bound(NodeId),
 }
 
 impl Ast {
@@ -26,6 +28,13 @@ impl Ast {
     #[must_use]
     pub fn display(&self, root: NodeId) -> Printed<'_> {
         Printed { ast: self, root }
+    }
+
+    /// An expression as text, with the brackets that it needs as an operand of `parent`, on its
+    /// left or not.
+    pub(crate) fn within(&self, parent: &Node, id: NodeId, left: bool) -> String {
+        let text = self.display(id);
+        if wants_brackets(parent, self, id, left) { format!("({text})") } else { text.to_string() }
     }
 
     /// An operand of `parent`, in brackets if it needs them.
@@ -54,12 +63,14 @@ impl Ast {
         let mut pieces = Vec::new();
         match *node {
             Node::Prefix(op, a) => {
-                pieces.push(Piece::Text(op.symbol()));
+                let blank = if op.is_word() { " " } else { "" };
+                pieces.extend([Piece::Text(op.symbol()), Piece::Bound(id), Piece::Text(blank)]);
                 pieces.extend(operand(a, false));
             }
             Node::Infix(op, a, b) => {
                 pieces.extend(operand(a, true));
-                pieces.extend([Piece::Text(" "), Piece::Text(op.symbol()), Piece::Text(" ")]);
+                pieces.extend([Piece::Text(" "), Piece::Text(op.symbol())]);
+                pieces.extend([Piece::Bound(id), Piece::Text(" ")]);
                 pieces.extend(operand(b, false));
             }
             Node::Index { base, index } => {
@@ -98,6 +109,11 @@ impl fmt::Display for Printed<'_> {
         while let Some(step) = open.pop() {
             match step {
                 Step::Piece(Piece::Text(text)) => f.write_str(text)?,
+                Step::Piece(Piece::Bound(id)) => {
+                    if let Some(bound) = &self.ast.entry(id).bound {
+                        f.write_str(&compact(self.ast.source().slice(bound.span)))?;
+                    }
+                }
                 Step::Field(id) => {
                     if let Node::Field { field, .. } = self.ast.node(id) {
                         write!(f, ".{}", self.ast.source().slice(*field))?;
@@ -136,18 +152,22 @@ enum Step {
 fn level(node: &Node) -> u8 {
     match node {
         Node::Quantified(_) => 0,
-        Node::Infix(Infix::Implies, ..) => 1,
-        Node::Infix(Infix::Or, ..) => 2,
-        Node::Infix(Infix::And, ..) => 3,
-        Node::Infix(Infix::Until | Infix::Then, ..) => 4,
-        Node::Prefix(Prefix::Not | Prefix::Eventually | Prefix::Next, _) => 5,
-        Node::Infix(Infix::Compare(_), ..) => 6,
-        Node::Infix(Infix::Calculate(Arithmetic::Add | Arithmetic::Subtract), ..) => 7,
-        Node::Infix(Infix::Calculate(_), ..) => 8,
-        Node::Prefix(Prefix::Minus, _) => 9,
-        _ => 10,
+        Node::Infix(Infix::Ensuring, ..) => 1,
+        Node::Infix(Infix::Implies | Infix::Iff, ..) => 2,
+        Node::Infix(Infix::Or, ..) => 3,
+        Node::Infix(Infix::And, ..) => 4,
+        Node::Prefix(Prefix::Minus, _) => 10,
+        Node::Prefix(..) => 6,
+        Node::Infix(Infix::Compare(_), ..) => 7,
+        Node::Infix(Infix::Calculate(Arithmetic::Add | Arithmetic::Subtract), ..) => 8,
+        Node::Infix(Infix::Calculate(_), ..) => 9,
+        Node::Infix(..) => UNTIL,
+        _ => 11,
     }
 }
+
+/// The level of `U`, `T` and their like.
+const UNTIL: u8 = 5;
 
 /// Whether the operand `id` of `parent` is printed in brackets: where the parser needs them, and
 /// where a reader would otherwise have to know the precedence of temporal operators.
@@ -159,19 +179,18 @@ fn wants_brackets(parent: &Node, ast: &Ast, id: NodeId, left: bool) -> bool {
         (Node::Infix(Infix::Compare(_), ..), Node::Infix(Infix::Compare(_), ..)) => {
             !left || ast.entry(id).is_bracketed()
         }
-        (Node::Infix(Infix::Until, ..), Node::Infix(Infix::Until, ..))
-        | (Node::Infix(Infix::Then, ..), Node::Infix(Infix::Then, ..))
-        | (Node::Infix(Infix::Implies, ..), Node::Infix(Infix::Implies, ..)) => left,
-        (
-            Node::Infix(Infix::Until | Infix::Then, ..),
-            Node::Infix(Infix::Until | Infix::Then, ..),
-        ) => true,
-        (
-            Node::Infix(Infix::Until | Infix::Then, ..),
-            Node::Prefix(Prefix::Eventually | Prefix::Next, _),
-        ) => left,
-        (Node::Infix(Infix::Until | Infix::Then, ..), Node::Infix(Infix::Compare(_), ..)) => true,
-        (Node::Prefix(op, _), Node::Infix(..)) => *op != Prefix::Minus || inner < 9,
+        (Node::Infix(one, ..), Node::Infix(two, ..))
+            if outer == inner && (outer <= 2 || outer == UNTIL) =>
+        {
+            left || one != two || matches!(one, Infix::Ensuring | Infix::Iff)
+        }
+        (Node::Infix(..), Node::Prefix(Prefix::Eventually | Prefix::Next | Prefix::Always, _))
+            if outer == UNTIL =>
+        {
+            left
+        }
+        (Node::Infix(..), Node::Infix(Infix::Compare(_), ..)) if outer == UNTIL => true,
+        (Node::Prefix(op, _), Node::Infix(..)) => *op != Prefix::Minus || inner < 10,
         (_, Node::Quantified(_)) => true,
         (Node::Prefix(..), _) => inner < outer,
         (Node::Infix(Infix::Implies, ..), _) => inner < outer,
@@ -180,15 +199,21 @@ fn wants_brackets(parent: &Node, ast: &Ast, id: NodeId, left: bool) -> bool {
 }
 
 impl Prefix {
-    /// Its symbol, with the blank that a word needs.
+    /// Its symbol.
     #[must_use]
     pub const fn symbol(self) -> &'static str {
         match self {
             Self::Not => "!",
-            Self::Eventually => "F ",
-            Self::Next => "X ",
+            Self::Eventually => "F",
+            Self::Next => "X",
+            Self::Always => "G",
             Self::Minus => "-",
         }
+    }
+
+    /// Whether its symbol is a word, after which a blank stands.
+    const fn is_word(self) -> bool {
+        !matches!(self, Self::Not | Self::Minus)
     }
 }
 
@@ -197,11 +222,16 @@ impl Infix {
     #[must_use]
     pub const fn symbol(self) -> &'static str {
         match self {
+            Self::Ensuring => "ensuring",
             Self::Implies => "=>",
+            Self::Iff => "<=>",
             Self::Or => "||",
             Self::And => "&&",
             Self::Until => "U",
             Self::Then => "T",
+            Self::Release => "R",
+            Self::WeakUntil => "W",
+            Self::StrongRelease => "M",
             Self::Compare(op) => op.symbol(),
             Self::Calculate(op) => op.symbol(),
         }

@@ -31,11 +31,25 @@ impl Atoms<'_, '_> {
         let arena = &mut self.lowering.arena;
         match self.resolved[id].expression {
             Expression::Prefix(Prefix::Not, operand) => Some(arena.not(of(operand)?)),
-            Expression::Infix(op @ (Infix::And | Infix::Or | Infix::Implies), left, right) => {
+            // With a bound of 0, which is no operator.
+            Expression::Prefix(Prefix::Eventually | Prefix::Next | Prefix::Always, operand) => {
+                of(operand)
+            }
+            Expression::Infix(
+                op @ (Infix::And | Infix::Or | Infix::Implies | Infix::Iff),
+                left,
+                right,
+            ) => {
                 let (left, right) = (of(left)?, of(right)?);
                 Some(match op {
                     Infix::And => arena.and(left, right),
                     Infix::Or => arena.or(left, right),
+                    Infix::Iff => {
+                        let neither = [left, right].map(|side| arena.not(side));
+                        let (both, neither) =
+                            (arena.and(left, right), arena.and(neither[0], neither[1]));
+                        arena.or(both, neither)
+                    }
                     _ => {
                         let left = arena.not(left);
                         arena.or(left, right)

@@ -4,14 +4,81 @@
 //! negated temporal operator is a safety property, which none can. The errors here say so in terms
 //! of the author's own formula, and offer the `U` that is usually meant.
 
-use crate::ast::{Infix, Prefix};
+use crate::ast::{Ast, Infix, Node, NodeId, Prefix};
 use crate::error::{Error, Kind};
+use crate::parse;
 use crate::resolve::{Expression, ExpressionId, Resolved};
+use crate::token::compact;
+
+/// The error for an operator whose formulas no finite trajectory can establish.
+pub(super) fn unsupported(resolved: &Resolved<'_>, id: ExpressionId) -> Error {
+    match resolved[id].expression {
+        Expression::Infix(op, ..) => refused(resolved, id, op.symbol()),
+        _ => refused(resolved, id, "G").help(
+            "to keep `c` until the goals are reached, write `F a && F b ensuring c`; for ten steps, `G[0,10] c`",
+        ),
+    }
+}
+
+/// The error for an operator, without what to write instead.
+fn refused(resolved: &Resolved<'_>, id: ExpressionId, word: &str) -> Error {
+    parse::unsupported(word, resolved.symbol(id), resolved.operator(id))
+}
+
+/// The error for "always" beside goals, if the operand `always` of a conjunction is one: until they
+/// are reached is what is meant.
+pub(super) fn always_beside(
+    resolved: &Resolved<'_>,
+    always: ExpressionId,
+    goals: ExpressionId,
+) -> Option<Error> {
+    let Expression::Prefix(Prefix::Always, kept) = resolved[always].expression else { return None };
+    let ast = resolved.ast;
+    let [node, goals, kept] = [always, goals, kept].map(|id| resolved[id].node);
+    let is_always = matches!(ast.node(goals), Node::Prefix(Prefix::Always, _));
+    if ast.entry(node).bound.is_some() || is_always || !is_of_a_state(ast, kept) {
+        return None;
+    }
+    let parent = Node::Infix(Infix::Ensuring, goals, kept);
+    let (goals, kept) = (ast.within(&parent, goals, true), ast.within(&parent, kept, false));
+    let help = format!("to keep it until the rest is reached, write `{goals} ensuring {kept}`");
+    Some(refused(resolved, always, "G").help(help))
+}
+
+/// Whether an expression has no temporal operator; a task may still hide one.
+fn is_of_a_state(ast: &Ast, root: NodeId) -> bool {
+    let is_temporal = |node| match ast.node(node) {
+        Node::Prefix(op, _) => !matches!(op, Prefix::Not | Prefix::Minus),
+        Node::Infix(op, ..) => op.is_temporal(),
+        _ => false,
+    };
+    !(ast.first(root).0..=root.0).map(NodeId).any(is_temporal)
+}
+
+/// The error for the temporal operator `id` where `by` needs a formula of one state.
+pub(super) fn not_of_a_state(resolved: &Resolved<'_>, id: ExpressionId, by: ExpressionId) -> Error {
+    let Expression::Infix(Infix::Ensuring, ..) = resolved[by].expression else {
+        return negated(resolved, id, by);
+    };
+    let symbol = resolved.symbol(id);
+    let message = format!(
+        "the right side of `ensuring` speaks of one state, so `{symbol}` cannot stand in it"
+    );
+    Error::new(Kind::Syntax, message, resolved.operator(id))
+        .related(
+            resolved.operator(by),
+            "what stands on its right must hold at every instant on the way",
+        )
+        .help("what is to be reached stands on its left: `F a && F b ensuring !c`")
+}
 
 /// The error for the temporal operator `id` under the negation `by`.
 pub(super) fn negated(resolved: &Resolved<'_>, id: ExpressionId, by: ExpressionId) -> Error {
     let (symbol, not, text) = (resolved.symbol(id), resolved.symbol(by), bracketed(resolved, id));
     let message = match resolved[by].expression {
+        Expression::Infix(Infix::Iff, ..) => {
+            format!("`{not}` negates both its sides, and `!{text}` is outside the language")
+        }
         Expression::Infix(..) => {
             format!("the left side of `=>` is negated, and `!{text}` is outside the language")
         }
@@ -23,6 +90,9 @@ pub(super) fn negated(resolved: &Resolved<'_>, id: ExpressionId, by: ExpressionI
     let (operator, negation) = (resolved.operator(id), resolved.operator(by));
     let what = what(&resolved[id].expression);
     let error = match resolved[by].expression {
+        Expression::Infix(Infix::Iff, ..) => Error::new(Kind::NegatedTemporal, message, operator)
+            .label(what)
+            .related(negation, "`p <=> q` means `(p && q) || (!p && !q)`"),
         Expression::Infix(..) => Error::new(Kind::NegatedTemporal, message, operator)
             .label(what)
             .related(negation, "`φ => ψ` means `!φ || ψ`"),
@@ -35,14 +105,22 @@ pub(super) fn negated(resolved: &Resolved<'_>, id: ExpressionId, by: ExpressionI
 fn what(expression: &Expression) -> &'static str {
     match expression {
         Expression::Prefix(Prefix::Eventually, _) => "\"eventually\"",
+        Expression::Prefix(Prefix::Always, _) => "\"always\"",
         Expression::Prefix(Prefix::Next, _) => "\"at the next state\"",
         Expression::Infix(Infix::Until, ..) => "\"until\"",
+        Expression::Infix(Infix::Release, ..) => "\"release\"",
+        Expression::Infix(Infix::WeakUntil, ..) => "\"weak until\"",
+        Expression::Infix(Infix::StrongRelease, ..) => "\"strong release\"",
+        Expression::Infix(Infix::Ensuring, ..) => "\"ensuring\"",
         _ => "\"then\"",
     }
 }
 
 /// Adds the reason why the negation is outside the language, and what to write instead.
 fn advice(resolved: &Resolved<'_>, id: ExpressionId, error: Error) -> Error {
+    if let Some(bound) = &resolved.ast.entry(resolved[id].node).bound {
+        return bounded_advice(resolved, id, resolved.ast.source().slice(bound.span), error);
+    }
     let (reason, goal) = match resolved[id].expression {
         Expression::Prefix(Prefix::Next, operand) => {
             let (text, next) = (bracketed(resolved, operand), resolved.symbol(id));
@@ -59,6 +137,12 @@ fn advice(resolved: &Resolved<'_>, id: ExpressionId, error: Error) -> Error {
             );
             (reason, text)
         }
+        Expression::Infix(Infix::Ensuring, ..) => {
+            return error.help("it would hold as long as the task is not satisfied: no finite trajectory can ever establish it");
+        }
+        Expression::Infix(Infix::StrongRelease, ..) => {
+            return error.help("`a M b` is `b U (a && b)`, and no `U` can be negated");
+        }
         Expression::Infix(_, _, right) => {
             let text = bracketed(resolved, right);
             let reason = format!(
@@ -70,6 +154,25 @@ fn advice(resolved: &Resolved<'_>, id: ExpressionId, error: Error) -> Error {
     };
     let rewrite = format!("to stay out of {goal} until a goal is reached, write `!{goal} U goal`");
     error.help(reason).help(rewrite)
+}
+
+/// The same for an operator with a bound.
+fn bounded_advice(resolved: &Resolved<'_>, id: ExpressionId, bound: &str, error: Error) -> Error {
+    const WANT: &str = "it would hold at the end of a trajectory for want of states";
+    let (operator, operand) = match resolved[id].expression {
+        Expression::Prefix(Prefix::Eventually, operand) => ("G", operand),
+        Expression::Prefix(Prefix::Always, operand) => ("F", operand),
+        Expression::Prefix(_, operand) => ("X", operand),
+        Expression::Infix(Infix::Until, _, right) => ("G", right),
+        _ => return error.help(WANT),
+    };
+    let text = match resolved[operand].expression {
+        Expression::Prefix(Prefix::Not, within) => bracketed(resolved, within),
+        _ => format!("!{}", bracketed(resolved, operand)),
+    };
+    let bound = compact(bound);
+    let help = format!("to say it of states that must come, write `{operator}{bound} {text}`");
+    error.help(WANT).help(help)
 }
 
 /// The text of an expression, in brackets if it has an operator.

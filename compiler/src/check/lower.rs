@@ -236,7 +236,7 @@ mod tests {
         let text = format!("{before}task last(i: u8, r: Room) = F {text} < 99");
         let (term, mistakes) = read(names, &text, |resolved, item, mistakes| {
             let expressions = resolved.expressions[item].unwrap();
-            let roles = roles(resolved, expressions, Role::Formula { negated: None }, mistakes);
+            let roles = roles(resolved, expressions, Role::FORMULA, mistakes);
             let mut lowering = Lowering::new(resolved);
             lowering.item = item;
             let terms = lowering.terms(&roles);

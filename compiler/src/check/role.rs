@@ -5,7 +5,7 @@
 //! not fit. The same descent pushes negation inward, which makes the formula's negation normal form
 //! a matter of reading roles.
 
-use super::intent;
+use super::{bound, intent};
 use crate::ast::{Comparison, Infix, Prefix};
 use crate::error::{Error, Kind};
 use crate::predicate::{ParameterType, Scalar};
@@ -14,9 +14,14 @@ use crate::resolve::{Callee, Expression, ExpressionId, Resolved};
 /// The role of an expression: the type that its position asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Role {
-    /// A formula of a task, under the negation `negated`: the `!`, or the `=>` whose left side it
-    /// is. Two negations cancel.
-    Formula { negated: Option<ExpressionId> },
+    /// A formula of a task.
+    Formula {
+        /// The negation that it is under: the `!`, or the `=>` whose left side it is. Two negations
+        /// cancel.
+        negated: Option<ExpressionId>,
+        /// The `<=>` or `ensuring` that asks for a state formula here.
+        state: Option<ExpressionId>,
+    },
     /// A condition of one state: a formula without temporal operators.
     Condition,
     /// A number.
@@ -27,6 +32,11 @@ pub(super) enum Role {
     Part,
     /// An expression with a mistake that has been reported.
     Broken,
+}
+
+impl Role {
+    /// A formula under no other operator.
+    pub(super) const FORMULA: Self = Self::Formula { negated: None, state: None };
 }
 
 /// The roles of the expressions of one item.
@@ -119,18 +129,40 @@ impl Descent<'_> {
     /// The operands of a formula or a condition.
     fn formula(&mut self, id: ExpressionId, role: Role) {
         let flipped = match role {
-            Role::Formula { negated } => Role::Formula { negated: negated.xor(Some(id)) },
+            Role::Formula { negated, state } => {
+                Role::Formula { negated: negated.xor(Some(id)), state }
+            }
             other => other,
         };
         match &self.resolved[id].expression {
             Expression::Prefix(Prefix::Not, operand) => self.set(*operand, flipped),
-            Expression::Infix(Infix::And | Infix::Or, ..) => self.give(id, role),
+            Expression::Infix(op @ (Infix::And | Infix::Or), left, right) => {
+                self.give(id, role);
+                if *op == Infix::And && role == Role::FORMULA {
+                    self.beside(*left, *right);
+                    self.beside(*right, *left);
+                }
+            }
             Expression::Infix(Infix::Implies, left, right) => {
                 self.set(*left, flipped);
                 self.set(*right, role);
             }
-            Expression::Prefix(Prefix::Eventually | Prefix::Next, _)
-            | Expression::Infix(Infix::Until | Infix::Then, ..) => self.temporal(id, role),
+            Expression::Infix(Infix::Iff, ..) => match role {
+                Role::Formula { .. } => {
+                    self.give(id, Role::Formula { negated: None, state: Some(id) });
+                }
+                other => self.give(id, other),
+            },
+            Expression::Prefix(Prefix::Eventually | Prefix::Next | Prefix::Always, _)
+            | Expression::Infix(
+                Infix::Until
+                | Infix::Then
+                | Infix::Release
+                | Infix::WeakUntil
+                | Infix::StrongRelease
+                | Infix::Ensuring,
+                ..,
+            ) => self.temporal(id, role),
             Expression::Infix(Infix::Compare(_), ..) => self.comparison(id),
             Expression::Call(Callee { item: Some(item), .. }, arguments) => {
                 self.application(*item, arguments);
@@ -144,14 +176,54 @@ impl Descent<'_> {
         }
     }
 
-    /// The operands of a temporal operator; refused in a condition and under a negation.
+    /// Refuses "always" beside goals: it is meant until they are reached, which can be said.
+    fn beside(&mut self, always: ExpressionId, goals: ExpressionId) {
+        if let Some(error) = intent::always_beside(self.resolved, always, goals) {
+            self.refuse(always, error);
+        }
+    }
+
+    /// The operands of a temporal operator; refused in a condition, under a negation that does not
+    /// vanish, and where a state formula must stand.
     fn temporal(&mut self, id: ExpressionId, role: Role) {
-        let Role::Formula { negated } = role else {
+        let window = match bound::window(self.resolved, id) {
+            Ok(window) => window,
+            Err(error) => return self.refuse(id, error),
+        };
+        let expression = &self.resolved[id].expression;
+        if window == Some(0..=0) && matches!(expression, Expression::Prefix(..)) {
+            // X[0], F[0,0] and G[0,0] say nothing.
+            return self.give(id, role);
+        }
+        let Role::Formula { negated, state } = role else {
             return self.refuse(id, self.temporal_predicate(id));
         };
+        if let Some(by) = state {
+            self.mistakes.push(intent::not_of_a_state(self.resolved, id, by));
+            return self.give(id, Role::FORMULA);
+        }
+        match (expression, &window, negated) {
+            // The negation makes it `F` or `U`.
+            (
+                Expression::Prefix(Prefix::Always, _)
+                | Expression::Infix(Infix::Release | Infix::WeakUntil, ..),
+                None,
+                Some(_),
+            ) => return self.give(id, role),
+            (Expression::Prefix(Prefix::Always, _), None, None)
+            | (Expression::Infix(Infix::Release | Infix::WeakUntil, ..), ..)
+            | (Expression::Infix(Infix::StrongRelease, ..), Some(_), _)
+            | (Expression::Infix(Infix::StrongRelease, ..), _, None) => {
+                return self.refuse(id, intent::unsupported(self.resolved, id));
+            }
+            _ => {}
+        }
         self.mistakes.extend(negated.map(|by| intent::negated(self.resolved, id, by)));
         // The rest of the formula may hold mistakes of its own.
-        self.give(id, Role::Formula { negated: None });
+        self.give(id, Role::FORMULA);
+        if let Expression::Infix(Infix::Ensuring, _, right) = *expression {
+            self.set(right, Role::Formula { negated: None, state: Some(id) });
+        }
     }
 
     /// The sides of a comparison: numbers, or two values.
@@ -166,6 +238,9 @@ impl Descent<'_> {
             return self.refuse(id, self.compared_truth(truth));
         }
         let chained = self.resolved.is_chained(left);
+        if chained && matches!(self.resolved[left].expression, Expression::Infix(Infix::Iff, ..)) {
+            return self.refuse(id, self.chained_truth(id));
+        }
         let sides = if chained { &[right][..] } else { &[left, right] };
         match sides.iter().find(|side| self.resolved.sort(**side).is_some()) {
             Some(_) if !chained && matches!(op, Comparison::Equal | Comparison::Unequal) => {}
@@ -224,6 +299,13 @@ impl Descent<'_> {
             .help("for `p == true` write `p`, for `p == false` write `!p`")
     }
 
+    /// The error for `p == q == r` of truth values.
+    fn chained_truth(&self, id: ExpressionId) -> Error {
+        let message = "truth values are compared two at a time";
+        Error::new(Kind::Chain, message, self.resolved.operator(id))
+            .help("write each comparison, with `&&` between them")
+    }
+
     /// The error for a number where a formula must stand.
     fn not_a_formula(&self, id: ExpressionId) -> Error {
         let text = self.resolved.quote(id);
@@ -260,8 +342,8 @@ mod tests {
         let (roles, mistakes) = read(Names::Free, text, |resolved, item, mistakes| {
             let expressions = resolved.expressions[item].unwrap();
             let letter = |role| match role {
-                Role::Formula { negated: None } => 'f',
-                Role::Formula { negated: Some(_) } => '!',
+                Role::Formula { negated: None, .. } => 'f',
+                Role::Formula { negated: Some(_), .. } => '!',
                 Role::Condition => 'c',
                 Role::Number => 'n',
                 Role::Chain => '-',
@@ -285,7 +367,7 @@ mod tests {
             ("min(x + 1, 2) < y", ".nnnnnnf"),
             ("x.y[i] == 2", "...nnf"),
         ] {
-            let role = Role::Formula { negated: None };
+            let role = Role::FORMULA;
             assert_eq!(found(text, role), (expected.to_owned(), vec![]), "{text}");
         }
         assert_eq!(found("!a && x < 1", Role::Condition), ("ccnncc".to_owned(), vec![]));
@@ -300,7 +382,7 @@ mod tests {
             ("!(b || F a)", "!f!!f", "this `!` reaches `F`, and `!(F a)` is outside the language"),
             ("x == true", "xxx", "truth values are not compared"),
         ] {
-            let role = Role::Formula { negated: None };
+            let role = Role::FORMULA;
             assert_eq!(found(text, role), (roles.to_owned(), vec![expected.to_owned()]), "{text}");
         }
         let expected = "a predicate speaks of one state, so `F` cannot stand in it";

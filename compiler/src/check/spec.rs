@@ -6,10 +6,11 @@
 //! automaton is built for each task as a whole.
 
 use super::atom::{Atom, Atoms};
+use super::bound;
 use super::lower::Lowering;
 use super::proposition::Literal;
 use super::role::{Role, Roles};
-use crate::arena::Memo;
+use crate::arena::{self, Memo};
 use crate::ast::{Infix, ItemKind, Prefix};
 use crate::error::{Error, Kind};
 use crate::predicate::{Connective, PredicateId, Task, TaskId};
@@ -40,10 +41,11 @@ pub(super) fn spec(mut atoms: Atoms<'_, '_>) -> Option<(Spec, Vec<PredicateId>)>
     let (predicates, positions) = numbered(&leaves);
     let named = |id: &PredicateId| propositions.named(&lowering.arena, *id);
     let spec = Spec::new(predicates.iter().map(named).collect());
-    let mut builder = Builder { lowering, roles, spec, positions, built: Vec::new() };
+    let (built, negations) = (Vec::new(), Memo::default());
+    let mut builder = Builder { lowering, roles, spec, positions, built, negations };
     for ((id, role), leaf) in roles.iter().zip(leaves) {
         let formula = match role {
-            Role::Formula { negated } => builder.formula(id, leaf, negated),
+            Role::Formula { negated, state } => builder.formula(id, leaf, negated, state),
             _ => None,
         };
         builder.built.push(formula);
@@ -95,6 +97,8 @@ struct Builder<'c, 'r> {
     positions: Memo<PredicateId, u32>,
     /// The formula of each expression so far, by its position in the item.
     built: Vec<Option<FormulaId>>,
+    /// The negations of state formulas so far.
+    negations: Memo<FormulaId, FormulaId>,
 }
 
 impl Builder<'_, '_> {
@@ -104,15 +108,16 @@ impl Builder<'_, '_> {
         id: ExpressionId,
         leaf: Option<Leaf<'_>>,
         negated: Option<ExpressionId>,
+        state: Option<ExpressionId>,
     ) -> Option<FormulaId> {
         let resolved = self.lowering.resolved;
         let span = resolved.span(id);
         match leaf {
             Some(Leaf::Conditions(all)) => self.conditions(&all, negated.is_some(), span),
             Some(Leaf::Task(task, literals)) => {
-                if let (Some(by), Some(temporal)) = (negated, temporal(&task.spec)) {
+                if let (Some(by), Some(temporal)) = (state.or(negated), temporal(&task.spec)) {
                     let temporal = task.spec.span(temporal);
-                    return self.lowering.refuse(negated_task(resolved, id, by, temporal));
+                    return self.lowering.refuse(temporal_task(resolved, id, by, temporal));
                 }
                 Some(self.import(&task.spec, &literals, negated.is_some(), span))
             }
@@ -120,36 +125,116 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// The formula of an operator. Under a negation `&&` and `||` are exchanged; temporal operators
-    /// are never negated here.
+    /// The formula of an operator. Under a negation `&&` and `||` are exchanged; of the temporal
+    /// operators, only those that a negation makes co-safe are negated here.
     fn operator(&mut self, id: ExpressionId, negated: bool, span: Span) -> Option<FormulaId> {
+        let resolved = self.lowering.resolved;
         let of = |id| self.built[self.roles.position(id)];
-        let spec = &mut self.spec;
-        match self.lowering.resolved[id].expression {
-            Expression::Prefix(op, operand) => {
-                let operand = of(operand)?;
-                match op {
-                    Prefix::Eventually => Some(spec.eventually(operand, span)),
-                    Prefix::Next => Some(spec.next(operand, span)),
-                    Prefix::Not => Some(operand),
-                    Prefix::Minus => None,
-                }
-            }
+        match resolved[id].expression {
+            Expression::Prefix(op, operand) => self.prefix(id, op, of(operand)?, span),
             Expression::Infix(op, left, right) => {
-                let (left, right) = (of(left)?, of(right)?);
-                Some(match (op, negated) {
-                    (Infix::And, false) | (Infix::Or | Infix::Implies, true) => {
-                        spec.and(left, right, span)
-                    }
-                    (Infix::Or | Infix::Implies, false) | (Infix::And, true) => {
-                        spec.or(left, right, span)
-                    }
-                    (Infix::Until, _) => spec.until(left, right, span),
-                    (Infix::Then, _) => spec.then(left, right, span),
-                    (Infix::Compare(_) | Infix::Calculate(_), _) => return None,
-                })
+                self.infix(id, (op, negated), [of(left)?, of(right)?], span)
             }
             _ => None,
+        }
+    }
+
+    /// The formula of an operator before its operand.
+    fn prefix(
+        &mut self,
+        id: ExpressionId,
+        op: Prefix,
+        a: FormulaId,
+        span: Span,
+    ) -> Option<FormulaId> {
+        let spec = &mut self.spec;
+        let window = bound::window(self.lowering.resolved, id).ok()?;
+        Some(match (op, window) {
+            (Prefix::Not, _) => a,
+            (Prefix::Next, None) => spec.next(a, span),
+            (Prefix::Next, Some(window)) => spec.delay(*window.start(), a, span),
+            // `G` without a bound is negated: it is `F` of the negation.
+            (Prefix::Eventually | Prefix::Always, None) => spec.eventually(a, span),
+            (Prefix::Eventually, Some(window)) => spec.eventually_in(window, a, span),
+            (Prefix::Always, Some(window)) => spec.throughout_in(window, a, span),
+            (Prefix::Minus, _) => return None,
+        })
+    }
+
+    /// The formula of an operator between its operands, which may be negated.
+    fn infix(
+        &mut self,
+        id: ExpressionId,
+        (op, negated): (Infix, bool),
+        [a, b]: [FormulaId; 2],
+        span: Span,
+    ) -> Option<FormulaId> {
+        let spec = &mut self.spec;
+        let window = bound::window(self.lowering.resolved, id).ok()?;
+        Some(match (op, window) {
+            (Infix::And, _) if negated => spec.or(a, b, span),
+            (Infix::And, _) => spec.and(a, b, span),
+            (Infix::Or | Infix::Implies, _) if negated => spec.and(a, b, span),
+            (Infix::Or | Infix::Implies, _) => spec.or(a, b, span),
+            (Infix::Iff, _) => self.both_or_neither(a, b, negated, span),
+            (Infix::Until, Some(window)) => spec.until_in(window, a, b, span),
+            (Infix::Then, Some(window)) => spec.then_in(window, a, b, span),
+            // Under a negation: !φ U !ψ.
+            (Infix::Until | Infix::Release, None) => spec.until(a, b, span),
+            (Infix::Then, None) => spec.then(a, b, span),
+            // Under a negation: !ψ U (!φ && !ψ).
+            (Infix::WeakUntil, _) => {
+                let both = spec.and(a, b, span);
+                spec.until(b, both, span)
+            }
+            (Infix::Ensuring, _) => spec.ensuring(a, b, span),
+            _ => return None,
+        })
+    }
+
+    /// `a <=> b` of state formulas, or its negation.
+    fn both_or_neither(
+        &mut self,
+        a: FormulaId,
+        b: FormulaId,
+        negated: bool,
+        span: Span,
+    ) -> FormulaId {
+        let [not_a, not_b] = [a, b].map(|side| self.negation(side, span));
+        let (one, two) = if negated { ([a, not_b], [not_a, b]) } else { ([a, b], [not_a, not_b]) };
+        let [one, two] = [one, two].map(|[a, b]| self.spec.and(a, b, span));
+        self.spec.or(one, two, span)
+    }
+
+    /// The negation of a state formula; what has been negated before is looked up, so a chain of
+    /// `<=>` costs no more than its length.
+    fn negation(&mut self, id: FormulaId, span: Span) -> FormulaId {
+        let parts = arena::needed(vec![id.0], &mut |id, open| {
+            if self.negations.get(FormulaId(id)).is_none() {
+                open.extend(self.spec.formula(FormulaId(id)).operands().map(|operand| operand.0));
+            }
+        });
+        for part in parts.into_iter().map(FormulaId) {
+            if self.negations.get(part).is_none() {
+                let negation = self.negated(part, span);
+                self.negations.insert(part, negation);
+            }
+        }
+        self.negations.get(id).expect("it has been negated")
+    }
+
+    /// The negation of one operator of a state formula, whose operands have been negated.
+    fn negated(&mut self, id: FormulaId, span: Span) -> FormulaId {
+        let of = |id| self.negations.get(id).expect("operands are negated first");
+        match self.spec.formula(id) {
+            Formula::True => self.spec.truth(false, span),
+            Formula::False => self.spec.truth(true, span),
+            Formula::Literal { proposition, negated } => {
+                self.spec.literal(proposition, !negated, span)
+            }
+            Formula::And(a, b) => self.spec.or(of(a), of(b), span),
+            Formula::Or(a, b) => self.spec.and(of(a), of(b), span),
+            _ => id,
         }
     }
 
@@ -217,16 +302,32 @@ fn temporal(spec: &Spec) -> Option<FormulaId> {
     formulas.find(|(_, formula)| formula.is_temporal()).map(|(id, _)| id)
 }
 
-/// The error for a negated task with a temporal operator.
-fn negated_task(
+/// The error for a task with a temporal operator under `by`, which negates it or needs a formula of
+/// one state.
+fn temporal_task(
     resolved: &Resolved<'_>,
     id: ExpressionId,
     by: ExpressionId,
     temporal: Span,
 ) -> Error {
     let text = resolved.quote(id);
-    let message = format!("the task `{text}` is negated, and it has a temporal operator");
-    Error::new(Kind::NegatedTemporal, message, resolved.operator(by))
+    let (kind, message) = match resolved[by].expression {
+        Expression::Infix(Infix::Ensuring, ..) => (
+            Kind::Syntax,
+            format!(
+                "the right side of `ensuring` speaks of one state, and the task `{text}` of more"
+            ),
+        ),
+        _ => (
+            Kind::NegatedTemporal,
+            format!("the task `{text}` is negated, and it has a temporal operator"),
+        ),
+    };
+    let error = Error::new(kind, message, resolved.operator(by));
+    if kind == Kind::Syntax {
+        return error.related(temporal, "this looks at more than one state");
+    }
+    error
         .related(resolved.span(id), "the negation reaches this task")
         .related(temporal, "no finite trajectory can ever rule this out")
         .help("only formulas without F, X, U and T can be negated")

@@ -251,8 +251,8 @@ fn shape(name: &str) -> Shape {
         return Shape::Foreign;
     };
     let is_temporal = |id: u32| match ast.node(NodeId(id)) {
-        Node::Prefix(op, _) => matches!(op, Prefix::Eventually | Prefix::Next),
-        Node::Infix(op, ..) => matches!(op, Infix::Until | Infix::Then),
+        Node::Prefix(op, _) => !matches!(op, Prefix::Not | Prefix::Minus),
+        Node::Infix(op, ..) => op.is_temporal(),
         Node::Quantified(_) => true,
         _ => false,
     };

@@ -7,7 +7,9 @@
 
 use super::item::place;
 use super::{Pair, message};
-use crate::ast::{Arithmetic, Ast, Comparison, Infix, Node, NodeId, Prefix, Quantifier};
+use crate::ast::{
+    Arithmetic, Ast, Bound, Comparison, End, Infix, Node, NodeId, Prefix, Quantifier,
+};
 use crate::error::{Error, Kind};
 use crate::grammar::Rule;
 use crate::source::Span;
@@ -27,10 +29,9 @@ pub(super) fn build(
 }
 
 /// An operator that waits for its right operand, or a bracket that waits for its end.
-#[derive(Clone, Copy)]
 enum Pending {
     /// An operator before its operand.
-    Prefix(Prefix, Span),
+    Prefix(Prefix, Span, Option<Box<Bound>>),
     /// A quantifier, which waits for its body.
     Quantifier {
         all: bool,
@@ -42,7 +43,7 @@ enum Pending {
         span: Span,
     },
     /// An operator that has its left operand.
-    Infix(Infix, Span),
+    Infix(Infix, Span, Option<Box<Bound>>),
     /// An opening bracket.
     Open(Span),
     /// A call; its arguments are the operands from `first` on.
@@ -86,12 +87,17 @@ impl Yard<'_> {
     fn prefix(&mut self, token: Pair<'_>) -> Result<bool, Error> {
         let span = place(&token, self.at);
         let operator = match token.as_rule() {
-            Rule::not => Pending::Prefix(Prefix::Not, span),
-            Rule::eventually => Pending::Prefix(Prefix::Eventually, span),
-            Rule::next_op => Pending::Prefix(Prefix::Next, span),
-            Rule::minus => Pending::Prefix(Prefix::Minus, span),
+            Rule::not => Pending::Prefix(Prefix::Not, span, None),
+            Rule::eventually => Pending::Prefix(Prefix::Eventually, span, None),
+            Rule::next_op => Pending::Prefix(Prefix::Next, span, None),
+            Rule::always => Pending::Prefix(Prefix::Always, span, None),
+            Rule::minus => Pending::Prefix(Prefix::Minus, span, None),
             Rule::open => Pending::Open(span),
             Rule::quantifier => self.quantifier(token),
+            Rule::bound => {
+                self.bound(token, span);
+                return Ok(true);
+            }
             _ => {
                 let node = self.primary(&token, span);
                 self.push(node, span, span);
@@ -100,6 +106,37 @@ impl Yard<'_> {
         };
         self.pending.push(operator);
         Ok(true)
+    }
+
+    /// Reads the bound of the operator before it.
+    fn bound(&mut self, token: Pair<'_>, span: Span) {
+        let mut bound = Bound { ends: Vec::new(), at_most: false, span };
+        for part in token.into_inner() {
+            match part.as_rule() {
+                Rule::at_most => bound.at_most = true,
+                _ => bound.ends.push(self.end(part)),
+            }
+        }
+        if let Some(Pending::Prefix(_, operator, place) | Pending::Infix(_, operator, place)) =
+            self.pending.last_mut()
+        {
+            *operator = operator.to(span);
+            *place = Some(Box::new(bound));
+        }
+    }
+
+    /// Reads an end of a bound.
+    fn end(&mut self, token: Pair<'_>) -> End {
+        let (span, at) = (place(&token, self.at), self.at);
+        let (mut negative, mut node, mut unit) = (false, None, None);
+        for part in token.into_inner() {
+            match part.as_rule() {
+                Rule::minus => negative = true,
+                Rule::identifier if node.is_some() => unit = Some(place(&part, at)),
+                _ => node = Some(self.element(&part)),
+            }
+        }
+        End { node: node.expect("an end is a number or a name"), negative, unit, span }
     }
 
     /// Reads `for all name in set:`.
@@ -130,7 +167,7 @@ impl Yard<'_> {
         Pending::Quantifier { all, name, set, elements, range, span }
     }
 
-    /// An element of a listed set, or an end of a range.
+    /// An element of a listed set, or an end of a range or of a bound.
     fn element(&mut self, element: &Pair<'_>) -> NodeId {
         let span = place(element, self.at);
         let node = match element.as_str().starts_with(|c: char| c.is_ascii_digit()) {
@@ -174,15 +211,33 @@ impl Yard<'_> {
                 self.comma(span)?;
                 return Ok(true);
             }
-            Rule::iff => return Err(message::unsupported("<=>", span)),
             rule => {
-                let operator = infix_of(rule);
+                let operator = infix_of(rule, token.as_str());
                 self.reduce_above(operator);
-                self.pending.push(Pending::Infix(operator, span));
+                self.unchained(operator, span)?;
+                self.pending.push(Pending::Infix(operator, span, None));
                 return Ok(true);
             }
         }
         Ok(false)
+    }
+
+    /// Refuses a second `<=>` or `ensuring` beside the operator that waits, and `=>` beside `<=>`:
+    /// neither reading is the one that all authors mean.
+    fn unchained(&self, incoming: Infix, span: Span) -> Result<(), Error> {
+        let Some(Pending::Infix(op, place, _)) = self.pending.last() else { return Ok(()) };
+        let brackets = match (*op, incoming) {
+            (Infix::Ensuring, Infix::Ensuring) => {
+                "for two conditions write `… ensuring p && q`, or put the first `ensuring` in brackets"
+            }
+            (Infix::Iff, Infix::Iff | Infix::Implies) | (Infix::Implies, Infix::Iff) => {
+                "write brackets: `a <=> (b <=> c)`, `(a => b) <=> c`"
+            }
+            _ => return Ok(()),
+        };
+        let [one, two] = [*place, span].map(|span| self.ast.source().slice(span));
+        let message = format!("`{one}` and `{two}` do not follow each other without brackets");
+        Err(Error::new(Kind::Syntax, message, span).related(*place, "the first").help(brackets))
     }
 
     /// Reads `.field` after its base.
@@ -251,7 +306,8 @@ impl Yard<'_> {
         let name = self.ast.span(callee);
         match self.ast.node(callee) {
             Node::Name if message::is_unsupported(self.ast.text(callee)) => {
-                return Err(message::unsupported(self.ast.text(callee), name));
+                let text = self.ast.text(callee);
+                return Err(message::unsupported(text, text, name));
             }
             Node::Name | Node::Field { .. } => {}
             _ => {
@@ -284,10 +340,10 @@ impl Yard<'_> {
         let limit = level(incoming);
         while let Some(top) = self.pending.last() {
             let tighter = match top {
-                Pending::Prefix(Prefix::Minus, _) => true,
+                Pending::Prefix(Prefix::Minus, ..) => true,
                 Pending::Prefix(..) => PREFIX > limit,
-                Pending::Infix(op, _) if groups_right(incoming) => level(*op) > limit,
-                Pending::Infix(op, _) => level(*op) >= limit,
+                Pending::Infix(op, ..) if groups_right(incoming) => level(*op) > limit,
+                Pending::Infix(op, ..) => level(*op) >= limit,
                 _ => false,
             };
             if !tighter {
@@ -310,15 +366,17 @@ impl Yard<'_> {
     /// Applies the innermost waiting operator to its operands.
     fn reduce(&mut self) {
         match self.pending.pop() {
-            Some(Pending::Prefix(op, span)) => {
+            Some(Pending::Prefix(op, span, bound)) => {
                 let operand = self.pop();
                 let whole = span.to(self.outer(operand));
-                self.push(Node::Prefix(op, operand), whole, span);
+                let id = self.push(Node::Prefix(op, operand), whole, span);
+                self.ast.bind(id, bound);
             }
-            Some(Pending::Infix(op, span)) => {
+            Some(Pending::Infix(op, span, bound)) => {
                 let (right, left) = (self.pop(), self.pop());
                 let whole = self.outer(left).to(self.outer(right));
-                self.push(Node::Infix(op, left, right), whole, span);
+                let id = self.push(Node::Infix(op, left, right), whole, span);
+                self.ast.bind(id, bound);
             }
             Some(Pending::Quantifier { all, name, set, elements, range, span }) => {
                 let body = self.pop();
@@ -337,9 +395,10 @@ impl Yard<'_> {
     }
 
     /// Adds a node and makes it an operand.
-    fn push(&mut self, node: Node, span: Span, operator: Span) {
+    fn push(&mut self, node: Node, span: Span, operator: Span) -> NodeId {
         let id = self.ast.push(node, span, operator);
         self.operands.push(id);
+        id
     }
 
     /// The last operand. The grammar ensures that there is one.
@@ -351,14 +410,15 @@ impl Yard<'_> {
 /// The binding strength of the prefix operators; see [`level`]. A minus binds tighter than all.
 const PREFIX: u8 = 5;
 
-/// The binding strength of an operator: implication binds loosest, arithmetic tightest. These are
+/// The binding strength of an operator: `ensuring` binds loosest, arithmetic tightest. These are
 /// the levels of LTL tools (Spot) with Rust's for numbers.
 fn level(operator: Infix) -> u8 {
     match operator {
-        Infix::Implies => 1,
+        Infix::Ensuring => 0,
+        Infix::Implies | Infix::Iff => 1,
         Infix::Or => 2,
         Infix::And => 3,
-        Infix::Until | Infix::Then => 4,
+        Infix::Until | Infix::Then | Infix::Release | Infix::WeakUntil | Infix::StrongRelease => 4,
         Infix::Compare(_) => 6,
         Infix::Calculate(Arithmetic::Add | Arithmetic::Subtract) => 7,
         Infix::Calculate(Arithmetic::Multiply | Arithmetic::Divide) => 8,
@@ -367,17 +427,24 @@ fn level(operator: Infix) -> u8 {
 
 /// Whether an operator groups to the right, as all operators of temporal logic do.
 fn groups_right(operator: Infix) -> bool {
-    matches!(operator, Infix::Implies | Infix::Until | Infix::Then)
+    level(operator) <= 1 || level(operator) == level(Infix::Until)
 }
 
-/// The operator of a rule of the grammar.
-fn infix_of(rule: Rule) -> Infix {
+/// The operator of a rule of the grammar, written as `text`.
+fn infix_of(rule: Rule, text: &str) -> Infix {
     match rule {
+        Rule::ensuring => Infix::Ensuring,
         Rule::implies => Infix::Implies,
+        Rule::iff => Infix::Iff,
         Rule::or => Infix::Or,
         Rule::and => Infix::And,
-        Rule::until => Infix::Until,
-        Rule::then => Infix::Then,
+        Rule::until => match text {
+            "U" => Infix::Until,
+            "T" => Infix::Then,
+            "R" => Infix::Release,
+            "W" => Infix::WeakUntil,
+            _ => Infix::StrongRelease,
+        },
         Rule::equal => Infix::Compare(Comparison::Equal),
         Rule::unequal => Infix::Compare(Comparison::Unequal),
         Rule::at_most => Infix::Compare(Comparison::AtMost),
@@ -397,9 +464,9 @@ fn bracket(open: Pending) -> (Span, char, char) {
     match open {
         Pending::Index(span) => (span, '[', ']'),
         Pending::Open(span) | Pending::Call { span, .. } => (span, '(', ')'),
-        Pending::Prefix(_, span) | Pending::Infix(_, span) | Pending::Quantifier { span, .. } => {
-            (span, '(', ')')
-        }
+        Pending::Prefix(_, span, _)
+        | Pending::Infix(_, span, _)
+        | Pending::Quantifier { span, .. } => (span, '(', ')'),
     }
 }
 

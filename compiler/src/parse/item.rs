@@ -98,11 +98,13 @@ fn declaration(
     let mut root = None;
     let mut host = None;
     let mut measured = None;
+    let mut amount = Span::default();
     for part in pair.into_inner() {
         match part.as_rule() {
             Rule::identifier if name == Span::default() => name = place(&part, at),
             Rule::identifier => names.push(place(&part, at)),
             Rule::fields | Rule::parameters => fields = declarations(ast, part, at, mistakes),
+            Rule::amount => amount = place(&part, at),
             Rule::host_type => host = Some(trimmed(ast, place(&part, at))),
             Rule::unit => measured = Some(unit(part, at)),
             Rule::expression => root = expression::build(ast, part, at, mistakes),
@@ -110,6 +112,7 @@ fn declaration(
         }
     }
     let kind = match (rule, root, host) {
+        (Rule::step, ..) => return (Span::default(), ItemKind::Step { amount, unit: name }),
         (Rule::state, _, Some(ty)) => ItemKind::Host(ty),
         (Rule::state, ..) => ItemKind::State(fields),
         (Rule::record, ..) => ItemKind::Struct(fields),

@@ -18,8 +18,6 @@ struct Found<'a> {
     before: Option<Span>,
     /// The word at the place.
     here: Option<Span>,
-    /// The word after it.
-    after: Option<Span>,
     /// The end of the word before.
     end: usize,
 }
@@ -27,10 +25,9 @@ struct Found<'a> {
 impl<'a> Found<'a> {
     /// The words around byte `at`, in the text from byte `from` on.
     fn new(text: &'a str, from: usize, at: usize) -> Self {
-        let mut tokens = Tokens::new(text, from);
         let mut before = None;
         let mut here = None;
-        for token in tokens.by_ref() {
+        for token in Tokens::new(text, from) {
             if token.end > at {
                 here = Some(token);
                 break;
@@ -38,7 +35,7 @@ impl<'a> Found<'a> {
             before = Some(token);
         }
         let end = before.map_or(from, |token| token.end);
-        Self { text, before, here, after: tokens.next(), end }
+        Self { text, before, here, end }
     }
 
     /// The text of a token; empty if there is none.
@@ -90,18 +87,14 @@ pub(super) fn sentence(source: &Source, from: usize, error: &pest::error::Error<
 /// An operator of another logic at the place where parsing stopped, or just before it.
 fn unsupported_here(found: &Found<'_>) -> Option<Error> {
     let (before, here) = (found.word(found.before), found.word(found.here));
-    if here == "[" && found.word(found.after) == "]" {
-        return found.here.map(|span| unsupported("[]", Span::new(span.start, span.end + 1)));
-    }
-    let here_is = is_unsupported(here) && !found.at_end();
-    if here_is && (BINARY.contains(&here) || here == "□" || here == "[]") {
-        return found.here.map(|span| unsupported(here, span));
+    if is_unsupported(here) && BINARY.contains(&here) && !found.at_end() {
+        return found.here.map(|span| unsupported(here, here, span));
     }
     let before_is = is_unsupported(before) && !BINARY.contains(&before);
     let goes_on = here.starts_with(token::is_word_start) || matches!(here, "!" | "(" | "◇" | "○");
     let operator = matches!(here, "U" | "T" | "and" | "or");
     (before_is && goes_on && !operator && !found.at_end())
-        .then(|| found.before.map(|span| unsupported(before, span)))
+        .then(|| found.before.map(|span| unsupported(before, before, span)))
         .flatten()
 }
 
@@ -297,7 +290,7 @@ fn is_infix(word: &str) -> bool {
 }
 
 /// Those operators of other logics that stand between two operands.
-const BINARY: [&str; 6] = ["R", "V", "W", "M", "S", "<=>"];
+const BINARY: [&str; 5] = ["R", "V", "W", "M", "S"];
 
 /// Whether `word` is an operator of another temporal logic.
 pub(super) fn is_unsupported(word: &str) -> bool {
@@ -321,20 +314,19 @@ fn unsupported_reason(word: &str) -> Option<(&'static str, &'static str, &'stati
         "M" => ("strong release", "it is `U` in other words", "for `a M b` write `b U (a && b)`"),
         "Y" => ("yesterday", PAST, "for `a` and `b` in consecutive states, write `F (a && X b)`"),
         "O" => ("once in the past", PAST, "for `a` before `b`, write `a T b`"),
-        "H" => ("always in the past", PAST, AVOID),
-        "S" => ("since", PAST, "turn it around: `a U b` looks forwards"),
-        "<=>" => (
-            "if and only if",
-            "it would need the negation of both sides, temporal ones too",
-            "for `a` and `b` without F, X, U, T write `(a => b) && (b => a)`",
+        "H" => (
+            "always in the past",
+            PAST,
+            "to keep `c` until a goal is reached, write `F goal ensuring c`",
         ),
+        "S" => ("since", PAST, "turn it around: `a U b` looks forwards"),
         _ => return None,
     })
 }
 
-/// The error for an operator of another temporal logic.
-pub(super) fn unsupported(word: &str, span: Span) -> Error {
+/// The error for the operator `word` of another temporal logic, which the source has as `text`.
+pub(crate) fn unsupported(word: &str, text: &str, span: Span) -> Error {
     let (meaning, reason, rewrite) = unsupported_reason(word).unwrap_or(("", "", ""));
-    let message = format!("`{word}` (\"{meaning}\") is not an operator of this language: {reason}");
+    let message = format!("`{text}` (\"{meaning}\") is not an operator of this language: {reason}");
     Error::new(Kind::UnsupportedOperator, message, span).help(rewrite)
 }

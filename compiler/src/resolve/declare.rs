@@ -8,8 +8,8 @@
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::name::suggestion;
-use super::scope::{Declared, Scope, Spans};
-use super::{Names, Value};
+use super::scope::{Declared, Duration, Scope, Spans};
+use super::{Decimal, Names, Value};
 use crate::ast::{Ast, Declaration, FieldType, Item, ItemKind, WrittenUnit, quoted};
 use crate::error::{Error, Kind};
 use crate::predicate::{
@@ -40,6 +40,7 @@ pub(super) fn declare(ast: &Ast, names: Names) -> Scope<'_> {
         fields: FxHashSet::default(),
         variants: FxHashMap::default(),
         known: Vec::new(),
+        step: None,
         units: Units::default(),
         measured: false,
         incomplete: false,
@@ -50,6 +51,7 @@ pub(super) fn declare(ast: &Ast, names: Names) -> Scope<'_> {
     scope.declare_state();
     scope.declare_parameters();
     scope.declare_constants();
+    scope.declare_step();
     scope
 }
 
@@ -309,6 +311,28 @@ impl<'a> Scope<'a> {
                 let unit = self.unit(written);
                 self.declared[item].unit = unit.map(|unit| (unit, written.span));
             }
+        }
+    }
+
+    /// Reads how long a step lasts; a second one is a mistake.
+    fn declare_step(&mut self) {
+        for item in self.ast.items() {
+            let ItemKind::Step { amount, unit } = item.kind else { continue };
+            if let Some(first) = &self.step {
+                self.mistakes.push(
+                    Error::new(Kind::DuplicateName, "the step is declared twice", unit)
+                        .related(first.unit, "first declared here"),
+                );
+                continue;
+            }
+            let duration = Decimal::read(self.text(amount)).filter(|amount| !amount.is_zero());
+            if duration.is_none() {
+                let message = "a step lasts longer than nothing, and has at most 38 digits";
+                self.mistakes.push(Error::new(Kind::Syntax, message, amount));
+            }
+            // Checking goes on with some step: that there is one is not the mistake.
+            let amount = duration.unwrap_or(Decimal::ONE);
+            self.step = Some(Duration { amount, unit });
         }
     }
 

@@ -14,7 +14,7 @@ use super::name::suggestion;
 use super::order::{self, Use};
 use super::place::Part;
 use super::{Entry, Expression, ExpressionId, Name, Resolved, Value};
-use crate::ast::{Ast, Infix, Item, ItemKind, Node, NodeId, Quantifier, quoted};
+use crate::ast::{Ast, Comparison, Infix, Item, ItemKind, Node, NodeId, Quantifier, quoted};
 use crate::error::{Error, Kind};
 use crate::reserved::rust_name;
 use crate::source::Span;
@@ -198,7 +198,12 @@ impl Expansion<'_, '_> {
         let entry = ast.entry(node);
         let outer = if entry.is_bracketed() { entry.outer } else { ast.span(place) };
         let first = ast.leftmost(place).map(|operand| self.resolved[of(operand)].first);
-        self.push(expression, place, outer, first, environment)
+        let copy = self.push(expression, place, outer, first, environment);
+        if let Some(bound) = &ast.entry(node).bound {
+            let ends = bound.ends.iter().map(|end| of(end.node)).collect();
+            self.resolved.entries[copy.0 as usize].ends = ends;
+        }
+        copy
     }
 
     /// Adds an expression.
@@ -213,7 +218,9 @@ impl Expansion<'_, '_> {
         let id = u32::try_from(self.resolved.entries.len()).expect("fewer than 2^32 expressions");
         let value = self.resolved.calculated(&expression);
         let first = first.unwrap_or(ExpressionId(id));
-        self.resolved.entries.push(Entry { expression, node, outer, first, value, environment });
+        let ends = Vec::new();
+        let entry = Entry { expression, node, outer, first, ends, value, environment };
+        self.resolved.entries.push(entry);
         ExpressionId(id)
     }
 
@@ -225,6 +232,11 @@ impl Expansion<'_, '_> {
             Node::Number(value) => Expression::Number(value),
             Node::Text => Expression::Text,
             Node::Prefix(op, a) => Expression::Prefix(op, of(a)),
+            Node::Infix(Infix::Compare(Comparison::Equal), a, b)
+                if [a, b].into_iter().all(|side| resolved.is_truth(of(side))) =>
+            {
+                Expression::Infix(Infix::Iff, of(a), of(b))
+            }
             Node::Infix(op, a, b) => Expression::Infix(op, of(a), of(b)),
             Node::Call { callee, ref arguments } => match resolved.callee(of(callee)) {
                 Ok(callee) => {

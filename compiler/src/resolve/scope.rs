@@ -7,7 +7,7 @@ use std::borrow::Cow;
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::{Names, Value};
+use super::{Decimal, Names, Value};
 use crate::ast::{Ast, ItemKind};
 use crate::error::{Error, Kind};
 use crate::predicate::{Enum, Field, Parameter, State, Struct, TaskId, Type};
@@ -43,6 +43,8 @@ pub(crate) struct Scope<'a> {
     pub(super) variants: FxHashMap<&'a str, Vec<Value>>,
     /// All names that can stand in a formula, for suggestions; in source order within each kind.
     pub(super) known: Vec<&'a str>,
+    /// How long a step lasts, if the source says so.
+    pub(crate) step: Option<Duration>,
     /// The names of all units.
     pub(crate) units: Units,
     /// Whether anything has a declared unit; without one, units are not checked.
@@ -67,6 +69,13 @@ pub(super) struct Declared {
     pub(super) unclear: Vec<String>,
     /// The unit of a constant, and its place.
     pub(super) unit: Option<(Unit, Span)>,
+}
+
+/// How long a step lasts.
+pub(crate) struct Duration {
+    pub(crate) amount: Decimal,
+    /// The name of its unit.
+    pub(crate) unit: Span,
 }
 
 impl<'a> Scope<'a> {

@@ -20,7 +20,8 @@ fn main() {
     let _ = tltl! { !X a }; //~ one with a rewrite
     let _ = tltl! { F a => b }; //~ a hidden one
     let _ = tltl! { F U }; //~ a keyword for a name
-    let _ = tltl! { a <=> b }; //~ not a connective here
+    let _ = tltl! { F a <=> b }; //~ only between conditions on one state
+    let _ = tltl! { F[3, 1] a }; //~ an interval without an instant
     let _ = tltl! { F (3 < 99999999999999999999999999999999999999999) }; //~ a number that is not exact
     let _ = tltl! {}; //~ nothing at all
     let phi = tltl! { F !F a }; //~ one message, though the value is used

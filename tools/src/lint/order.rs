@@ -56,6 +56,8 @@ fn early_then(ast: &Ast, id: NodeId, left: NodeId, right: NodeId) -> Option<Erro
 /// A warning for `a U F b`, which says no more than `F b`.
 fn idle_until(ast: &Ast, left: NodeId, right: NodeId) -> Option<Error> {
     let goal = match *ast.node(right) {
+        // Within a bound, it has to come at the right time.
+        Node::Prefix(Prefix::Eventually, _) if ast.entry(right).bound.is_some() => return None,
         Node::Prefix(Prefix::Eventually, goal) | Node::Infix(Infix::Then, goal, _) => goal,
         _ => return None,
     };
