@@ -33,7 +33,7 @@ use crate::minimize::minimize;
 use crate::predicate::{Module, Task};
 use crate::source::{Source, Span};
 use crate::spec::{FormulaId, Spec};
-use crate::translate::{Budget, Exceeded, Resource, translate};
+use crate::translate::{Budget, Exceeded, Resource, states_of_bound, translate};
 
 /// A source and everything that it means.
 ///
@@ -282,14 +282,17 @@ fn exceeds(task: &Task, budget: Budget, exceeded: Exceeded) -> Error {
         Resource::Products => Some("products"),
         Resource::Operators => None,
     };
+    if let (Resource::States, Some(states)) = (what, states_of_bound(&task.spec, budget)) {
+        let message = format!("the automaton of {name} needs {states} states, more than {limit}");
+        let help = format!("allow more: write `#[budget(states = {states})]` before the task");
+        return Error::new(Kind::Budget, message, task.spec.span(task.spec.root()))
+            .label("a bound needs a state for each of its steps")
+            .help(help);
+    }
     let whole = matches!(what, Resource::Edges | Resource::Products);
     let span = if whole { task.span } else { culprit(&task.spec, budget) };
-    let error = Error::new(
-        Kind::Budget,
-        format!("the automaton of {name} needs more than {limit} {what}"),
-        span,
-    );
-    let error = error
+    let message = format!("the automaton of {name} needs more than {limit} {what}");
+    let error = Error::new(Kind::Budget, message, span)
         .label("this is what grows")
         .help("a conjunction can be kept factored, its parts side by side: write `#[factored]` before the task; n unordered goals are then 2n states, not 2^n");
     match setting {
