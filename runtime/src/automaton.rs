@@ -99,6 +99,25 @@ pub enum Transitions {
 
 impl Transitions {
     /// The least reference that is an automaton state: `LEAF + q`.
+    ///
+    /// Half of the references for each: neither nodes nor states ever come near 2^31. Walked by hand:
+    ///
+    /// ```
+    /// use tltl::automaton::Transitions;
+    /// use tltl::tltl;
+    ///
+    /// // Twelve goals, one after the other: too many valuations for a table.
+    /// let tour = tltl! { |s: &[bool; 12]| s[0] T s[1] T s[2] T s[3] T s[4] T s[5] T s[6] T s[7]
+    ///     T s[8] T s[9] T s[10] T s[11] };
+    /// let Transitions::Diagram { nodes, roots } = &tour.automaton().tables().transitions else {
+    ///     panic!("many propositions are a diagram")
+    /// };
+    /// let mut at = roots[0];
+    /// while at < Transitions::LEAF {
+    ///     at = nodes[at as usize][2]; // every proposition is true
+    /// }
+    /// assert_eq!(at - Transitions::LEAF, 1, "all at once is only the first of them");
+    /// ```
     pub const LEAF: u32 = 1 << 31;
 }
 
@@ -227,6 +246,15 @@ pub struct Automaton {
 
 impl Automaton {
     /// The state before the first state of the trajectory is read.
+    ///
+    /// ```
+    /// use tltl::{Acceptor, Automaton, tltl};
+    ///
+    /// let task = tltl! { |x: &f64| F ({ *x } > 3) };
+    /// let q = task.next(Automaton::INITIAL, &5.0)?;
+    /// assert!(task.is_accepting(q), "the first state is read too");
+    /// # Ok::<(), tltl::task::Error>(())
+    /// ```
     pub const INITIAL: u32 = 0;
 
     /// The automaton of tables from anywhere, checked once: every index is in range, δ is total,

@@ -118,6 +118,8 @@ pub fn write(path: &Path, kind: &str, content: &[u8]) -> Result<(), Error> {
         let mut file = File::create(&beside)?;
         file.write_all(header.as_bytes())?;
         file.write_all(content)?;
+        // The content must be on the disk before the name is: otherwise a power failure can leave an
+        // empty file under the right name.
         file.sync_all()?;
         fs::rename(&beside, path)?;
         sync_folder(path)

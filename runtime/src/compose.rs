@@ -127,6 +127,29 @@ pub trait Compose {
 ///
 /// [`Composition::on`] makes it; as a [`Compose`] it is what networks are too. A step of tables is
 /// exact and done at once, so the number of updates only says whether it is taken.
+///
+/// ```
+/// use tltl::compose::Compose as _;
+/// use tltl::model;
+/// use tltl::prelude::*;
+///
+/// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+/// let (left, right) = (tltl! { |s: &usize| F ({ *s } == 0) }, tltl! { |s: &usize| F ({ *s } == 4) });
+/// let (world, rewards) = (Dynamics::new(&row)?, Rewards::default());
+/// let one = Problem::new(&world, &Labelled::of_model(&row, &left)?)?.optimal_q(&rewards);
+/// let two = Problem::new(&world, &Labelled::of_model(&row, &right)?)?.optimal_q(&rewards);
+/// let product = Product::conjunction(&[&left, &right]);
+/// let task = Labelled::of_model(&row, &product)?;
+/// let composition = Composition::new(&product, &task, &[&one, &two], rewards)?;
+/// let mut steps = composition.on(&world, Combine::Sum)?;
+/// let sum = steps.q().max(0, 2);
+/// steps.compensate(1)?;
+/// steps.refine(1)?;
+/// let exact = Problem::new(&world, &task)?.optimal_q(&rewards).max(0, 2);
+/// // The sum takes the second way to start where the first one does.
+/// assert!(sum > exact + 0.01 && (steps.q().max(0, 2) - exact).abs() < 1e-9);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Stepwise<'a> {
     composition: Composition<'a>,
@@ -352,6 +375,7 @@ impl<'a> Composition<'a> {
             let paid = self.active(q).map(|(i, at)| {
                 let task = self.skills[i].task();
                 let class = task.tables().class[s];
+                // A skill that is done, or lost, is paid nothing more.
                 if task.end(at).is_some() { 0.0 } else { payments[i].get(at, s, class) }
             });
             paid.sum::<f64>() - whole.get(q, s, self.task.tables().class[s])

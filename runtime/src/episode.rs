@@ -218,6 +218,7 @@ pub fn run<W: Monitored<Error: Into<A::Error>>, A: Agent<State = W::State>, R: R
         let mut steps = elapsed.steps;
         let result = episode(world, agent, &mut steps, horizon, rng);
         idle = if steps == elapsed.steps { idle + 1 } else { 0 };
+        // Counted before an error is passed on: the steps were taken.
         elapsed.steps = steps;
         result?;
         elapsed.episodes += 1;

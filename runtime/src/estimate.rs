@@ -51,6 +51,7 @@ impl Interval {
         let centre = p + z * z / (2.0 * n);
         let half = z * (p * (1.0 - p) / n + z * z / (4.0 * n * n)).sqrt();
         let at = |sum: f64| (sum / (1.0 + z * z / n)).clamp(0.0, 1.0);
+        // Without rounding: what was never seen may be impossible.
         let low = if hits == 0 { 0.0 } else { at(centre - half) };
         let high = if hits == trials { 1.0 } else { at(centre + half) };
         Self { mean: p, low, high }

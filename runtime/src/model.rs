@@ -425,6 +425,7 @@ impl Builder {
                 self.outcomes.push((a, to as u32, p));
             }
         });
+        // Models compute their probabilities; a sum of a few differs from 1 by some 1e-16 each.
         if valid && f64::abs(sum - 1.0) < 1e-9 {
             Ok(())
         } else {

@@ -414,6 +414,7 @@ impl Network {
         }
         let width = self.shape.head_width();
         let mut out = last.forward(&x, head * width, width);
+        // A head puts out its values first, and then the query.
         let query = out.split_off(self.shape.levels());
         let common = out.get(plain).copied().unwrap_or(0.0);
         out.resize(plain + n, common);

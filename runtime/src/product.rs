@@ -332,6 +332,7 @@ impl<'a, S: ?Sized> Product<'a, S> {
         let mut q = 0;
         while q < self.keys.len() {
             let mut targets = self.targets(q as u32);
+            // Several tuples end in the one accepting state or the one trap.
             targets.sort_unstable();
             targets.dedup();
             self.successors.extend(targets);

@@ -35,6 +35,11 @@ impl OutOfRange {
     }
 
     /// The values that are allowed, in words: `in [0, 1)`.
+    ///
+    /// ```
+    /// let error = tltl::learn::Settings::default().with_horizon(0).unwrap_err();
+    /// assert_eq!((error.field(), error.range()), ("horizon", "at least 1"));
+    /// ```
     #[must_use]
     pub const fn range(&self) -> &'static str {
         self.range

@@ -148,6 +148,7 @@ impl Shield {
         let row = table.row(q, s);
         let allowed = (0..row.len()).filter(|&a| self.allows(q, s, a));
         let best = allowed.reduce(|best, a| if row[a] > row[best] { a } else { best });
+        // Only at an end is nothing allowed, where the action does not matter.
         best.unwrap_or_else(|| table.greedy(q, s))
     }
 

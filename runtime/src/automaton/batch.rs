@@ -8,6 +8,19 @@ use super::{Automaton, Transitions};
 /// Letters, one for each row: which propositions hold there.
 ///
 /// A slice of either kind is one, by `From`: pass `&letters[..]`.
+///
+/// ```
+/// use tltl::automaton::Letters;
+/// use tltl::{Monitor as _, tltl};
+///
+/// // Proposition 0, then proposition 1, as bits and as rows of truth values.
+/// let task = tltl! { |s: &(bool, bool)| s.0 T s.1 };
+/// let (bits, labels) = ([0b01_u64, 0b10], [true, false, false, true]);
+/// for letters in [Letters::Bits(&bits), Letters::Labels(&labels)] {
+///     let mut states = [0; 2];
+///     assert_eq!(task.automaton().run(0, letters, &mut states), 2);
+/// }
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub enum Letters<'a> {
     /// Bit i is proposition i; bits beyond the propositions mean nothing. For up to 64

@@ -196,6 +196,7 @@ impl Model {
         if n == 0 {
             return (state, out.narrow(2, 1, plain));
         }
+        // A head: the value of the state, those of plain actions, what pointing has in common, the query.
         let query = out.clone().narrow(2, plain + 2, channels);
         let pointing = out.clone().narrow(2, plain + 1, 1) + query.matmul(entities);
         if plain == 0 {

@@ -336,6 +336,7 @@ impl Trainer {
         objective: &O,
     ) -> Result<Vec<f64>, Error> {
         let (heads, actions) = (self.heads.states.len(), self.model.shape().actions);
+        // Of a composition two passes through the networks of all skills; of a single task nothing.
         let (base, own) = (objective.base(&sample.after)?, objective.base(&sample.before)?);
         let target = self.values(&self.target, &self.after);
         let (chooses, target) = match base {

@@ -104,6 +104,7 @@ impl Learner {
     /// If the environment is of another world, or pays what is not a finite number.
     pub fn train<E: FiniteEnv>(&mut self, env: &mut E, total: u64) -> Result<(), TrainError> {
         let plain = !self.settings.is_counterfactual() && !self.settings.remembers();
+        // Grids have four actions, or five with one that stays; other numbers take the general loop.
         match (self.task().actions(), plain) {
             (4, true) => self.run::<_, _, true>(env, Fixed::<4>, total),
             (5, true) => self.run::<_, _, true>(env, Fixed::<5>, total),

@@ -25,6 +25,7 @@ pub fn seeds<T: Send>(seeds: Range<u64>, work: impl Fn(u64) -> T + Sync) -> Vec<
     let next = AtomicU64::new(seeds.start);
     let run = || {
         loop {
+            // Only the counter is shared; results become visible when the threads are joined.
             let seed = next.fetch_add(1, Ordering::Relaxed);
             if seed >= seeds.end {
                 return;

@@ -266,6 +266,7 @@ impl<E: FiniteEnv, M: Monitor<E::State>> Monitored for Whole<'_, E, M> {
         let s = self.env.state_index();
         self.q = self.task.next(self.q, s);
         let end = self.task.end(self.q);
+        // The trajectory has s_0 too, so that it is longer than the horizon after as many steps.
         let cut = terminated || truncated || self.trajectory.len() as u64 > self.horizon;
         let last = cut || end.is_some();
         let reward = if last { self.pays(end)? } else { 0.0 };

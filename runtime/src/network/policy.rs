@@ -172,6 +172,20 @@ pub struct NetworkDocument {
 ///
 /// Of several faults the first is reported, in the order in which the document is checked: what it is,
 /// its automaton, its names, its worth. The network has been checked by then, as it was read.
+///
+/// ```
+/// use tltl::network::policy::{NetworkPolicy, NetworkPolicyError};
+/// use tltl::network::{Dense, Network, Shape};
+/// use tltl::tltl;
+///
+/// // First one place, then another: two live automaton states, and a network with one head.
+/// let task = tltl! { |x: &f64| ({ *x } > 3) T ({ *x } < 1) };
+/// let shape = Shape { inputs: 0, hidden: vec![], heads: 1, actions: 1, entities: 0, channels: 0 };
+/// let network = Network::new(shape, vec![Dense { weights: vec![], bias: vec![0.0] }])?;
+/// let error = NetworkPolicy::new(&task, vec!["go".into()], network).unwrap_err();
+/// assert_eq!(error, NetworkPolicyError::Heads { found: 1, expected: 2 });
+/// # Ok::<(), tltl::network::NetworkError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NetworkPolicyError {
     /// It is something else.

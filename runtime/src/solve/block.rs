@@ -148,6 +148,7 @@ impl<'a> Block<'a> {
         let exits_well = |&q: &u32| {
             (0..self.states()).all(|s| {
                 let to = labelled.next(q, s);
+                // 1 exactly: such payments are 0 and 1, and the values behind were set here.
                 let inside = self.members.binary_search(&to).is_ok();
                 inside
                     || self.problem.paid(self.payment, q, s) + values[labelled.pair(to, s)] == 1.0
@@ -252,6 +253,7 @@ impl<'a> Block<'a> {
         arrivals: &mut [f64],
         rule: &Rule<'_>,
     ) {
+        // At first all are: no value has been backed up yet.
         let stale = alloc::vec![true; self.members.len() * self.states()];
         let mut relaxed = Relaxation { values, arrivals, stale, gathered: Vec::new(), top: 1.0 };
         let step = (ADVANCE * pairs.len().isqrt()).max(1);
@@ -287,6 +289,7 @@ impl<'a> Block<'a> {
             }
             let pair = self.pair(k, s);
             let difference = self.back_up(pair, (k, s), arrivals, gathered, rule) - values[pair];
+            // Pairs that were not settled are swept plainly.
             let over = self.over.get(i).map_or(1.0, |&over| f64::from(over));
             values[pair] += over * difference;
             change = change.max(difference.abs());
@@ -457,6 +460,7 @@ fn eliminate(rows: &mut [Vec<f64>]) {
         }
         rows.swap(i, pivot);
         let (above, below) = rows.split_at_mut(i + 1);
+        // No pivot is 0: every pair leaves the component in the end, so the system has one solution.
         let pivot = &above[i];
         for row in below.iter_mut().filter(|row| row[i] != 0.0) {
             let factor = row[i] / pivot[i];

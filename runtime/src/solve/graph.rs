@@ -69,6 +69,7 @@ impl Tarjan<'_> {
                 self.leave(q, path.last().map(|&(parent, _)| parent));
                 continue;
             };
+            // Come back here for the next move, whatever this one leads to.
             path.push((q, at + 1));
             if self.labelled.end(to).is_some() {
                 continue;
@@ -172,6 +173,7 @@ pub(super) fn order(problem: &Problem, members: &[u32], policy: Option<&[u32]>) 
         at += 1;
     }
     let reached = pairs.len();
+    // Discounted sweeps need a value there too.
     let missing = (0..seen.len()).filter(|&at| !seen[at]);
     pairs.extend(missing.map(|at| ((at / states) as u32, (at % states) as u32)));
     Order { pairs, reached, seeds }

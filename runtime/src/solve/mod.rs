@@ -376,6 +376,7 @@ impl Problem {
         for members in self.components.iter() {
             let block = Block::new(self, members, accept, 1.0);
             if !block.succeeds(&mut values) {
+                // From 0, which is below: of several fixed points the least is P(satisfied).
                 block.sweep(&mut values, false, &Rule::Largest);
             }
         }

@@ -188,6 +188,20 @@ impl Optimum {
     /// Composition is judged so where it is hard: at the automaton states in which more than one skill
     /// is still to be done.
     ///
+    /// ```
+    /// use tltl::model;
+    /// use tltl::prelude::*;
+    ///
+    /// // Five cells in a row. First the right end, then the left one; this policy never turns round.
+    /// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+    /// let task = Labelled::of_model(&row, &tltl! { |s: &usize| ({ *s } == 4) T ({ *s } == 0) })?;
+    /// let optimum = Problem::new(&Dynamics::new(&row)?, &task)?.optimum(&Rewards::default());
+    /// let right = Policy::from_fn(&task, |_, _| 1)?;
+    /// assert_eq!(optimum.fraction_optimal_at([0], &right)?, 1.0);
+    /// assert_eq!(optimum.fraction_optimal_at([1], &right)?, 0.0);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
     /// # Errors
     /// If it is a policy for another task or another world.
     pub fn fraction_optimal_at(
