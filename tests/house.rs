@@ -89,7 +89,10 @@ const ORDER: [(&str, &str); 4] = [
          private product model env mismatch reward episode augmented estimate certificate settings \
          policy q experience solve shield learn compose controller network deep checkpoint prelude",
     ),
-    ("tools", "semantics tables format evaluate lint task product trace diff emit explain cli"),
+    (
+        "tools",
+        "semantics online tables format evaluate lint task product trace diff emit explain cli",
+    ),
 ];
 
 /// The source files under `folder` with the module of the crate that each belongs to.

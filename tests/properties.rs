@@ -13,6 +13,7 @@ use tltl_compiler::spec::Spec;
 use tltl_compiler::tables::tables;
 use tltl_compiler::translate::{Budget, translate};
 use tltlc::emit::text;
+use tltlc::online::Online;
 use tltlc::product::{Operator, product};
 use tltlc::semantics;
 use tltlc::tables::automaton;
@@ -77,6 +78,8 @@ fn agree(formula: &str, trace: &[[f64; 5]]) -> Result<(), TestCaseError> {
     let places = random::places(spec.propositions());
     let rho = |p: u32, t: usize| trace[t][places[p as usize]];
     let (mut states, mut held, mut least) = ([0, 0], false, f64::NEG_INFINITY);
+    let budgets = [Budget::SHOWN, Budget { states: 0, ..Budget::SHOWN }];
+    let mut online = budgets.map(|budget| Online::new(&spec, budget));
     for length in 1..=trace.len() {
         let holds = semantics::satisfied(&spec, length, |p, t| rho(p, t) > 0.0);
         for (q, dfa) in states.iter_mut().zip([&raw, &minimal]) {
@@ -86,6 +89,11 @@ fn agree(formula: &str, trace: &[[f64; 5]]) -> Result<(), TestCaseError> {
         }
         prop_assert!(holds || !held, "{formula}: satisfied, and then no more");
         let robust = semantics::robustness(&spec, length, rho);
+        for online in &mut online {
+            let row: Vec<f64> = places.iter().map(|&place| trace[length - 1][place]).collect();
+            online.step(&row);
+            prop_assert_eq!(online.robustness(), robust, "{} up to {}", formula, length);
+        }
         prop_assert!(robust <= 0.0 || holds, "{formula}: robustness {robust}");
         prop_assert!(robust >= 0.0 || !holds, "{formula}: robustness {robust}");
         prop_assert!(robust >= least, "{formula}: robustness fell from {least} to {robust}");

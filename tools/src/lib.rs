@@ -15,6 +15,7 @@
 //! | [`trace`] | an automaton and a goal | the shortest trajectory that reaches it |
 //! | [`lint`] | a source and what it compiles to | warnings about what is hardly meant |
 //! | [`format`](mod@format) | a task file | the same file, laid out |
+//! | [`online`] | states, one after the other | the robustness of the trajectory so far |
 //! | [`emit`] | automata, saved policies | pictures, HOA, JSON, Graphviz, Mermaid, Rust |
 //! | [`semantics`] | a formula and a trajectory | its verdict and robustness by definition: the oracle of the tests |
 //! | [`cli`] | arguments and streams | output and an exit code |
@@ -48,6 +49,7 @@ pub mod evaluate;
 pub mod explain;
 pub mod format;
 pub mod lint;
+pub mod online;
 pub mod product;
 pub mod semantics;
 pub mod tables;

@@ -24,6 +24,7 @@ mod factored;
 mod file;
 mod plain;
 mod run;
+mod running;
 
 use tltl_compiler::translate::Budget;
 
@@ -32,6 +33,7 @@ pub use factored::Factored;
 pub use file::{BindError, CompileError, Entry, NoSuchTask, TaskFile};
 pub use plain::Task;
 pub use run::{Run, Verdict};
+pub use running::Running;
 
 pub(crate) use argument::listed;
 

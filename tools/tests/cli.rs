@@ -125,6 +125,64 @@ fn what_is_no_text_or_too_deep_is_no_crash() {
 }
 
 #[test]
+fn recordings_of_other_programs_are_read_or_named() {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("bytes.csv");
+    let name = path.to_str().unwrap();
+    let satisfied = "satisfied at row 1";
+    for (bytes, shown) in [
+        (&b"x,y\r0,0\r3,2\r"[..], satisfied),
+        (b"\xef\xbb\xbfx,y\n0,0\n3,2", satisfied),
+        (b"\xef\xbb\xbf\n{\"x\":0,\"y\":0}\r\n\r\n# so\n{\"x\":3,\"y\":2}", satisfied),
+        (b"x,y,caf\xe9\n0,0,\xe9\n3,2,\"\xe9\n,\"", satisfied),
+        (b"x,y\n0,0\n3,2\xe9\n", ":3:3: `y` is not UTF-8"),
+        (b"{\"x\":0,\"y\":0,\"z\":\"\xe9\"}\n{\"x\":3,\"y\":2}", satisfied),
+        (b"\xff\xfex\0,\0y\0\n\0", "this is UTF-16; save it as UTF-8"),
+        (b"\0x\0,\0y\0\n", "this is UTF-16; save it as UTF-8"),
+        (b"\n# nothing\n", "a trajectory has at least one state, and this has none"),
+    ] {
+        std::fs::write(&path, bytes).unwrap();
+        let Output { status, stdout, stderr } = run(&["run", "F (x > 1 && y > 1)", name], b"");
+        let text = String::from_utf8([stdout, stderr].concat()).unwrap();
+        assert!(text.contains(shown), "{}: {text}", bytes.escape_ascii());
+        assert_eq!(status.code(), Some(if shown == satisfied { 0 } else { 2 }));
+    }
+}
+
+/// More rows than are read at once: the same as the library gives for all of them together.
+#[test]
+fn a_long_recording_is_followed_in_pieces() {
+    let formula = "!(y > 2.99) U (x > 0.9 && X (x < -0.9 && X F (y < -2.9)))";
+    let task = tltlc::task::compile(formula, tltl_compiler::translate::Budget::default()).unwrap();
+    let mut seed = 1_u32;
+    let mut number = || {
+        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        f64::from(seed >> 8) / f64::from(1 << 22) - 2.0
+    };
+    let numbers: Vec<f64> = (0..20_000).map(|_| number()).collect();
+    let columns = tltlc::evaluate::Columns::of_rows(10_000, 2, &numbers).unwrap();
+    let whole = task.run(&columns, &mut tltlc::evaluate::Scratch::default()).unwrap();
+    let mut csv = String::from("y,x\n");
+    let mut lines = String::from("\n");
+    for row in numbers.chunks(2) {
+        let _ = writeln!(csv, "{},{}", row[0], row[1]);
+        let _ = writeln!(lines, "{{\"y\":{},\"x\":{}}}", row[0], row[1]);
+    }
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("long.csv");
+    for text in [csv, lines] {
+        std::fs::write(&path, text).unwrap();
+        let output = run(&["run", formula, path.to_str().unwrap(), "--format", "csv"], b"");
+        let shown = String::from_utf8(output.stdout).unwrap();
+        assert_eq!(shown.lines().count(), 10_001);
+        for (t, line) in shown.lines().skip(1).enumerate() {
+            let (state, progress) = (whole.states[t], whole.progress[t] + 0.0);
+            let start = format!("{t},{state},{progress},{},", whole.verdicts[t]);
+            assert!(line.starts_with(&start), "{line}, not {start}");
+        }
+        assert!(shown.ends_with(&format!(",{}\n", whole.robustness)), "{}", whole.robustness);
+    }
+}
+
+#[test]
 fn a_reader_that_goes_away_is_no_crash() {
     let list = "F a\n".repeat(20_000);
     let mut child = Command::new(env!("CARGO_BIN_EXE_tltlc"))

@@ -109,7 +109,9 @@ enum Command {
         #[arg(value_name = "FORMULA|FILE[:TASK]")]
         second: String,
     },
-    /// Runs a recorded trajectory: verdict, robustness, and the automaton row by row.
+    /// Runs recorded trajectories: verdict, robustness, and the automaton row by row.
+    ///
+    /// Of several trajectories the text has one line each, and a summary.
     Run(Run),
     /// Lays out task files in place; comments, spellings and line breaks stay.
     Fmt {
@@ -171,9 +173,21 @@ struct Run {
     /// A task file or FILE:TASK; or a formula, whose propositions are read as robustness.
     #[arg(value_name = "FILE|FORMULA")]
     subject: String,
-    /// The trajectory, CSV or JSON Lines, one state a row; `-` is the standard input. Columns have
-    /// the names of the state's fields: `x`, `pose.x`, `joints[2]`; others are ignored.
-    trace: PathBuf,
+    /// The trajectories, one state a row; `-` is the standard input. CSV, JSON Lines, a JSON array
+    /// of objects, or a JSON object of columns. Columns have the names of the state's fields: `x`,
+    /// `pose.x`, `joints[2]`; also `/pose/x`, `joints.2`, `x [m]`. Others are ignored.
+    #[arg(required = true, value_name = "TRACE")]
+    traces: Vec<PathBuf>,
+    /// The column that a field is read from, whatever it is called: `x=/odom/pose/position/x`.
+    #[arg(long, value_name = "FIELD=COLUMN")]
+    map: Vec<String>,
+    /// A file with one FIELD=COLUMN a line; lines that begin with `#` are comments.
+    #[arg(long, value_name = "FILE")]
+    map_file: Option<PathBuf>,
+    /// The column that tells episodes apart. Each is a trajectory of its own; their rows may be
+    /// mixed.
+    #[arg(long, value_name = "COLUMN")]
+    episode: Option<String>,
     /// The task of the file, with what it takes: `deliver(apple, fridge)`; may be left out if there
     /// is only one.
     #[arg(long)]

@@ -1,67 +1,97 @@
-//! Recorded trajectories: CSV and JSON Lines, one state a row.
+//! Recorded trajectories, one state a row: CSV, JSON Lines, and JSON as one document.
 //!
-//! Columns are matched by name to the places that the task reads: `x`, `pose.x`, `joints[2]`. In
-//! JSON Lines a place may also be nested (`{"pose": {"x": 1}}`). Other columns are ignored, so a
-//! log need not be cut to the task. Every number must be one of its type: an overflow, or a NaN, is
-//! an error that names line and column, and never a state that satisfies or loses a task.
+//! Columns are matched to the places that the task reads by their [names](place). Other columns are
+//! ignored, so a log need not be cut to the task. Every number must be one of its type: an overflow,
+//! or a NaN, is an error that names line and column, and never a state that satisfies or loses a
+//! task.
+//!
+//! Rows are read one by one, so a recording may be larger than the memory.
 
 mod delimited;
+mod json;
+mod lines;
+mod place;
 
-use serde_json::Value;
-use tltl_compiler::predicate::Scalar;
+use std::fmt;
+use std::io::BufRead;
+
+use tltl_compiler::predicate::{Numeric, Scalar};
 
 use crate::evaluate::{Input, InputKind};
 
-/// One state: its line, for messages, and its numbers in the order of the inputs.
-pub(super) struct State {
-    /// Its line in the file, from 1.
-    pub(super) line: usize,
-    pub(super) values: Vec<f64>,
+use delimited::Delimited;
+use json::Json;
+use lines::Lines;
+
+pub(super) use place::Place;
+
+/// Where a row stands in its file, as messages say it after the name of the file.
+#[derive(Clone, Copy)]
+pub(super) enum At {
+    /// A line, from 1.
+    Line(usize),
+    /// A row of a document, from 0.
+    Row(usize),
 }
 
-/// Reads a record; `name` is its name in messages. A text that begins with `{` is JSON Lines, any
-/// other CSV.
-pub(super) fn read(name: &str, text: &str, inputs: &[Input]) -> Result<Vec<State>, String> {
-    let text = text.trim_start_matches('\u{feff}');
-    let states = if text.trim_start().starts_with('{') {
-        json_lines(name, text, inputs)?
-    } else {
-        delimited::read(name, text, inputs)?
-    };
-    if states.is_empty() {
-        return Err(format!("{name}: a trajectory has at least one state, and this has none"));
+impl fmt::Display for At {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Line(line) => write!(f, ":{line}"),
+            Self::Row(row) => write!(f, ": row {row}"),
+        }
     }
-    Ok(states)
 }
 
-/// Reads one JSON object a line; blank lines are skipped.
-fn json_lines(name: &str, text: &str, inputs: &[Input]) -> Result<Vec<State>, String> {
-    let mut states = Vec::new();
-    let lines = (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty());
-    for (line, text) in lines {
-        let state: Value = serde_json::from_str(text)
-            .map_err(|error| format!("{name}:{line}:{}: this is not JSON", error.column()))?;
-        let value = |input: &Input| {
-            let found = lookup(&state, &input.name)
-                .ok_or_else(|| format!("{name}:{line}: there is no `{}`", input.name))?;
-            let text = found.as_str().map_or_else(|| found.to_string(), str::to_owned);
-            number(&text, input).map_err(|what| format!("{name}:{line}: {what}"))
+/// A recording that is being read.
+pub(super) struct Record<'a> {
+    places: &'a [Place<'a>],
+    rows: Rows<'a>,
+}
+
+enum Rows<'a> {
+    Delimited(Delimited<'a>),
+    Json(Json<'a>),
+    /// There is nothing to read.
+    None,
+}
+
+impl<'a> Record<'a> {
+    /// A recording; `name` is its name in messages. One whose first line, comments apart, begins
+    /// with `{` or `[` is JSON, any other CSV.
+    pub(super) fn new(
+        name: &'a str,
+        reader: Box<dyn BufRead + 'a>,
+        places: &'a [Place<'a>],
+    ) -> Result<Self, String> {
+        let mut lines = Lines::new(name, reader)?;
+        let rows = match lines.first()? {
+            None => Rows::None,
+            Some(b'{' | b'[') => Rows::Json(Json::new(lines, places)?),
+            Some(_) => Delimited::new(lines, places)?.map_or(Rows::None, Rows::Delimited),
         };
-        states.push(State { line, values: inputs.iter().map(value).collect::<Result<_, _>>()? });
+        Ok(Self { places, rows })
     }
-    Ok(states)
+
+    /// Reads the next row: appends the number of each input to `values`, and hands the name of its
+    /// episode to `episode`, if there is a place for it. `None` at the end.
+    pub(super) fn next(
+        &mut self,
+        values: &mut Vec<f64>,
+        episode: &mut dyn FnMut(&str),
+    ) -> Result<Option<At>, String> {
+        match &mut self.rows {
+            Rows::Delimited(rows) => rows.next(self.places, values, episode),
+            Rows::Json(rows) => rows.next(self.places, values, episode),
+            Rows::None => Ok(None),
+        }
+    }
 }
 
-/// The value of a place: under its whole name, or step by step through objects and arrays.
-fn lookup<'a>(state: &'a Value, name: &str) -> Option<&'a Value> {
-    if let Some(value) = state.get(name) {
-        return Some(value);
-    }
-    let steps = name.split(['.', '[']).map(|step| step.trim_end_matches(']'));
-    steps.into_iter().try_fold(state, |value, step| match value {
-        Value::Array(elements) => elements.get(step.parse::<usize>().ok()?),
-        other => other.get(step),
-    })
+/// Whether every number is one of the input's type.
+fn is_real(input: &Input) -> bool {
+    use InputKind::{Place, Proposition, Variable};
+    matches!(input.kind, Variable | Proposition | Place(Scalar::Number(Numeric::F64)))
 }
 
 /// The number that a field is, in the type of the input.
@@ -82,22 +112,31 @@ fn number(text: &str, input: &Input) -> Result<f64, String> {
             };
             Some(number as f64)
         }
-        (InputKind::Proposition, "true" | "True") => Some(1.0),
-        (InputKind::Proposition, "false" | "False") => Some(-1.0),
+        // As a number it is robustness: 0 does not hold, and nothing is known of how far.
+        (InputKind::Proposition, _) => typed(text, ty).or_else(|| Some(2.0 * truth(text)? - 1.0)),
         _ => typed(text, ty),
     };
     match value {
         Some(value) if value.is_nan() => Err(format!("`{name}` is not a number (NaN)")),
         Some(value) => Ok(value),
-        None => Err(format!("`{text}` is no `{ty}`, which `{name}` is")),
+        None => {
+            let hint =
+                if is_decimal_comma(text) { ": write a decimal point, not a comma" } else { "" };
+            Err(format!("`{text}` is no `{ty}`, which `{name}` is{hint}"))
+        }
     }
+}
+
+/// Whether a comma stands where a number has its decimal point.
+fn is_decimal_comma(text: &str) -> bool {
+    text.contains(',') && text.replacen(',', ".", 1).parse::<f64>().is_ok()
 }
 
 /// A truth value, in the spellings of Rust, Python, R and spreadsheets.
 fn truth(text: &str) -> Option<f64> {
     match text {
-        "true" | "True" | "TRUE" | "1" | "1.0" => Some(1.0),
-        "false" | "False" | "FALSE" | "0" | "0.0" => Some(0.0),
+        "true" | "True" | "TRUE" | "T" | "1" | "1.0" => Some(1.0),
+        "false" | "False" | "FALSE" | "F" | "0" | "0.0" => Some(0.0),
         _ => None,
     }
 }

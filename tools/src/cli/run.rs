@@ -1,21 +1,59 @@
-//! `tltlc run`: a recorded trajectory through the automaton of a task.
+//! `tltlc run`: recorded trajectories through the automaton of a task.
 //!
-//! The exit code is that of the verdict, so a script can test recordings: 0 if the task is
-//! satisfied, 1 if it is open or lost.
+//! The exit code is that of the verdicts, so a script can test recordings: 0 if every trajectory
+//! satisfies the task, 1 if one is open or lost.
+//!
+//! A recording is read, evaluated and written block by block, so memory does not grow with it.
 
-use std::fmt::Write as _;
+mod written;
 
-use serde::Serialize;
+use rustc_hash::FxHashMap;
 use tltl_compiler::translate::Budget;
 
-use crate::evaluate::{Columns, Scratch};
-use crate::task::{self, Bound, Task, Verdict};
+use crate::evaluate::{Columns, Evaluator, Input, Scratch};
+use crate::online::Online;
+use crate::task::{Bound, Running, Task};
 
+use super::record::{At, Place, Record};
+use super::streams::open;
 use super::subject::{self, Subject};
-use super::{Exit, Outcome, RowFormat, Run, Streams, arguments, record};
+use super::{Exit, Outcome, Run, Streams, arguments};
 
-/// Runs the trajectory that the arguments name, and shows the result row by row.
+use written::Writer;
+
+/// The rows of a block: as many as the evaluator has in one of its own, several times.
+const BLOCK: usize = 1 << 12;
+
+/// A trajectory on its way through the automaton.
+struct Followed<'a> {
+    /// What it is called among several.
+    name: String,
+    running: Running<'a>,
+    online: Online,
+}
+
+/// Runs the trajectories that the arguments name, and shows the results.
 pub(super) fn run(run: &Run, streams: &mut Streams<'_>) -> Outcome {
+    let Some(task) = bound(run, streams)? else { return Ok(Exit::Mistaken) };
+    let map = map(run, streams)?;
+    let places = places(run, &task, &map)?;
+    let mut writer = Writer::new(run, &task);
+    for path in &run.traces {
+        let name = path.display().to_string();
+        let record = Record::new(&name, open(streams.input, path)?, &places)?;
+        let mut following = Following::new(&task, &name, run.episode.as_deref());
+        following.read(record, &mut |text| streams.out.print(text), &mut writer)?;
+        if following.followed.is_empty() {
+            return Err(format!("{name}: a trajectory has at least one state, and this has none"));
+        }
+        following.followed.iter().for_each(|followed| writer.verdict(followed));
+    }
+    streams.print(&writer.end())?;
+    Ok(Exit::of(writer.all_satisfied()))
+}
+
+/// The task that the arguments name, with its own arguments; `None` if its source has mistakes.
+fn bound(run: &Run, streams: &mut Streams<'_>) -> Result<Option<Task>, String> {
     let (subject, task) = subject::split(&run.subject);
     let (name, given) = match task.or(run.task.as_deref()) {
         Some(task) => arguments::split(task).map(|(name, given)| (Some(name), given))?,
@@ -23,7 +61,7 @@ pub(super) fn run(run: &Run, streams: &mut Streams<'_>) -> Outcome {
     };
     // Guards are needed, as in what becomes Rust.
     let entry = match subject::read(subject, name, Budget::EMITTED, streams)? {
-        None => return Ok(Exit::Mistaken),
+        None => return Ok(None),
         Some(Subject::Task(entry)) => entry,
         Some(Subject::Automaton(_)) => {
             return Err("an automaton does not say how its propositions read a state".into());
@@ -31,115 +69,153 @@ pub(super) fn run(run: &Run, streams: &mut Streams<'_>) -> Outcome {
     };
     subject::automata(&entry)?;
     let named = arguments::named(&entry, given.as_deref().unwrap_or_default())?;
-    let Bound::Plain(task) = entry.bind(&named).map_err(|error| error.to_string())? else {
-        unreachable!("a task with automata of its own is not factored");
-    };
-    let recorded = streams.read(&run.trace)?;
-    let name = run.trace.display().to_string();
-    let result = followed(&task, (&name, &recorded))?;
-    streams.print(&match run.format {
-        RowFormat::Text => text(&task, &result),
-        RowFormat::Csv => csv(&result),
-        RowFormat::Json => json(&result),
-    })?;
-    Ok(Exit::of(result.verdict() == Verdict::Satisfied))
-}
-
-/// Reads the recorded trajectory and runs it through the task.
-fn followed(task: &Task, (name, recorded): (&str, &str)) -> Result<task::Run, String> {
-    let record = record::read(name, recorded, task.inputs())?;
-    let numbers: Vec<f64> = record.iter().flat_map(|state| state.values.iter().copied()).collect();
-    let columns = Columns::of_rows(record.len(), task.inputs().len(), &numbers)
-        .map_err(|error| error.to_string())?;
-    task.run(&columns, &mut Scratch::default()).map_err(|nan| {
-        let predicate = &task.automaton().propositions()[nan.predicate as usize];
-        let line = record[nan.row].line;
-        format!("{name}:{line}: the predicate `{predicate}` is not a number (NaN) there")
-    })
-}
-
-/// The run as a table for people, with the first row of a final verdict marked.
-fn text(task: &Task, run: &task::Run) -> String {
-    let formula = &task.entry().task().text;
-    let mut text = match task.entry().name() {
-        Some(name) => format!("{name} = {formula}\n"),
-        None => format!("{formula}\n"),
-    };
-    if !task.arguments().is_empty() {
-        let with = task.arguments().iter().map(|(name, value)| format!("{name} = {value}"));
-        let _ = writeln!(text, "with {}", with.collect::<Vec<_>>().join(", "));
+    match entry.bind(&named).map_err(|error| error.to_string())? {
+        Bound::Plain(task) => Ok(Some(task)),
+        Bound::Factored(_) => unreachable!("a task with automata of its own is not factored"),
     }
-    let _ = writeln!(text, "\n{:>6}  {:>5}  {:>12}", "row", "state", "progress");
-    for (t, state, progress, verdict) in rows(run) {
-        let first = verdict != Verdict::Open && Some(t) == run.since();
-        let mark = if first { format!("  {verdict}") } else { String::new() };
-        let _ = writeln!(text, "{t:>6}  {state:>5}  {:>12}{mark}", short(progress));
-    }
-    let _ = match (run.verdict(), run.since()) {
-        (Verdict::Open, _) | (_, None) => writeln!(text, "\nnot satisfied yet, and not lost"),
-        (verdict, Some(since)) => writeln!(text, "\n{verdict} at row {since}"),
+}
+
+/// The columns that the user has chosen, by field: those of the file, then those of the arguments.
+fn map(run: &Run, streams: &mut Streams<'_>) -> Result<Vec<(String, String)>, String> {
+    let file = run.map_file.as_deref().map_or(Ok(String::new()), |path| streams.read(path))?;
+    let lines = file.lines().map(str::trim).filter(|line| !line.is_empty());
+    let lines = lines.filter(|line| !line.starts_with('#'));
+    let pair = |text: &str| match text.split_once('=') {
+        Some((field, column)) => Ok((field.trim().to_owned(), column.trim().to_owned())),
+        None => Err(format!("`{text}` maps nothing: write FIELD=COLUMN")),
     };
-    // Zero has no sign here.
-    let _ = writeln!(text, "robustness {}", run.robustness + 0.0);
-    text.push_str(
-        "\nstate: the automaton's state after the row is read\n\
-         progress: by how much the row moves the automaton on, from the state before it\n",
-    );
-    text
+    lines.chain(run.map.iter().map(String::as_str)).map(pair).collect()
 }
 
-/// The rows of a run with their numbers, from 0: state, progress, verdict.
-fn rows(run: &task::Run) -> impl Iterator<Item = (usize, u32, f64, Verdict)> {
-    let progress = run.progress.iter().zip(&run.verdicts);
-    let rows = run.states.iter().zip(progress).enumerate();
-    rows.map(|(t, (&state, (&progress, &verdict)))| (t, state, progress, verdict))
-}
-
-/// A number in at most 12 characters.
-fn short(value: f64) -> String {
-    let exact = (value + 0.0).to_string();
-    if exact.len() <= 12 { exact } else { format!("{value:.5e}") }
-}
-
-/// The run as CSV, one line a row.
-fn csv(run: &task::Run) -> String {
-    let mut text = String::from("row,state,progress,verdict\n");
-    for (t, state, progress, verdict) in rows(run) {
-        let _ = writeln!(text, "{t},{state},{},{verdict}", progress + 0.0);
+/// The columns to look for: one for each input of the task, and that of the episode.
+fn places<'a>(
+    run: &'a Run,
+    task: &'a Task,
+    map: &'a [(String, String)],
+) -> Result<Vec<Place<'a>>, String> {
+    let inputs = task.inputs();
+    for (field, _) in map {
+        if !inputs.iter().any(|input| input.name == *field) {
+            let names: Vec<_> = inputs.iter().map(|input| &*input.name).collect();
+            return Err(format!("the task does not read `{field}`; it reads {}", names.join(", ")));
+        }
     }
-    text
-}
-
-/// One row as JSON.
-#[derive(Serialize)]
-struct JsonRow {
-    row: usize,
-    state: u32,
-    /// Written as `null` if it is infinite, since JSON has no infinity.
-    progress: f64,
-    verdict: Verdict,
-}
-
-/// The last line of JSON: the verdict of the whole.
-#[derive(Serialize)]
-struct JsonEnd {
-    verdict: Verdict,
-    since: usize,
-    robustness: f64,
-}
-
-/// The run as JSON Lines: one object a row, and one at the end.
-fn json(run: &task::Run) -> String {
-    let mut text = String::new();
-    for (row, state, progress, verdict) in rows(run) {
-        let row = JsonRow { row, state, progress: progress + 0.0, verdict };
-        text.push_str(&serde_json::to_string(&row).unwrap_or_default());
-        text.push('\n');
-    }
-    let end = JsonEnd {
-        verdict: run.verdict(),
-        since: run.since().unwrap_or_default(),
-        robustness: run.robustness + 0.0,
+    // The last one counts: an argument after the file.
+    let chosen = |name: &str| map.iter().rfind(|(field, _)| field == name);
+    let place = |input: &'a Input| {
+        let column = chosen(&input.name).map(|(_, column)| column.as_str());
+        Place::new(Some(input), column)
     };
-    text + &serde_json::to_string(&end).unwrap_or_default() + "\n"
+    let episode = run.episode.as_deref().map(|column| Place::new(None, Some(column)));
+    Ok(inputs.iter().map(place).chain(episode).collect())
+}
+
+/// The trajectories of one file: as many as it has episodes.
+struct Following<'a> {
+    task: &'a Task,
+    file: &'a str,
+    episode: Option<&'a str>,
+    followed: Vec<Followed<'a>>,
+    /// The index of each episode among them, by its name in the file.
+    known: FxHashMap<String, usize>,
+    fresh: Online,
+}
+
+/// Rows that were read and not yet evaluated.
+#[derive(Default)]
+struct Block {
+    values: Vec<f64>,
+    /// For each row its place in the file, and the index of its trajectory.
+    rows: Vec<(At, usize)>,
+}
+
+impl<'a> Following<'a> {
+    fn new(task: &'a Task, file: &'a str, episode: Option<&'a str>) -> Self {
+        let fresh = Online::new(&task.entry().task().spec, Budget::EMITTED);
+        Self { task, file, episode, followed: Vec::new(), known: FxHashMap::default(), fresh }
+    }
+
+    /// Reads a record to its end, and prints the rows as `writer` writes them.
+    fn read(
+        &mut self,
+        mut record: Record<'_>,
+        print: &mut dyn FnMut(&str) -> Outcome,
+        writer: &mut Writer<'_>,
+    ) -> Result<(), String> {
+        let (mut block, mut scratch) = (Block::default(), Scratch::default());
+        loop {
+            let mut trajectory = None;
+            let more = record.next(&mut block.values, &mut |episode| {
+                trajectory = Some(self.trajectory(episode));
+            })?;
+            if let Some(at) = more {
+                let trajectory = trajectory.unwrap_or_else(|| self.trajectory(""));
+                block.rows.push((at, trajectory));
+            }
+            if block.rows.len() == BLOCK || (more.is_none() && !block.rows.is_empty()) {
+                self.follow(&block, &mut scratch, writer)?;
+                print(&writer.take())?;
+                block.values.clear();
+                block.rows.clear();
+            }
+            if more.is_none() {
+                return Ok(());
+            }
+        }
+    }
+
+    /// The index of the trajectory of an episode, which may be a new one.
+    fn trajectory(&mut self, episode: &str) -> usize {
+        if let Some(&known) = self.known.get(episode) {
+            return known;
+        }
+        let name = match self.episode {
+            Some(column) => format!("{}: {column} {episode}", self.file),
+            None => self.file.to_owned(),
+        };
+        let (running, online) = (Running::new(self.task.automaton()), self.fresh.clone());
+        self.followed.push(Followed { name, running, online });
+        self.known.insert(episode.to_owned(), self.followed.len() - 1);
+        self.followed.len() - 1
+    }
+
+    /// Moves the trajectories on by the rows of a block.
+    fn follow(
+        &mut self,
+        block: &Block,
+        scratch: &mut Scratch,
+        writer: &mut Writer<'_>,
+    ) -> Result<(), String> {
+        let evaluator = self.task.evaluator();
+        let (labels, rho) = self.evaluated(evaluator, block, scratch)?;
+        let width = evaluator.propositions();
+        for (row, &(_, trajectory)) in block.rows.iter().enumerate() {
+            let (from, to) = (row * width, (row + 1) * width);
+            let followed = &mut self.followed[trajectory];
+            let progress = followed.running.step(&labels[from..to], &rho[from..to]);
+            followed.online.step(&rho[from..to]);
+            writer.row(followed, progress);
+        }
+        Ok(())
+    }
+
+    /// The labels of a block and the robustness of its predicates, row after row.
+    fn evaluated(
+        &self,
+        evaluator: &Evaluator,
+        block: &Block,
+        scratch: &mut Scratch,
+    ) -> Result<(Vec<bool>, Vec<f64>), String> {
+        let (rows, width) = (block.rows.len(), evaluator.propositions());
+        let columns = Columns::of_rows(rows, evaluator.inputs().len(), &block.values)
+            .map_err(|error| error.to_string())?;
+        let (mut labels, mut rho) = (vec![false; rows * width], vec![0.0; rows * width]);
+        let read = evaluator.labels(&columns, scratch, &mut labels);
+        read.and_then(|()| evaluator.rho(&columns, scratch, &mut rho)).map_err(|nan| {
+            let predicate = &self.task.automaton().propositions()[nan.predicate as usize];
+            let (file, at) = (self.file, block.rows[nan.row].0);
+            format!("{file}{at}: the predicate `{predicate}` is not a number (NaN) there")
+        })?;
+        Ok((labels, rho))
+    }
 }

@@ -1,6 +1,7 @@
 //! The streams of a run: those of the process, or others in their place.
 
-use std::io::{ErrorKind, IsTerminal, Read, Write};
+use std::fs::File;
+use std::io::{BufRead, BufReader, ErrorKind, IsTerminal, Read, Write};
 use std::path::Path;
 
 use tltl_compiler::error::Style;
@@ -37,28 +38,47 @@ impl Streams<'_> {
     /// The text of a file, or of the input if the path is `-`.
     pub(super) fn read(&mut self, path: &Path) -> Result<String, String> {
         let mut text = String::new();
-        if path == Path::new("-") {
-            self.input.read_to_string(&mut text).map(|_| text)
-        } else {
-            std::fs::read_to_string(path)
-        }
-        .map_err(|error| format!("cannot read {}: {error}", path.display()))
+        let read = open(self.input, path)?.read_to_string(&mut text);
+        read.map(|_| text).map_err(|error| unreadable(path, &error))
     }
 
-    /// Writes a result, with a line break at its end. A reader that has gone away, as `head` does,
-    /// is no fault.
+    /// Writes a result; see [`Output::print`].
     pub(super) fn print(&mut self, text: &str) -> Outcome {
-        let end = if text.ends_with('\n') || text.is_empty() { "" } else { "\n" };
-        match write!(self.out.stream, "{text}{end}").and_then(|()| self.out.stream.flush()) {
-            Err(error) if error.kind() != ErrorKind::BrokenPipe => {
-                Err(format!("cannot write: {error}"))
-            }
-            _ => Ok(Exit::Success),
-        }
+        self.out.print(text)
     }
 
     /// Writes a message. If nobody can read it, there is nobody to be told.
     pub(super) fn complain(&mut self, text: &str) {
         let _ = writeln!(self.err.stream, "{text}");
     }
+}
+
+impl Output<'_> {
+    /// Writes a result, with a line break at its end. A reader that has gone away, as `head` does,
+    /// is no fault.
+    pub(super) fn print(&mut self, text: &str) -> Outcome {
+        let end = if text.ends_with('\n') || text.is_empty() { "" } else { "\n" };
+        match write!(self.stream, "{text}{end}").and_then(|()| self.stream.flush()) {
+            Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+                Err(format!("cannot write: {error}"))
+            }
+            _ => Ok(Exit::Success),
+        }
+    }
+}
+
+/// A file, or the input if the path is `-`, to be read piece by piece.
+pub(super) fn open<'a>(
+    input: &'a mut dyn Read,
+    path: &Path,
+) -> Result<Box<dyn BufRead + 'a>, String> {
+    if path == Path::new("-") {
+        return Ok(Box::new(BufReader::new(input)));
+    }
+    let file = File::open(path).map_err(|error| unreadable(path, &error))?;
+    Ok(Box::new(BufReader::with_capacity(1 << 16, file)))
+}
+
+fn unreadable(path: &Path, error: &std::io::Error) -> String {
+    format!("cannot read {}: {error}", path.display())
 }

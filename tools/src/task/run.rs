@@ -207,7 +207,7 @@ impl Reading {
     }
 }
 
-fn verdict(automaton: &Automaton, q: u32) -> Verdict {
+pub(super) fn verdict(automaton: &Automaton, q: u32) -> Verdict {
     if automaton.is_accepting(q) {
         Verdict::Satisfied
     } else if automaton.is_trap(q) {

@@ -1,160 +1,238 @@
 //! Comma-separated values (RFC 4180), with semicolons or tabs in place of commas if the header has
-//! them.
+//! them, or with the separator that a first line `sep=…` names, as spreadsheets write it.
 //!
-//! The crate `csv` splits the text. It does not say where in a line a field begins, and accepts a
-//! quote that the end of the file cuts off; both are found here, for messages.
+//! A row is kept as its bytes and the places of its fields: a field is decoded only if the task
+//! reads it, so what else a log holds need not be UTF-8, and a message can say where in its line a
+//! field begins.
 
-use csv::{ReaderBuilder, StringRecord};
+use std::borrow::Cow;
+use std::ops::Range;
 
-use super::{Input, State, number};
+use super::lines::Lines;
+use super::place::{Place, find};
+use super::{At, number};
 
-/// Reads a record whose first row is the header.
-pub(super) fn read(name: &str, text: &str, inputs: &[Input]) -> Result<Vec<State>, String> {
-    let mut rows = Rows::new(name, text);
-    let Some(header) = rows.next()? else { return Ok(Vec::new()) };
-    let columns = columns(name, &header, inputs)?;
-    let mut states = Vec::new();
-    while let Some(row) = rows.next()? {
-        let line = row.line;
-        if row.record.len() != header.record.len() {
-            let (here, there) = (row.record.len(), header.record.len());
-            return Err(format!("{name}:{line}: {here} fields, but the header has {there}"));
+/// The most bytes of a row. A quote that nothing closes would else make one row of the file.
+const MOST: usize = 1 << 20;
+
+/// A record whose first row is the header.
+pub(super) struct Delimited<'a> {
+    rows: Rows<'a>,
+    /// The column of each place.
+    columns: Vec<usize>,
+    /// The number of columns.
+    width: usize,
+}
+
+impl<'a> Delimited<'a> {
+    /// Reads the header, and finds the column of each place; `None` without a header.
+    pub(super) fn new(lines: Lines<'a>, places: &[Place<'_>]) -> Result<Option<Self>, String> {
+        let mut rows = Rows::new(lines)?;
+        if !rows.next(|_| false)? {
+            return Ok(None);
         }
-        let value = |(input, &column): (&Input, &usize)| {
-            number(row.field(column), input)
-                .map_err(|what| format!("{name}:{line}:{}: {what}", row.place(column)))
+        let columns = columns(&rows, places)?;
+        Ok(Some(Self { width: rows.fields.len(), columns, rows }))
+    }
+
+    /// The next row: appends the number of each place that the task reads, and hands the text of
+    /// the episode's place to `episode`. `None` at the end.
+    pub(super) fn next(
+        &mut self,
+        places: &[Place<'_>],
+        values: &mut Vec<f64>,
+        episode: &mut dyn FnMut(&str),
+    ) -> Result<Option<At>, String> {
+        let (width, reads_first) = (self.width, self.columns.contains(&0));
+        // Nothing that a task reads begins so.
+        if !self.rows.next(|fields| reads_first || fields != width)? {
+            return Ok(None);
+        }
+        let (rows, line) = (&self.rows, self.rows.line);
+        let name = rows.lines.name;
+        if rows.fields.len() != width {
+            let what = format!("{name}:{line}: {} fields, but the header has", rows.fields.len());
+            let commas = rows.delimiter == b',' && rows.fields.len() == 2 * width;
+            let hint = if commas { ": write a decimal point, not a comma" } else { "" };
+            return Err(format!("{what} {width}{hint}"));
+        }
+        for (place, &column) in places.iter().zip(&self.columns) {
+            let failed = |what| format!("{name}:{line}:{}: {what}", rows.place(column));
+            match (place.input, rows.field(column)) {
+                (None, text) => episode(&text),
+                (Some(input), _) if std::str::from_utf8(rows.bytes(column)).is_err() => {
+                    return Err(failed(format!("`{}` is not UTF-8", input.name)));
+                }
+                (Some(input), text) => values.push(number(&text, input).map_err(failed)?),
+            }
+        }
+        Ok(Some(At::Line(line)))
+    }
+}
+
+/// The column of each place. All missing columns are reported at once.
+fn columns(header: &Rows<'_>, places: &[Place<'_>]) -> Result<Vec<usize>, String> {
+    let name = header.lines.name;
+    let header: Vec<_> = (0..header.fields.len()).map(|column| header.field(column)).collect();
+    let header: Vec<&str> = header.iter().map(|column| &**column).collect();
+    let mut columns = Vec::new();
+    let mut missing = Vec::new();
+    for place in places {
+        match find(&header, place).map_err(|what| format!("{name}: {what}"))? {
+            Some(column) => columns.push(column),
+            None => missing.push(place.column),
+        }
+    }
+    if missing.is_empty() { Ok(columns) } else { Err(lacking(name, &missing, &header)) }
+}
+
+/// The message for a header without some of the columns.
+fn lacking(name: &str, missing: &[&str], header: &[&str]) -> String {
+    let word = if missing.len() == 1 { "the column" } else { "the columns" };
+    let quoted = |names: &[&str]| {
+        let names: Vec<_> = names.iter().map(|name| format!("`{name}`")).collect();
+        names.join(", ")
+    };
+    let (lacks, found) = (quoted(missing), quoted(header));
+    let mut text = format!("{name}: the task reads {word} {lacks}; the file has {found}");
+    let signs = [('/', "division"), ('-', "subtraction"), ('+', "addition"), ('*', "a product")];
+    for (sign, operation) in signs {
+        let parts = |column: &&&str| {
+            column.contains(sign) && column.split(sign).all(|part| missing.contains(&part.trim()))
         };
-        let values = inputs.iter().zip(&columns).map(value).collect::<Result<_, _>>()?;
-        states.push(State { line, values });
-    }
-    Ok(states)
-}
-
-/// The column of each input. All missing columns are reported at once.
-fn columns(name: &str, header: &Row<'_>, inputs: &[Input]) -> Result<Vec<usize>, String> {
-    let header: Vec<&str> = header.record.iter().map(str::trim).collect();
-    let named = |input: &Input| header.iter().position(|column| *column == input.name);
-    let missing: Vec<_> = inputs.iter().filter(|input| named(input).is_none()).collect();
-    if !missing.is_empty() {
-        let missing: Vec<_> = missing.iter().map(|input| format!("`{}`", input.name)).collect();
-        let found: Vec<_> = header.iter().map(|column| format!("`{column}`")).collect();
-        let word = if missing.len() == 1 { "the column" } else { "the columns" };
-        let (missing, found) = (missing.join(", "), found.join(", "));
-        return Err(format!("{name}: the task reads {word} {missing}; the file has {found}"));
-    }
-    for (at, column) in header.iter().enumerate() {
-        let wanted = inputs.iter().any(|input| input.name == *column);
-        if wanted && header[..at].contains(column) {
-            return Err(format!("{name}: two columns are called `{column}`"));
+        if let Some(column) = header.iter().find(parts) {
+            text.push_str(&format!(
+                "; in a formula `{column}` is {operation}: write a name there, and --map 'NAME={column}'"
+            ));
         }
     }
-    Ok(inputs.iter().filter_map(named).collect())
+    text
 }
 
-/// The rows of a text, without those that are blank.
+/// The rows of a file, without those that are blank.
 struct Rows<'a> {
-    name: &'a str,
-    text: &'a str,
-    reader: csv::Reader<&'a [u8]>,
+    lines: Lines<'a>,
+    delimiter: u8,
+    /// The row.
+    text: Vec<u8>,
+    fields: Vec<Range<usize>>,
+    /// Its first line, from 1.
+    line: usize,
 }
 
 impl<'a> Rows<'a> {
-    /// A reader whose delimiter is the first of `,`, `;` and tab that the header has.
-    fn new(name: &'a str, text: &'a str) -> Self {
-        let header = text.lines().find(|line| !line.trim().is_empty()).unwrap_or_default();
-        let delimiter = [',', ';', '\t'].into_iter().find(|&delimiter| header.contains(delimiter));
-        let reader = ReaderBuilder::new()
-            .has_headers(false)
-            .flexible(true)
-            .delimiter(delimiter.unwrap_or(',') as u8)
-            .from_reader(text.as_bytes());
-        Self { name, text, reader }
+    /// Rows whose delimiter is the one that the first line names, or else the first of `,`, `;` and
+    /// tab that it has.
+    fn new(mut lines: Lines<'a>) -> Result<Self, String> {
+        let mut first = Vec::new();
+        lines.append(&mut first)?;
+        let named = match first.trim_ascii() {
+            [b's' | b'S', b'e' | b'E', b'p' | b'P', b'=', delimiter] => Some(*delimiter),
+            // A tab at the end of the line has been trimmed.
+            b"sep=" => Some(b'\t'),
+            _ => None,
+        };
+        let has = |delimiter: &u8| first.contains(delimiter);
+        let delimiter = named.or_else(|| [b',', b';', b'\t'].into_iter().find(has));
+        if named.is_none() {
+            lines.give_back(first);
+        }
+        let delimiter = delimiter.unwrap_or(b',');
+        Ok(Self { lines, delimiter, text: Vec::new(), fields: Vec::new(), line: 0 })
     }
 
-    /// The next row that is not blank; `None` at the end.
-    fn next(&mut self) -> Result<Option<Row<'a>>, String> {
-        let mut record = StringRecord::new();
+    /// Reads the next row that is not blank; `false` at the end. Of lines that begin with `#`, those
+    /// are comments of whose number of fields `is_comment` says so.
+    fn next(&mut self, is_comment: impl Fn(usize) -> bool) -> Result<bool, String> {
         loop {
-            let (name, from) = (self.name, self.reader.position().clone());
-            let more = self.reader.read_record(&mut record);
-            if !more.map_err(|error| format!("{name}: {error}"))? {
-                return Ok(None);
+            self.text.clear();
+            if !self.lines.append(&mut self.text)? {
+                return Ok(false);
             }
-            // The reader's place is before the blank lines that it skips.
-            let text = &self.text[from.byte() as usize..self.reader.position().byte() as usize];
-            let row = text.trim_start_matches(['\r', '\n']);
-            let blank = text[..text.len() - row.len()].matches('\n').count();
-            let row = Row { line: from.line() as usize + blank, text: row, record };
-            if row.is_open() {
-                return Err(format!("{name}:{}: a quote is not closed", row.line));
+            self.line = self.lines.number;
+            let open = self.split();
+            if self.text.starts_with(b"#") && (open || is_comment(self.fields.len())) {
+                continue;
             }
-            if row.record.len() > 1 || !row.field(0).is_empty() {
-                return Ok(Some(row));
+            if open {
+                self.close()?;
             }
-            record = row.record;
+            if self.fields.len() > 1 || !self.field(0).is_empty() {
+                return Ok(true);
+            }
         }
     }
-}
 
-/// One row, split into fields, and its text.
-struct Row<'a> {
-    /// Its first line, from 1.
-    line: usize,
-    text: &'a str,
-    record: StringRecord,
-}
-
-impl Row<'_> {
-    /// A field without blanks around it.
-    fn field(&self, column: usize) -> &str {
-        self.record.get(column).unwrap_or_default().trim()
+    /// Finds the fields of the row; whether a quote in it is open at its end.
+    fn split(&mut self) -> bool {
+        self.fields.clear();
+        let (mut start, mut open) = (0, false);
+        for (at, &byte) in self.text.iter().enumerate() {
+            if byte == self.delimiter && !open {
+                self.fields.push(start..at);
+                start = at + 1;
+            } else if byte == b'"' && self.text[start] == b'"' {
+                open = !open;
+            }
+        }
+        self.fields.push(start..self.text.len());
+        open
     }
 
-    /// For each field the byte in which it begins, and the one after the end of the last.
-    fn starts(&self) -> impl Iterator<Item = usize> {
-        let mut at = 0;
-        let ends = self.record.iter().map(move |field| {
-            // Beyond the text where quotes are not as the RFC has them: `"a"b"c"`.
-            let quoted = self.text.get(at..).is_some_and(|rest| rest.starts_with('"'));
-            // Quotes around it, and those in it twice.
-            let quotes = if quoted { 2 + field.matches('"').count() } else { 0 };
-            at += field.len() + quotes + 1;
-            at
-        });
-        std::iter::once(0).chain(ends)
+    /// Appends lines until the open quote of the row is closed. Only an odd number of quotes can
+    /// close it.
+    fn close(&mut self) -> Result<(), String> {
+        loop {
+            self.text.push(b'\n');
+            let start = self.text.len();
+            if self.text.len() > MOST || !self.lines.append(&mut self.text)? {
+                return Err(format!("{}:{}: a quote is not closed", self.lines.name, self.line));
+            }
+            let quotes = self.text[start..].iter().filter(|byte| **byte == b'"').count();
+            if quotes % 2 == 1 && !self.split() {
+                return Ok(());
+            }
+        }
+    }
+
+    /// The bytes of a field as they stand, without blanks around them.
+    fn bytes(&self, column: usize) -> &[u8] {
+        self.text[self.fields[column].clone()].trim_ascii()
+    }
+
+    /// A field without quotes and blanks around it.
+    fn field(&self, column: usize) -> Cow<'_, str> {
+        let text = String::from_utf8_lossy(self.bytes(column));
+        let quoted = text.strip_prefix('"').and_then(|text| text.strip_suffix('"'));
+        match quoted {
+            Some(inner) => Cow::Owned(inner.replace("\"\"", "\"").trim().to_owned()),
+            None => text,
+        }
     }
 
     /// The column of the text in which a field begins, in characters from 1.
     fn place(&self, column: usize) -> usize {
-        let start = self.starts().nth(column).unwrap_or_default();
-        self.text.get(..start).unwrap_or(self.text).chars().count() + 1
-    }
-
-    /// Whether the last field begins with a quote that nothing closes. The crate would take the
-    /// rest of the file for that field.
-    fn is_open(&self) -> bool {
-        let row = self.text.trim_end_matches(['\r', '\n']);
-        let last = self
-            .starts()
-            .nth(self.record.len().saturating_sub(1))
-            .and_then(|start| row.get(start..));
-        last.is_some_and(|last| last.starts_with('"') && last.matches('"').count() % 2 == 1)
+        let before = &self.text[..self.fields[column].start];
+        String::from_utf8_lossy(before).chars().count() + 1
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::lines::Lines;
     use super::Rows;
 
     /// A field with its line and its place.
     type Field = (usize, usize, String);
 
     fn fields(text: &str) -> Result<Vec<Vec<Field>>, String> {
-        let mut rows = Rows::new("f", text);
+        let mut lines = Lines::new("f", Box::new(text.as_bytes()))?;
+        lines.first()?;
+        let mut rows = Rows::new(lines)?;
         let mut all = Vec::new();
-        while let Some(row) = rows.next()? {
-            let field = |i| (row.line, row.place(i), row.field(i).to_owned());
-            all.push((0..row.record.len()).map(field).collect());
+        while rows.next(|fields| fields != 2)? {
+            let field = |i| (rows.line, rows.place(i), rows.field(i).into_owned());
+            all.push((0..rows.fields.len()).map(field).collect());
         }
         Ok(all)
     }
@@ -171,6 +249,15 @@ mod tests {
         assert_eq!(found, expected.map(|row| row.map(|(l, c, f)| (l, c, f.to_owned())).to_vec()));
         assert_eq!(fields("a;b\n1,5;2").unwrap()[1][0].2, "1,5");
         assert_eq!(fields("a\tb\r\n1\t2\r\n").unwrap()[1][1], (2, 3, "2".to_owned()));
+        assert_eq!(fields("a,b\r1,2\r\r3,4").unwrap()[2][1], (4, 3, "4".to_owned()));
+    }
+
+    #[test]
+    fn comments_and_the_name_of_the_separator_are_no_rows() {
+        let text = "# by hand, \"late\n\nsep=;\na;b\n# pause\n#1;2\n# \"so;\"\n";
+        let found = fields(text).unwrap();
+        assert_eq!(found.len(), 2);
+        assert_eq!(found[1][0], (6, 1, "#1".to_owned()));
     }
 
     #[test]
@@ -179,6 +266,8 @@ mod tests {
         assert_eq!(fields("a,\"b").unwrap_err(), "f:1: a quote is not closed");
         assert_eq!(fields("a,b\n5\",\"6\"").unwrap()[1][0].2, "5\"");
         assert_eq!(fields("a,b\n1,\"2\"\"\"\n").unwrap()[1][1].2, "2\"");
+        let endless = "a,b\n1,\"".to_owned() + &"2\n".repeat(1 << 20);
+        assert_eq!(fields(&endless).unwrap_err(), "f:2: a quote is not closed");
     }
 
     #[test]

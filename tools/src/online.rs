@@ -1,0 +1,141 @@
+//! The robustness of a trajectory while it grows: one step a state, in memory that does not grow
+//! with the trajectory.
+//!
+//! ρ is at least θ iff the trajectory satisfies the formula in which every literal is read as "its
+//! robustness is at least θ". As literals are only combined by max and min, this holds for p and
+//! for ¬p apart, so both are propositions of their own here, and all of the formula is positive.
+//! The automaton of that formula is followed for *all* thresholds at once. A lower threshold makes
+//! no literal false, so the states along the thresholds form a chain in which each accepts all that
+//! the one above it accepts: [`Online`] holds the few thresholds at which the state changes. For
+//! n unordered goals these are at most n + 1, and for one bounded operator the entries of the
+//! monotone queue with which a sliding maximum is computed (Lemire, "Streaming maximum-minimum
+//! filter", 2006).
+//!
+//! Why not the recursion of [`evaluate`](crate::evaluate): it runs backwards from the last state,
+//! so it needs all of them, and starts anew with every state that arrives.
+
+use std::cell::Cell;
+use std::sync::Arc;
+
+use tltl_compiler::dfa::{Dfa, State};
+use tltl_compiler::minimize::minimize;
+use tltl_compiler::proposition::Proposition;
+use tltl_compiler::spec::{Formula, FormulaId, Spec};
+use tltl_compiler::translate::{Budget, translate};
+
+use crate::semantics;
+
+/// The robustness of a formula on the states that have been read so far.
+///
+/// ```
+/// use tltl_compiler::translate::Budget;
+/// use tltlc::{online::Online, task};
+///
+/// let task = task::compile("!wet U home", Budget::default())?;
+/// let mut online = Online::new(&task.entry().task().spec, Budget::default());
+/// // Propositions are numbered in order of appearance: `wet` is 0, `home` is 1.
+/// let mut after = |rho: [f64; 2]| {
+///     online.step(&rho);
+///     online.robustness()
+/// };
+/// assert_eq!(after([-0.5, -2.0]), -2.0);
+/// assert_eq!(after([-3.0, 1.5]), 0.5);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Online(Way);
+
+#[derive(Clone, Debug)]
+enum Way {
+    /// The automaton over literals, 2p for p and 2p + 1 for ¬p. Each threshold is the highest at
+    /// which its state is reached, the first one +∞; they fall, and neighbouring states differ.
+    Thresholds { dfa: Arc<Dfa>, states: Vec<(f64, State)> },
+    /// For a formula whose automaton over literals is larger than the budget allows: all that was
+    /// read, row after row.
+    All { spec: Arc<Spec>, rho: Vec<f64>, rows: usize },
+}
+
+impl Online {
+    /// The formula before any state is read. Without an automaton within the budget, memory grows
+    /// with the trajectory, and [`robustness`](Self::robustness) takes a pass over it.
+    #[must_use]
+    pub fn new(spec: &Spec, budget: Budget) -> Self {
+        Self(match translate(&over_literals(spec), budget) {
+            Ok(dfa) => {
+                let dfa = Arc::new(minimize(&dfa));
+                Way::Thresholds { dfa, states: vec![(f64::INFINITY, 0)] }
+            }
+            Err(_) => Way::All { spec: Arc::new(spec.clone()), rho: Vec::new(), rows: 0 },
+        })
+    }
+
+    /// Reads one state: the robustness of each proposition of the formula in it, none of them NaN.
+    pub fn step(&mut self, rho: &[f64]) {
+        match &mut self.0 {
+            Way::Thresholds { dfa, states } => *states = moved(dfa, states, rho),
+            Way::All { rho: all, rows, .. } => {
+                all.extend_from_slice(rho);
+                *rows += 1;
+            }
+        }
+    }
+
+    /// The robustness of the states read so far; -∞ before the first.
+    #[must_use]
+    pub fn robustness(&self) -> f64 {
+        match &self.0 {
+            Way::Thresholds { dfa, states } => {
+                let accepted = states.iter().find(|(_, q)| dfa.accepting == Some(*q));
+                accepted.map_or(f64::NEG_INFINITY, |(threshold, _)| *threshold)
+            }
+            Way::All { spec, rho, rows } => {
+                let width = spec.propositions().len();
+                semantics::robustness(spec, *rows, |p, t| rho[t * width + p as usize])
+            }
+        }
+    }
+}
+
+/// The formula with a proposition for each literal: 2p for p, 2p + 1 for ¬p.
+fn over_literals(spec: &Spec) -> Spec {
+    let literals =
+        (0..2 * spec.propositions().len()).map(|literal| Proposition::from(&*literal.to_string()));
+    let mut positive = Spec::new(literals.collect());
+    let ids: Vec<FormulaId> = spec.formulas().map(|(id, _)| id).collect();
+    let images = positive.rebuild(spec, &ids, &mut |positive, id, formula| match formula {
+        Formula::Literal { proposition, negated } => {
+            positive.literal(2 * proposition + u32::from(negated), false, spec.span(id))
+        }
+        formula => positive.add(formula, spec.span(id)),
+    });
+    positive.set_root(images[spec.root().0 as usize]);
+    positive
+}
+
+/// The states after one more letter.
+///
+/// From a threshold down, the next state stays the same until the highest robustness below it among
+/// the literals that were asked and did not hold: there the walk through the diagram changes.
+fn moved(dfa: &Dfa, states: &[(f64, State)], rho: &[f64]) -> Vec<(f64, State)> {
+    let mut moved: Vec<(f64, State)> = Vec::with_capacity(states.len());
+    for (place, &(top, q)) in states.iter().enumerate() {
+        let end = states.get(place + 1).map_or(f64::NEG_INFINITY, |(threshold, _)| *threshold);
+        let mut threshold = top;
+        while threshold > end {
+            let below = Cell::new(end);
+            let to = dfa.next(q, |literal| {
+                let p = rho[literal as usize / 2];
+                let value = if literal % 2 == 0 { p } else { -p };
+                if value < threshold {
+                    below.set(below.get().max(value));
+                }
+                value >= threshold
+            });
+            if moved.last().is_none_or(|&(_, last)| last != to) {
+                moved.push((threshold, to));
+            }
+            threshold = below.get();
+        }
+    }
+    moved
+}
