@@ -1,17 +1,14 @@
 //! Source text to [`Ast`].
 //!
-//! pest recognizes the tokens and the shape of items; the operator-precedence parser in
+//! The grammar recognizes the tokens and the shape of items; the operator-precedence parser in
 //! `expression` builds the arena. A grammar for all of the syntax would recurse once a bracket, and
-//! pest overflows the stack on deep input; so the grammar sees an expression as a flat sequence of
-//! tokens.
+//! overflow the stack on deep input; so the grammar sees an expression as a flat sequence of tokens.
 //!
 //! Items are parsed one by one: a mistake in one does not hide the mistakes in the next. Where an
 //! item cannot be read, as much of it as possible is kept, at least its name, so that its uses are
 //! not reported as unknown.
 //!
-//! Nothing here looks a name up or asks for a type. The generated parser is committed
-//! (`grammar.rs`, kept fresh by a test), because with pest's derive macro a user's build would take
-//! 22 CPU seconds and 23 packages instead of 3 and 6.
+//! Nothing here looks a name up or asks for a type.
 //!
 //! ```
 //! use tltl_compiler::{ast::ItemKind, parse, source::Source};
@@ -29,16 +26,11 @@ mod expression;
 mod item;
 mod message;
 
-use pest::Parser;
-
 use crate::ast::{Ast, Item, ItemKind};
 use crate::error::{Error, Errors, Kind};
-use crate::grammar::{Grammar, Rule};
+use crate::grammar::{self, Rule};
 use crate::source::{Source, Span};
 use crate::token;
-
-/// A pair of the grammar: a rule, with the text that it matched.
-type Pair<'a> = pest::iterators::Pair<'a, Rule>;
 
 /// The deepest nesting of braces. Verbatim Rust is the one recursive rule of the grammar.
 const BRACES: usize = 64;
@@ -127,13 +119,13 @@ fn one(source: &Source, rule: Rule) -> (Ast, Vec<Error>) {
     if let Err(error) = shallow(source) {
         return (ast, vec![error]);
     }
-    let pairs = match Grammar::parse(rule, source.text()) {
-        Ok(pairs) => pairs,
-        Err(error) => return (ast, vec![message::sentence(source, 0, &error)]),
+    let tree = match grammar::parse(rule, source.text()) {
+        Ok(tree) => tree,
+        Err(stopped) => return (ast, vec![message::sentence(source, 0, &stopped)]),
     };
     let mut mistakes = Vec::new();
     let mut attributes = Vec::new();
-    for pair in pairs {
+    for pair in tree.pairs() {
         match pair.as_rule() {
             Rule::attribute => attributes.push(item::attribute(pair, 0)),
             Rule::header => item::header(&mut ast, &pair),
@@ -161,21 +153,22 @@ fn items(source: &Source) -> (Ast, Vec<Error>) {
     let mut mistakes = Vec::new();
     let mut at = prologue(&mut ast, source);
     while at < source.text().len() {
-        at = match Grammar::parse(Rule::next, &source.text()[at..]) {
-            Ok(pairs) => {
+        at = match grammar::parse(Rule::next, &source.text()[at..]) {
+            Ok(tree) => {
                 let mut end = source.text().len();
-                for pair in pairs.filter(|pair| pair.as_rule() == Rule::item) {
-                    end = at + pair.as_span().end();
+                for pair in tree.pairs().filter(|pair| pair.as_rule() == Rule::item) {
+                    end = at + pair.end();
                     item::build(&mut ast, pair, at, &mut mistakes);
                 }
                 end
             }
-            Err(error) => {
-                let mistake = message::sentence(source, at, &error);
+            Err(stopped) => {
+                let mistake = message::sentence(source, at, &stopped);
                 let next = token::next_item(source.text(), at, mistake.span().start);
                 let readable = &source.text()[at..mistake.span().start];
-                match Grammar::parse(Rule::next, readable) {
-                    Ok(pairs) => pairs
+                match grammar::parse(Rule::next, readable) {
+                    Ok(tree) => tree
+                        .pairs()
                         .filter(|pair| pair.as_rule() == Rule::item)
                         .for_each(|pair| item::build(&mut ast, pair, at, &mut mistakes)),
                     Err(_) => item::broken(&mut ast, Span::new(at, next), &mut mistakes),
@@ -190,11 +183,11 @@ fn items(source: &Source) -> (Ast, Vec<Error>) {
 
 /// Reads the docs of the file and returns the byte at which they end.
 fn prologue(ast: &mut Ast, source: &Source) -> usize {
-    let Ok(pairs) = Grammar::parse(Rule::prologue, source.text()) else { return 0 };
+    let Ok(tree) = grammar::parse(Rule::prologue, source.text()) else { return 0 };
     let mut end = 0;
     let mut docs = Vec::new();
-    for pair in pairs.filter(|pair| pair.as_rule() == Rule::file_doc) {
-        end = pair.as_span().end();
+    for pair in tree.pairs().filter(|pair| pair.as_rule() == Rule::file_doc) {
+        end = pair.end();
         docs.push(item::doc_text(pair.as_str()));
     }
     ast.set_docs(docs);

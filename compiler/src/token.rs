@@ -1,6 +1,6 @@
 //! Words and symbols as a reader sees them.
 //!
-//! The parser does not use this module: pest recognizes the tokens of a source. Three jobs need
+//! The parser does not use this module: the grammar recognizes the tokens of a source. Three jobs need
 //! tokens without a grammar. Messages quote the word at which parsing failed and the word before
 //! it. After a mistake, the next item must be found in text that has no parse ([`next_item`]). And
 //! expressions of Rust, which the grammar takes verbatim, get other names for their parameters

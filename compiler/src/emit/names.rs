@@ -6,10 +6,10 @@
 //! hygienic or not, so locals beside the author's code have a prefix. And text has no hygiene at
 //! all, so no local has the name of a parameter or a predicate.
 
-use pest::unicode::{XID_CONTINUE, XID_START};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 use rustc_hash::FxHashSet;
+use unicode_ident::{is_xid_continue, is_xid_start};
 
 use crate::compile::Compiled;
 use crate::reserved::{is_constructor, is_keyword, rust_name};
@@ -58,8 +58,8 @@ pub(super) fn ident(name: &str) -> Ident {
 /// ```
 #[must_use]
 pub fn module(stem: &str) -> Ident {
-    let mut name = stem.replace(|c| !XID_CONTINUE(c), "_");
-    if !name.starts_with(XID_START) {
+    let mut name = stem.replace(|c| !is_xid_continue(c), "_");
+    if !name.starts_with(is_xid_start) {
         name.insert(0, '_');
     }
     ident(&name)

@@ -6,12 +6,12 @@
 //! tokens. Operands are pushed before their operators, which is the order that the arena requires.
 
 use super::item::place;
-use super::{Pair, message};
+use super::message;
 use crate::ast::{
     Arithmetic, Ast, Bound, Comparison, End, Infix, Node, NodeId, Prefix, Quantifier,
 };
 use crate::error::{Error, Kind};
-use crate::grammar::Rule;
+use crate::grammar::{Pair, Rule};
 use crate::source::Span;
 
 /// Builds the expression of `pair`, whose text starts at byte `at`, and returns its root; `None` if

@@ -4,12 +4,10 @@
 //! that the grammar accepts in part becomes [`ItemKind::Broken`], so that uses of its name are not
 //! reported.
 
-use pest::Parser;
-
-use super::{Pair, expression};
+use super::expression;
 use crate::ast::{Ast, Attribute, Declaration, FieldType, Item, ItemKind, UnitFactor, WrittenUnit};
 use crate::error::{Error, Kind};
-use crate::grammar::{Grammar, Rule};
+use crate::grammar::{self, Pair, Rule, Tree};
 use crate::source::Span;
 use crate::token;
 
@@ -65,8 +63,9 @@ pub(super) fn attribute(pair: Pair<'_>, at: usize) -> Attribute {
 pub(super) fn broken(ast: &mut Ast, span: Span, mistakes: &mut Vec<Error>) {
     let Some(name) = token::item_name(ast.source().text(), span) else { return };
     let source = ast.source().clone();
-    let heading = Grammar::parse(Rule::heading, source.slice(span)).ok();
-    let mut takes = heading.into_iter().flatten().filter(|part| part.as_rule() == Rule::parameters);
+    let heading = grammar::parse(Rule::heading, source.slice(span)).ok();
+    let parts = heading.iter().flat_map(Tree::pairs);
+    let mut takes = parts.filter(|part| part.as_rule() == Rule::parameters);
     let fields = takes.next().map(|part| declarations(ast, part, span.start, mistakes));
     let kind = ItemKind::Broken(fields.unwrap_or_default());
     ast.push_item(Item { attributes: Vec::new(), docs: Vec::new(), name, kind, span });
@@ -80,8 +79,7 @@ pub(super) fn doc_text(comment: &str) -> String {
 
 /// The span of `pair`, whose text starts at byte `at` of the source.
 pub(super) fn place(pair: &Pair<'_>, at: usize) -> Span {
-    let span = pair.as_span();
-    Span::new(span.start(), span.end()).shifted(at)
+    Span::new(pair.start(), pair.end()).shifted(at)
 }
 
 /// The name of an item and its kind.

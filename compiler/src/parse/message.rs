@@ -1,12 +1,12 @@
 //! Syntax mistakes as sentences: what is missing or superfluous, in the author's own words.
 //!
-//! pest reports a byte and a list of rules that could have come next. Neither means anything to an
+//! The grammar reports a byte and a list of rules that could have come next. Neither means anything to an
 //! author, so this module looks at the words around the place instead: the word before, the word at
 //! the place, the word after. Common mistakes (an operator of another logic, `=` for `==`, `^` for
 //! `pow`) have a sentence each; the rest is "expected …, found …".
 
 use crate::error::{Error, Kind};
-use crate::grammar::Rule;
+use crate::grammar::{Rule, Stopped};
 use crate::source::{Source, Span};
 use crate::token::{self, Tokens};
 
@@ -60,18 +60,10 @@ impl<'a> Found<'a> {
     }
 }
 
-/// The mistake that made pest stop, in a text parsed from byte `from` on.
-pub(super) fn sentence(source: &Source, from: usize, error: &pest::error::Error<Rule>) -> Error {
-    let at = from
-        + match error.location {
-            pest::error::InputLocation::Pos(at) => at,
-            pest::error::InputLocation::Span((at, _)) => at,
-        };
-    let found = Found::new(source.text(), from, at);
-    let expected: &[Rule] = match &error.variant {
-        pest::error::ErrorVariant::ParsingError { positives, .. } => positives,
-        pest::error::ErrorVariant::CustomError { .. } => &[],
-    };
+/// The mistake at which reading stopped, in a text parsed from byte `from` on.
+pub(super) fn sentence(source: &Source, from: usize, stopped: &Stopped) -> Error {
+    let found = Found::new(source.text(), from, from + stopped.at);
+    let expected = &stopped.expected[..];
     if let Some(error) = unsupported_here(&found) {
         return error;
     }
