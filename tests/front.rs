@@ -287,9 +287,11 @@ fn formula() -> impl Strategy<Value = String> {
         1 => (number(), number(), number()).prop_map(|(a, b, c)| format!("{a} < {b} <= {c}")),
     ];
     leaf.prop_recursive(6, 40, 2, |inner| {
-        let infix = vec!["&&", "||", "=>", "U", "T", "∧", "or", "->"];
-        let prefix = vec!["!", "F ", "X ", "◇", "not "];
+        let infix = vec!["&&", "||", "=>", "U", "T", "∧", "or", "->", "U[<= 2]", "T[1,2]", "R", "W"];
+        let prefix = vec!["!", "F ", "X ", "◇", "not ", "F[1,2]", "G [1] ", "X[ 2 ]", "!G "];
+        let loose = (inner.clone(), prop::sample::select(vec!["<=>", "ensuring"]), inner.clone());
         prop_oneof![
+            1 => loose.prop_map(|(a, op, b)| format!("(({a}) {op} ({b}))")),
             2 => (inner.clone(), prop::sample::select(infix), inner.clone())
                 .prop_map(|(a, op, b)| format!("{a} {op} {b}")),
             1 => (prop::sample::select(prefix), inner.clone()).prop_map(|(op, a)| format!("{op}{a}")),
@@ -309,6 +311,10 @@ proptest! {
         let again = Source::new("<printed>", once.clone());
         let reparsed = parse::formula(&again).unwrap();
         prop_assert_eq!(&once, &printed(&reparsed));
+        let laid_out = tltlc::format::format(&format!("task t = {}", source.text())).unwrap();
+        prop_assert_eq!(tltlc::format::format(&laid_out), Some(laid_out.clone()));
+        let text = laid_out.split_once("t = ").unwrap().1;
+        prop_assert_eq!(&once, &printed(&parse::formula(&Source::new("<laid out>", text)).unwrap()));
         match (check::formula(&source), check::formula(&again)) {
             (Ok(a), Ok(b)) => prop_assert_eq!(meaning(&a), meaning(&b)),
             (Err(a), Err(b)) => prop_assert_eq!(a.first().kind(), b.first().kind()),

@@ -60,7 +60,8 @@ struct Layout<'a> {
 impl<'a> Layout<'a> {
     /// Adds a token, with the line break or the blank that belongs before it.
     fn token(&mut self, token: &Token<'a>, next: Option<&Token<'a>>) {
-        let closes = matches!(token.text, ")" | "]" | "}") && token.kind == Kind::Symbol;
+        let bracket = matches!(token.kind, Kind::Symbol | Kind::Bound);
+        let closes = matches!(token.text, ")" | "]" | "}") && bracket;
         let was_block = closes && self.open.pop().unwrap_or(false);
         let prefix = self.is_prefix(token);
         if token.newlines > 0 || self.before.is_none() {
@@ -69,7 +70,7 @@ impl<'a> Layout<'a> {
             self.out.push(' ');
         }
         self.out.push_str(token.text);
-        if matches!(token.text, "(" | "[" | "{") && token.kind == Kind::Symbol {
+        if matches!(token.text, "(" | "[" | "{") && bracket {
             self.open.push(token.text == "{");
         }
         self.prefix = prefix;
@@ -97,8 +98,11 @@ impl<'a> Layout<'a> {
     fn is_prefix(&self, token: &Token<'_>) -> bool {
         match token.text {
             _ if token.kind == Kind::Unit => false,
-            "!" | "¬" | "◇" | "○" | "<>" => true,
+            "!" | "¬" | "◇" | "○" | "<>" | "□" | "[]" => true,
             "F" | "X" | "not" => token.kind == Kind::Word,
+            "G" => token.kind == Kind::Operator,
+            // As in `[<=3]`.
+            "<=" | "≤" => self.before.is_some_and(|before| before.kind == Kind::Bound),
             "-" | "−" => self.before.is_none_or(|before| !before.ends_operand()),
             _ => false,
         }
@@ -108,7 +112,8 @@ impl<'a> Layout<'a> {
     /// precedence; the first that matches decides.
     fn blank(&self, token: &Token<'_>, prefix: bool, closes_block: bool) -> bool {
         let Some(before) = self.before else { return false };
-        let symbol = |text: &str| before.kind == Kind::Symbol && before.text == text;
+        let symbol =
+            |text: &str| matches!(before.kind, Kind::Symbol | Kind::Bound) && before.text == text;
         if before.kind == Kind::Comment || token.kind == Kind::Comment {
             return true;
         }
@@ -122,7 +127,7 @@ impl<'a> Layout<'a> {
             ")" | "]" => false,
             "}" => closes_block && !symbol("{"),
             "{" => true,
-            "(" | "[" if calls => false,
+            "(" | "[" if calls || token.kind == Kind::Bound || symbol("#") => false,
             _ if symbol("(") || symbol("[") || symbol(".") || symbol("::") => false,
             _ if self.prefix && before.kind == Kind::Symbol => {
                 prefix && token.text == before.text && token.text == "-"
@@ -134,7 +139,7 @@ impl<'a> Layout<'a> {
 
 /// Whether a line that starts with `token` begins an item, or a comment about one.
 fn begins_item(token: &Token<'_>, next: Option<&Token<'_>>) -> bool {
-    const ITEMS: [&str; 6] = ["state", "struct", "enum", "const", "predicate", "task"];
+    const ITEMS: [&str; 7] = ["state", "struct", "enum", "const", "predicate", "task", "step"];
     let named = next.is_some_and(|next| next.kind == Kind::Word);
     match token.kind {
         Kind::Doc => true,
@@ -142,6 +147,7 @@ fn begins_item(token: &Token<'_>, next: Option<&Token<'_>>) -> bool {
             matches!(next.kind, Kind::Doc | Kind::Comment) || ITEMS.contains(&next.text)
         }),
         Kind::Word => ITEMS.contains(&token.text) && named,
+        Kind::Symbol => token.text == "#",
         _ => false,
     }
 }
@@ -189,6 +195,16 @@ mod tests {
             ("predicate p(d:f64 in N * m,e:u8)=x<d", "predicate p(d: f64 in N*m, e: u8) = x < d\n"),
             ("const g in F* /* ? */T = 1", "const g in F* /* ? */ T = 1\n"),
             ("state S{k:K?in m}", "state S { k: K? in m }\n"),
+            ("task t=F [ 0,3 ]a&&◇[<= 2]!b", "task t = F[0, 3] a && ◇[<=2] !b\n"),
+            ("task t=a U[1 , 2](b T [≤3]c)", "task t = a U[1, 2] (b T[≤3] c)\n"),
+            ("task t=G [ 2 ](a)&&[] [0,1]-x<1", "task t = G[2] (a) && [][0, 1] -x < 1\n"),
+            ("step  0.1s\ntask t=X[ 0.2s ]a", "step 0.1s\ntask t = X[0.2s] a\n"),
+            ("step  0.1  s\ntask t=X[ 0.2 s ]a", "step 0.1 s\ntask t = X[0.2 s] a\n"),
+            ("task t=F a\nstep 2 s", "task t = F a\nstep 2 s\n"),
+            ("task t=F a ensuring-x<1", "task t = F a ensuring -x < 1\n"),
+            ("task t=a R[0,1]-x<1<=>R-M<W", "task t = a R[0, 1] -x < 1 <=> R - M < W\n"),
+            ("task t=G-1<x&&G!=2&&s.G(x)", "task t = G - 1 < x && G != 2 && s.G(x)\n"),
+            ("task t=F a\n# [ factored ]\ntask u=F b", "task t = F a\n#[factored]\ntask u = F b\n"),
             ("task t = for all in in R: F in", "task t = for all in in R: F in\n"),
             ("task t = for all r in F:F r", "task t = for all r in F: F r\n"),
             ("", ""),

@@ -238,7 +238,9 @@ impl Descent<'_> {
             return self.refuse(id, self.compared_truth(truth));
         }
         let chained = self.resolved.is_chained(left);
-        if chained && matches!(self.resolved[left].expression, Expression::Infix(Infix::Iff, ..)) {
+        let truths =
+            !matches!(self.resolved[left].expression, Expression::Infix(Infix::Compare(_), ..));
+        if chained && truths {
             return self.refuse(id, self.chained_truth(id));
         }
         let sides = if chained { &[right][..] } else { &[left, right] };

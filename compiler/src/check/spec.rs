@@ -366,6 +366,10 @@ mod tests {
 
     const FILE: &str = "enum Room { hall, attic }
         state S { x: f64, on: bool, room: Room, a: [bool; 2], t: [bool; Room] }
+        step 0.1 s
+        const few = 2 + 1
+        const late in s = 0.4
+        const halved = few / 2
         predicate near(d: f64) = x < d
         predicate lit(r: Room) = t[r]
         task away = F x > 1
@@ -400,6 +404,27 @@ mod tests {
             ("near(1, 2)", "`near` takes 1 argument (a number), and there are 2"),
             ("near", "`near` takes 1 argument (a number)"),
             ("1 < x > 0", "a chain of comparisons points one way, but this one has `<` and `>`"),
+            ("on == a[0]", "(on && a[0]) || (!on && !a[0])"),
+            ("on != lit(hall)", "(on && !lit(hall)) || (!on && lit(hall))"),
+            ("on == a[0] == a[1]", "truth values are compared two at a time"),
+            ("on == x", "`on` is true or false, but a number is needed here"),
+            ("F[0,few] on", "F[0,3] on"),
+            ("F[few, 0.4 s] on", "`few` counts steps, and the other end of this bound is a time"),
+            ("F[0.1 s, late] on", "F[1,4] on"),
+            ("X[0.45 s] on", "`0.45 s` lies between two instants"),
+            (
+                "F[0.41 s, 0.49 s] on",
+                "the bound `[0.41 s, 0.49 s]` is empty: no instant lies in it",
+            ),
+            ("G[0 s, 0.399 s] on", "G[0,3] on"),
+            ("for all i in 1..3: F[i, 4] on", "F[1,4] on && F[2,4] on"),
+            ("for all i in {2, few}: X[i] on", "X[2] on && X[3] on"),
+            ("F[room] on", "`room` is not known when the source is compiled"),
+            ("F[halved] on", "`halved` is not a whole number, and a bound counts steps"),
+            (
+                "F on ensuring reach(2)",
+                "the right side of `ensuring` speaks of one state, and the task `reach(2)` of more",
+            ),
         ] {
             assert_eq!(spec(text), expected, "{text}");
         }

@@ -14,7 +14,9 @@ use super::name::suggestion;
 use super::order::{self, Use};
 use super::place::Part;
 use super::{Entry, Expression, ExpressionId, Name, Resolved, Value};
-use crate::ast::{Ast, Comparison, Infix, Item, ItemKind, Node, NodeId, Quantifier, quoted};
+use crate::ast::{
+    Ast, Comparison, Infix, Item, ItemKind, Node, NodeId, Prefix, Quantifier, quoted,
+};
 use crate::error::{Error, Kind};
 use crate::reserved::rust_name;
 use crate::source::Span;
@@ -198,12 +200,25 @@ impl Expansion<'_, '_> {
         let entry = ast.entry(node);
         let outer = if entry.is_bracketed() { entry.outer } else { ast.span(place) };
         let first = ast.leftmost(place).map(|operand| self.resolved[of(operand)].first);
-        let copy = self.push(expression, place, outer, first, environment);
+        let mut copy = self.push(expression, place, outer, first, environment);
+        if self.is_unequal_truths(copy) {
+            let first = Some(self.resolved[copy].first);
+            let not = Expression::Prefix(Prefix::Not, copy);
+            copy = self.push(not, place, outer, first, environment);
+        }
         if let Some(bound) = &ast.entry(node).bound {
             let ends = bound.ends.iter().map(|end| of(end.node)).collect();
             self.resolved.entries[copy.0 as usize].ends = ends;
         }
         copy
+    }
+
+    /// Whether an expression is `p != q` of truth values, of which it has become `p <=> q`.
+    fn is_unequal_truths(&self, copy: ExpressionId) -> bool {
+        let entry = &self.resolved[copy];
+        let written = self.resolved.ast.node(entry.node);
+        matches!(entry.expression, Expression::Infix(Infix::Iff, ..))
+            && matches!(written, Node::Infix(Infix::Compare(Comparison::Unequal), ..))
     }
 
     /// Adds an expression.
@@ -232,7 +247,7 @@ impl Expansion<'_, '_> {
             Node::Number(value) => Expression::Number(value),
             Node::Text => Expression::Text,
             Node::Prefix(op, a) => Expression::Prefix(op, of(a)),
-            Node::Infix(Infix::Compare(Comparison::Equal), a, b)
+            Node::Infix(Infix::Compare(Comparison::Equal | Comparison::Unequal), a, b)
                 if [a, b].into_iter().all(|side| resolved.is_truth(of(side))) =>
             {
                 Expression::Infix(Infix::Iff, of(a), of(b))

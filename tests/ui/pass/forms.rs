@@ -55,6 +55,10 @@ tltl! {
     predicate wide = within(2.0, 1.0);
     /// Both.
     task both = F raw && (F near || fine) && F wide;
+    /// Bounds in steps and in times.
+    step 0.5 s;
+    const patience = 2;
+    task soon = F[0, patience] fine && F [1] near && G[0.5 s, 1 s] raw ensuring !wide || fine;
     /// A name that is a keyword.
     task r#loop = !raw U near;
 }
@@ -68,6 +72,10 @@ pub(crate) fn main() {
     let closure = |s: &f64| 5.0 - s;
     let chi = eventually!(1.0 + 1.0, closure, self::a);
     assert_eq!(chi.satisfied(&[2.5]), Ok(true));
+    let within = tltl! { F[0,2] a && X[1] a && [][0, 1] a };
+    assert_eq!(within.satisfied(&[1.5, 3.5]), Ok(true));
+    let never = tltl! { (F inner::b && !G !a) ensuring !(closure <=> a) };
+    assert_eq!(never.satisfied(&[0.5, 2.5]), Ok(false));
     let limit = 3.0;
     let captured = tltl! { |s: &f64| F ({ *s } > limit) };
     assert_eq!(captured.satisfied(&[2.5]), Ok(false));

@@ -2,8 +2,8 @@
 //!
 //! The compiler's grammar is not used, since it drops comments and accepts only correct files. This
 //! lexer accepts any text and loses nothing but blanks. What a character means depends on the
-//! tokens before it (`*` in a unit, `{` after `state Name`), and only on these: it never looks back
-//! at the text.
+//! tokens before it (`*` in a unit, `{` after `state Name`, `[` after `F`), and only on these: it
+//! never looks back at the text.
 
 /// The kind of a token, as far as layout depends on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -12,6 +12,10 @@ pub(super) enum Kind {
     Word,
     /// An operator or a bracket.
     Symbol,
+    /// An operator whose word is a name elsewhere: `G`, `R`, `W`, `M`, `ensuring`.
+    Operator,
+    /// A bracket around the bound of an operator: `F[0, 3]`.
+    Bound,
     /// A part of a unit, which stands without blanks: `kg*m^2`.
     Unit,
     /// A comment.
@@ -38,20 +42,33 @@ impl Token<'_> {
             Kind::Word => !self.is_operator_word(),
             Kind::Symbol => matches!(self.text, ")" | "]" | "⊤" | "⊥"),
             Kind::Rust | Kind::Unit => true,
-            Kind::Comment | Kind::Doc => false,
+            Kind::Comment | Kind::Doc | Kind::Operator | Kind::Bound => false,
         }
     }
 
     /// Whether the token is an operator written as a word.
     pub(super) fn is_operator_word(&self) -> bool {
-        self.kind == Kind::Word
-            && matches!(self.text, "F" | "X" | "U" | "T" | "not" | "and" | "or" | "in")
+        self.kind == Kind::Operator
+            || self.kind == Kind::Word
+                && matches!(self.text, "F" | "X" | "U" | "T" | "not" | "and" | "or" | "in")
+    }
+
+    /// Whether the token is an operator that can have a bound.
+    fn takes_bound(&self) -> bool {
+        match self.kind {
+            Kind::Word | Kind::Operator => {
+                self.is_operator_word()
+                    && matches!(self.text, "F" | "X" | "U" | "T" | "G" | "R" | "W" | "M")
+            }
+            Kind::Symbol => matches!(self.text, "◇" | "<>" | "○" | "□" | "[]"),
+            _ => false,
+        }
     }
 }
 
 /// The symbols of several characters, a longer one before its beginnings.
-const SYMBOLS: [&str; 14] =
-    ["<=>", "<->", "..=", "..", "=>", "->", "&&", "||", "==", "!=", "<=", ">=", "<>", "::"];
+const SYMBOLS: [&str; 15] =
+    ["<=>", "<->", "..=", "..", "=>", "->", "&&", "||", "==", "!=", "<=", ">=", "<>", "[]", "::"];
 
 /// The tokens of a task file, in order; every character that is not blank is in one of them.
 pub(super) fn lex(text: &str) -> Vec<Token<'_>> {
@@ -90,12 +107,52 @@ fn one(rest: &str, first: char, before: &[Token<'_>]) -> (Kind, usize) {
     } else if first.is_ascii_digit() || first == '.' && starts_fraction(rest, before) {
         (Kind::Word, number(rest, before))
     } else if first.is_alphabetic() || first == '_' {
-        (Kind::Word, word(rest))
+        let length = word(rest);
+        let is_operator = is_operator(&rest[..length], &rest[length..], before);
+        (if is_operator { Kind::Operator } else { Kind::Word }, length)
     } else if first == '"' {
         (Kind::Word, quoted(rest, '"'))
     } else {
         let symbol = SYMBOLS.iter().find(|symbol| rest.starts_with(**symbol));
-        (Kind::Symbol, symbol.map_or(first.len_utf8(), |symbol| symbol.len()))
+        let length = symbol.map_or(first.len_utf8(), |symbol| symbol.len());
+        (if bounds(&rest[..length], before) { Kind::Bound } else { Kind::Symbol }, length)
+    }
+}
+
+/// Whether a word that may be a name is an operator here, with `rest` after it: between operands,
+/// or, as `G`, before one.
+fn is_operator(word: &str, rest: &str, before: &[Token<'_>]) -> bool {
+    let last = before.iter().rev().find(|token| token.kind != Kind::Comment);
+    let after_operand = last.is_some_and(Token::ends_operand);
+    let rest = rest.trim_start();
+    match word {
+        "R" | "W" | "M" | "ensuring" => after_operand,
+        "G" => {
+            !after_operand
+                && last.is_none_or(|last| !matches!(last.text, "." | "::"))
+                && (rest.starts_with("<>")
+                    || !rest.starts_with("!=")
+                        && rest
+                            .starts_with(|c: char| c.is_alphanumeric() || "_!¬(◇○□[⊤⊥".contains(c)))
+        }
+        _ => false,
+    }
+}
+
+/// Whether a bracket stands around a bound: it follows an operator, or ends what does.
+fn bounds(bracket: &str, before: &[Token<'_>]) -> bool {
+    /// More tokens than a bound has.
+    const MOST: usize = 16;
+    match bracket {
+        "[" => {
+            let last = before.iter().rev().find(|token| token.kind != Kind::Comment);
+            last.is_some_and(Token::takes_bound)
+        }
+        "]" => {
+            let open = before.iter().rev().take(MOST).find(|token| matches!(token.text, "[" | "]"));
+            open.is_some_and(|open| open.kind == Kind::Bound && open.text == "[")
+        }
+        _ => false,
     }
 }
 
