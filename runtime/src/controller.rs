@@ -14,7 +14,8 @@ use crate::policy::{Policy, PolicyError};
 use crate::reward::End;
 use crate::task::Error;
 
-/// A low-level controller: an action for a state.
+/// A low-level controller: an action for a state. It is `Send`, so that a hierarchy can be handed to the
+/// thread that steps the robot.
 ///
 /// Anything that can be called: a table, a planner, a PID loop with a state of its own. It is asked
 /// only at the automaton states that it was given to, and never told of the task.
@@ -33,7 +34,7 @@ use crate::task::Error;
 /// assert_eq!((hierarchy.q(), hierarchy.act(&2)), (Some(1), 0));
 /// # Ok::<(), tltl::task::Error>(())
 /// ```
-pub type Controller<'a, S> = Box<dyn FnMut(&S) -> usize + 'a>;
+pub type Controller<'a, S> = Box<dyn FnMut(&S) -> usize + Send + 'a>;
 
 /// Low-level controllers under an automaton.
 ///
@@ -73,7 +74,7 @@ impl<S, M: fmt::Debug> fmt::Debug for Hierarchy<'_, S, M> {
 impl<'a, S, M: Monitor<S>> Hierarchy<'a, S, M> {
     /// The hierarchy of `monitor`, in which `otherwise` acts at every automaton state until that
     /// is given a [controller](Self::with) of its own.
-    pub fn new(monitor: M, otherwise: impl FnMut(&S) -> usize + 'a) -> Self {
+    pub fn new(monitor: M, otherwise: impl FnMut(&S) -> usize + Send + 'a) -> Self {
         let controllers = (0..monitor.states()).map(|_| None).collect();
         Self { monitor, controllers, otherwise: Box::new(otherwise), q: None }
     }
@@ -84,7 +85,7 @@ impl<'a, S, M: Monitor<S>> Hierarchy<'a, S, M> {
     /// If `q` is not a state of the automaton.
     #[must_use]
     #[track_caller]
-    pub fn with(mut self, q: u32, controller: impl FnMut(&S) -> usize + 'a) -> Self {
+    pub fn with(mut self, q: u32, controller: impl FnMut(&S) -> usize + Send + 'a) -> Self {
         self.controllers[q as usize] = Some(Box::new(controller));
         self
     }

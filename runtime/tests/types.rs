@@ -26,7 +26,7 @@ use tltl::task::{Error, Parametric};
 use tltl::{Formula, Mismatch, OutOfRange, Shared, Task};
 use world::{A, B, Cell, both, eventually};
 
-fn is_printable<T: Debug + ?Sized>() {}
+fn is_sent<T: Debug + Send>() {}
 
 fn is_shared<T: Debug + Send + Sync>() {}
 
@@ -49,8 +49,8 @@ fn values_are_printed_sent_and_shared() {
         Settings, QTable, Policy, PolicyError, Network, NetworkPolicy, Problem, Optimum, Evaluation,
         Values, Certificate, Shield, Composition<'_>, Stepwise<'_>, Estimate, Interval, Trials,
     }
-    // Its controllers are functions that may do anything.
-    is_printable::<Hierarchy<'_, i32, Task<Silent>>>();
+    // Its controllers may have a memory, so that two threads cannot ask one at once.
+    is_sent::<Hierarchy<'_, i32, Task<Silent>>>();
 }
 
 /// What a name stands for says so.

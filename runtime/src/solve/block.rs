@@ -11,6 +11,19 @@
 //! 3. *Elimination*, for the values of a policy in a component of at most 1,024 pairs: where a policy
 //!    goes round in circles a sweep gains little, and a dense system of that size is soon solved.
 //!
+//! How often a pair is backed up until the end, on the paper's composed task (8 automaton states, slip
+//! 0.2) over 200 × 200 cells and, where two numbers stand, over 500 × 500:
+//!
+//! | | Q*, γ 0.95 | E\[steps\] |
+//! | --- | --- | --- |
+//! | as it is | 24, 27 | 18, 17 |
+//! | over-relaxed, without the window | 21, 24 | 25, 38 |
+//! | in the window, all factors 1 | 30 | 26 |
+//! | plain sweeps in the settled order | 62, 66 | 80, 155 |
+//! | plain sweeps in the order of distance | 68 | |
+//!
+//! So the window costs a tenth where values are discounted, and halves the work where they are not.
+//!
 //! All of it is deterministic: an order, no threads, no random numbers. The weak point is a large
 //! component of a world that mixes slowly (a chance of leaving of a millionth a step): such sweeps
 //! converge as slowly as the world does.
@@ -42,8 +55,9 @@ const PATIENCE_OVER: usize = 48;
 const ADVANCE: usize = 2;
 
 /// How often the window sweeps each pair. A pair also leans on those behind it, which come into the
-/// window a little later: one pass is not enough, and all that follow are cheap, for what did not
-/// change is skipped.
+/// window a little later: one pass is not enough (E\[steps\] on 200 × 200 cells then takes 25 backups a
+/// pair, with 8 passes 21, with 32 and with 128 18), and later ones are cheap, for what did not change is
+/// skipped.
 const OVERLAP: usize = 32;
 
 /// Changes below this, relative to the largest value, are not carried on by over-relaxed sweeps: a

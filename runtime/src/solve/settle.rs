@@ -9,7 +9,8 @@
 //! than the last sweep did, for each pair also leans on those behind it, which are wrong in the same
 //! way. Over-relaxation by 1 / (1 − γ(1 − m)), where m is the probability that the chosen action
 //! leads to pairs settled before, makes the weight of what is known 1, so that one sweep carries
-//! corrections over the whole world.
+//! corrections over the whole world. That is what settling is for: its order alone saves a tenth of the
+//! sweeps ([figures](mod@super::block)).
 //!
 //! What this is not: a solver. Nothing here bounds an error, and on worlds where the guesses are poor
 //! (many unlikely outcomes that lead far away) the sweeps that follow have more to do. Cost: each pair
@@ -89,7 +90,7 @@ impl Lookahead<'_> {
 
     /// The largest discounted value of the actions.
     ///
-    /// A NaN compares as not less, so an action of which nothing is known replaces nothing.
+    /// Comparisons with NaN are false, and [`Guess::or`] then keeps the one that is known.
     pub(super) fn best(&self, gamma: f64) -> Guess {
         let all = (0..self.actions()).map(|a| self.discounted(a, gamma));
         all.fold(Guess::NONE, |best, e| if e.value <= best.value { best } else { e.or(best) })
@@ -138,8 +139,8 @@ impl Guess {
     }
 }
 
-/// The largest over-relaxation. Theory allows factors below 2 for symmetric systems, which these are
-/// not; where little is known the factor above would be large, and sweeps would swing.
+/// The largest over-relaxation: a guard, for where little is known the factor above is large, and theory
+/// allows less than 2 even of symmetric systems. On grids with slip 0.2 a bound of 1.9 changes nothing.
 const MOST: f64 = 1.5;
 
 /// Pairs as they were settled.
