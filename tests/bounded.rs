@@ -1,17 +1,22 @@
 //! Operators with bounds and `ensuring`: random formulas against the definitions of each operator,
 //! read window by window.
 
+use std::convert::Infallible;
 use std::ops::RangeInclusive;
 
 use proptest::prelude::*;
+use tltl::{Acceptor, Monitor, robustness};
+use tltl_compiler::check;
 use tltl_compiler::dfa::Dfa;
 use tltl_compiler::minimize::minimize;
-use tltl_compiler::source::Span;
-use tltl_compiler::spec::{FormulaId, Spec};
+use tltl_compiler::source::{Source, Span};
+use tltl_compiler::spec::{Formula, FormulaId, Spec};
 use tltl_compiler::translate::{Budget, translate};
-use tltlc::semantics;
+use tltlc::evaluate::{Columns, Evaluator, Scratch};
+use tltlc::task::compile;
+use tltlc::{semantics, tables};
 
-use crate::random::{Bytes, Choices, NAMES};
+use crate::random::{self, Bytes, Choices, NAMES, Seeded};
 
 /// The number of propositions.
 const COUNT: u32 = 3;
@@ -182,11 +187,53 @@ fn chosen(bytes: &[u8], ensuring: bool) -> (Tree, Spec) {
     let mut choices = Bytes(bytes);
     let operators = choices.choose(6);
     let tree = Tree::random(&mut choices, operators, ensuring);
+    let spec = spec(&tree);
+    (tree, spec)
+}
+
+fn spec(tree: &Tree) -> Spec {
     let names = NAMES[..COUNT as usize].iter().map(|&name| name.into());
     let mut spec = Spec::new(names.collect());
     let root = tree.build(&mut spec);
     spec.set_root(root);
-    (tree, spec)
+    spec
+}
+
+/// The formula with every bound written out in `X`, `&&` and `||`.
+fn written_out(spec: &Spec) -> Spec {
+    let mut plain = Spec::new(spec.propositions().to_vec());
+    let ids: Vec<_> = spec.formulas().map(|(id, _)| id).collect();
+    let images = plain.rebuild(spec, &ids, &mut |plain, _, formula| steps(plain, formula));
+    plain.set_root(images[spec.root().0 as usize]);
+    plain
+}
+
+/// One operator, with a step for each of its bound.
+fn steps(spec: &mut Spec, formula: Formula) -> FormulaId {
+    let at = Span::default();
+    let (n, a, last) = match formula {
+        Formula::Delay(n, a) | Formula::Within(n, a) | Formula::Throughout(n, a) => (n, a, a),
+        Formula::UntilWithin(n, a, b) => (n, a, b),
+        other => return spec.add(other, at),
+    };
+    (0..n).fold(last, |rest, _| {
+        let later = spec.next(rest, at);
+        match formula {
+            Formula::Within(..) => spec.or(a, later, at),
+            Formula::Throughout(..) => spec.and(a, later, at),
+            Formula::UntilWithin(..) => {
+                let hold = spec.and(a, later, at);
+                spec.or(last, hold, at)
+            }
+            _ => later,
+        }
+    })
+}
+
+/// The robustness that the evaluator of columns gives.
+fn by_columns(evaluator: &Evaluator, rows: usize, numbers: &[f64]) -> f64 {
+    let columns = Columns::of_rows(rows, evaluator.inputs().len(), numbers).unwrap();
+    evaluator.robustness(&columns, &mut Scratch::default()).unwrap()
 }
 
 fn minimal(spec: &Spec) -> Dfa {
@@ -213,12 +260,36 @@ proptest! {
         prop_assert_eq!(found, tree.rho(&trace, 0), "{:?} as {}", tree, spec);
     }
 
+    /// Every engine gives the robustness of the definitions on every prefix. It never falls as the
+    /// trajectory grows, and its sign is the verdict of the automaton.
+    #[test]
+    fn engines_give_the_robustness_of_the_definitions(bytes in bytes(), trace in traces()) {
+        let (tree, spec) = chosen(&bytes, false);
+        let task = compile(&spec.to_string(), Budget::SHOWN).unwrap();
+        let names: Vec<_> = task.inputs().iter().map(|input| input.name.as_str().into()).collect();
+        let places = random::places(&names);
+        let rows: Vec<Vec<f64>> =
+            trace.iter().map(|row| places.iter().map(|&place| row[place]).collect()).collect();
+        let (mut q, mut before) = (0, f64::NEG_INFINITY);
+        for length in 1..=trace.len() {
+            let expected = tree.rho(&trace[..length], 0);
+            let about = format!("{spec} on {:?}", &trace[..length]);
+            let columns = by_columns(task.evaluator(), length, &rows[..length].concat());
+            prop_assert_eq!(columns, expected, "{}", &about);
+            prop_assert_eq!(by_operators(&spec, &trace[..length]), expected, "{}", &about);
+            prop_assert!(expected >= before, "{}", &about);
+            q = task.next(q, &rows[length - 1]).unwrap();
+            prop_assert_eq!(expected > 0.0, task.is_accepting(q), "{}", &about);
+            before = expected;
+        }
+    }
+
     /// The automaton of a formula with bounds is that of the same formula without any, written out
     /// in `X`, `&&` and `||`.
     #[test]
     fn automata_are_those_of_bounds_written_out(bytes in bytes()) {
         let (_, spec) = chosen(&bytes, true);
-        let [bounded, plain] = [&spec, &spec.unrolled()].map(minimal);
+        let [bounded, plain] = [&spec, &written_out(&spec)].map(minimal);
         prop_assert_eq!(bounded.transitions, plain.transitions, "{}", spec);
         prop_assert_eq!(bounded.diagram.nodes(), plain.diagram.nodes(), "{}", spec);
         prop_assert_eq!(bounded.accepting, plain.accepting);
@@ -231,4 +302,42 @@ proptest! {
         let found = semantics::satisfied(&spec, trace.len(), holds);
         prop_assert_eq!(found, tree.rho(&trace, 0) > 0.0, "{:?} as {}", tree, spec);
     }
+}
+
+/// Windows that are shorter and longer than a block of rows and than the trajectory.
+#[test]
+fn long_windows_give_the_robustness_of_their_definitions() {
+    let mut choices = Seeded(7);
+    let mut number = || f64::from(choices.choose(1000)) - 700.5;
+    let trace: Vec<[f64; 5]> = (0..700).map(|_| [(); 5].map(|()| number())).collect();
+    let rows: Vec<Vec<f64>> = trace.iter().map(|row| row[..2].to_vec()).collect();
+    for (first, last) in [(0, 1), (0, 2), (1, 255), (0, 256), (300, 557), (0, 699), (0, 100_000)] {
+        let (steps, a) = (first..=last, Tree::Literal(0, false));
+        for tree in [
+            Tree::EventuallyIn(steps.clone(), Box::new(a.clone())),
+            Tree::ThroughoutIn(steps.clone(), Box::new(a.clone())),
+            Tree::Next(last, Box::new(a.clone())),
+            Tree::UntilIn(steps, Box::new([a, Tree::Literal(1, true)])),
+        ] {
+            let spec = spec(&tree);
+            let expected = tree.rho(&trace, 0);
+            assert_eq!(by_operators(&spec, &trace), expected, "{spec}");
+            let module = check::formula(&Source::new("formula", spec.to_string())).unwrap();
+            let evaluator = Evaluator::new(&module, &module.tasks[0]).unwrap();
+            let width = evaluator.inputs().len();
+            let rows = rows.iter().flat_map(|row| &row[..width]).copied().collect::<Vec<_>>();
+            assert_eq!(by_columns(&evaluator, trace.len(), &rows), expected, "{spec}");
+        }
+    }
+}
+
+/// The robustness by the runtime's pass over the operators, in memory of just the size it states.
+fn by_operators(spec: &Spec, trace: &[[f64; 5]]) -> f64 {
+    let formula = tables::formula(spec, "").unwrap();
+    let operators = formula.operators();
+    let mut now = vec![0.0; robustness::cells(operators, trace.len())];
+    let mut next = vec![0.0; operators.len()];
+    let rho = |p: usize, t: usize| Ok::<f64, Infallible>(trace[t][p]);
+    let Ok(rho) = robustness::trajectory(operators, trace.len(), &mut now, &mut next, rho);
+    rho
 }

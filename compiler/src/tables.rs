@@ -119,8 +119,14 @@ pub enum Operator {
     Or(u32, u32),
     /// ○φ, strong
     Next(u32),
+    /// X[n] φ, strong; the bound comes first, here and below
+    Delay(u32, u32),
     /// ◇φ
     Eventually(u32),
+    /// F[0,n] φ
+    Within(u32, u32),
+    /// G[0,n] φ, strong
+    Throughout(u32, u32),
     /// φ U ψ, strong
     Until(u32, u32),
     /// φ T ψ; the operands are φ and ◇ψ
@@ -129,6 +135,11 @@ pub enum Operator {
 
 /// The operators of a formula, operands first; the last one is the whole formula. Operators that
 /// the root does not need are left out, and shared ones stand there once.
+///
+/// There is none for φ U[0,n] ψ, which is (φ U ψ) ∧ F[0,n] ψ: if ψ comes at all and comes within n
+/// instants, then so does its first instant, until which φ holds. Minima and maxima only select, so
+/// the two have the same robustness too (each threshold on it is a Boolean reading; Donzé, Ferrère
+/// and Maler, "Efficient Robust Monitoring for STL", 2013, Lemma 2).
 ///
 /// ```
 /// use tltl_compiler::{check, source::Source, tables::{Operator, operators}};
@@ -141,14 +152,12 @@ pub enum Operator {
 /// ```
 #[must_use]
 pub fn operators(spec: &Spec) -> Vec<Operator> {
-    let spec = &spec.unrolled();
     let reachable = spec.reachable();
     let mut place = vec![0_u32; reachable.len()];
     let mut operators = Vec::new();
     for (id, formula) in spec.formulas().filter(|(id, _)| reachable[id.0 as usize]) {
-        place[id.0 as usize] = operators.len() as u32;
         let at = |operand: crate::spec::FormulaId| place[operand.0 as usize];
-        operators.push(match formula {
+        let operator = match formula {
             Formula::True => Operator::True,
             Formula::False => Operator::False,
             Formula::Literal { proposition, negated: false } => Operator::Is(proposition),
@@ -156,13 +165,35 @@ pub fn operators(spec: &Spec) -> Vec<Operator> {
             Formula::And(a, b) => Operator::And(at(a), at(b)),
             Formula::Or(a, b) => Operator::Or(at(a), at(b)),
             Formula::Next(a) => Operator::Next(at(a)),
+            Formula::Delay(n, a) => Operator::Delay(n, at(a)),
             Formula::Eventually(a) => Operator::Eventually(at(a)),
+            Formula::Within(n, a) => Operator::Within(n, at(a)),
+            Formula::Throughout(n, a) => Operator::Throughout(n, at(a)),
             Formula::Until(a, b) => Operator::Until(at(a), at(b)),
+            Formula::UntilWithin(n, a, b) => {
+                let until = operators.len() as u32;
+                operators.extend([Operator::Until(at(a), at(b)), Operator::Within(n, at(b))]);
+                Operator::And(until, until + 1)
+            }
             Formula::Then(a, b) => Operator::Then(at(a), at(b)),
-            _ => unreachable!("bounds are written out"),
-        });
+        };
+        place[id.0 as usize] = operators.len() as u32;
+        operators.push(operator);
     }
     operators
+}
+
+/// The numbers that the robustness of a formula with these operators works on, on trajectories of
+/// any length: one for each operator, and a window for each bound. The runtime's
+/// `robustness::cells` says why these.
+#[must_use]
+pub fn cells(operators: &[Operator]) -> usize {
+    let windows = operators.iter().map(|operator| match *operator {
+        Operator::Delay(n, _) => n as usize,
+        Operator::Within(n, _) | Operator::Throughout(n, _) => n as usize + 2,
+        _ => 0,
+    });
+    windows.fold(operators.len(), usize::saturating_add)
 }
 
 /// The tables of an automaton, which should be minimal: the guards are written out, and there may

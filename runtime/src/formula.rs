@@ -25,8 +25,15 @@ pub enum Op {
     Or(u32, u32),
     /// ○φ, strong: there must be a next state.
     Next(u32),
+    /// X[n] φ, strong: φ at the instant n steps later, which must exist. The bound comes before the
+    /// operand, here and below.
+    Delay(u32, u32),
     /// ◇φ.
     Eventually(u32),
+    /// F[0,n] φ: φ now or at one of the next n instants.
+    Within(u32, u32),
+    /// G[0,n] φ, strong: φ now and at each of the next n instants, which must exist.
+    Throughout(u32, u32),
     /// φ U ψ, strong.
     Until(u32, u32),
     /// φ T ψ: φ at some instant, ψ at a strictly later one. The operands are φ and ◇ψ.
@@ -112,6 +119,7 @@ pub(crate) fn check_operators(ops: &[Op], propositions: usize) -> Result<(), Tab
             Op::True | Op::False => {}
             Op::Is(i) | Op::Not(i) => limited(i, propositions)?,
             Op::Next(a) | Op::Eventually(a) => limited(a, k)?,
+            Op::Delay(_, a) | Op::Within(_, a) | Op::Throughout(_, a) => limited(a, k)?,
             Op::And(a, b) | Op::Or(a, b) | Op::Until(a, b) | Op::Then(a, b) => {
                 limited(a, k)?;
                 limited(b, k)?;

@@ -48,6 +48,25 @@ pub fn no_predicate(i: usize) -> ! {
     panic!("there is no predicate {i}")
 }
 
+/// Calls `f` with two buffers that are too large for the stack: from the heap, of the `cells` that a
+/// trajectory needs at most, if there is a heap.
+#[cfg(feature = "alloc")]
+pub fn large_scratch<const NOW: usize, const NEXT: usize, R>(
+    cells: usize,
+    f: impl FnOnce(&mut [f64], &mut [f64]) -> R,
+) -> R {
+    f(&mut alloc::vec![0.0; cells], &mut alloc::vec![0.0; NEXT])
+}
+
+/// Calls `f` with two buffers of the sizes that any trajectory needs at most.
+#[cfg(not(feature = "alloc"))]
+pub fn large_scratch<const NOW: usize, const NEXT: usize, R>(
+    _: usize,
+    f: impl FnOnce(&mut [f64], &mut [f64]) -> R,
+) -> R {
+    f(&mut [0.0; NOW], &mut [0.0; NEXT])
+}
+
 /// Stands in for the predicates of a formula that did not compile. It is a predicate of all states, so
 /// that the code around the macro has no further error.
 #[derive(Clone, Copy, Debug)]

@@ -11,11 +11,14 @@
 //! [`guard`], [`trajectory`] and [`best_run`] work on the robustness of propositions, wherever that
 //! comes from; [`Task`](crate::Task) applies them to states.
 
-use core::fmt;
+mod window;
+
+use core::{fmt, mem};
 
 use crate::automaton::{Automaton, Guard, proposition};
 pub use crate::formula::Op;
 use crate::shared::Shared;
+pub use window::Window;
 
 /// A predicate met a value that is not a number. The task knows which one, and adds its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -209,15 +212,17 @@ pub trait Predicates<S: ?Sized> {
     /// If there is no predicate `i`.
     fn holds(&self, i: usize, s: &S) -> Result<bool, NotANumber>;
 
-    /// Calls `f` with two buffers of at least `cells` numbers each. Generated code knows the number
-    /// and gives two arrays, so that the robustness of a trajectory allocates nothing.
+    /// Calls `f` with two buffers, the first of at least `cells` numbers, the second with one for
+    /// each operator of the formula or state of the automaton. Generated code knows the numbers and
+    /// gives two arrays, so that the robustness of a trajectory allocates nothing.
     #[cfg(feature = "alloc")]
     #[doc(hidden)]
     fn with_scratch<R>(&self, cells: usize, f: impl FnOnce(&mut [f64], &mut [f64]) -> R) -> R {
         f(&mut alloc::vec![0.0; cells], &mut alloc::vec![0.0; cells])
     }
 
-    /// Calls `f` with two buffers of at least `cells` numbers each.
+    /// Calls `f` with two buffers, the first of at least `cells` numbers, the second with one for
+    /// each operator of the formula or state of the automaton.
     #[cfg(not(feature = "alloc"))]
     #[doc(hidden)]
     fn with_scratch<R>(&self, cells: usize, f: impl FnOnce(&mut [f64], &mut [f64]) -> R) -> R;
@@ -309,18 +314,20 @@ pub fn progress_of_all<E>(
 /// gives -∞.
 ///
 /// One backward pass: every temporal operator is a recursion on its value at the next instant
-/// (ρ(◇φ, t) = max(ρ(φ, t), ρ(◇φ, t + 1))), so two columns of values are enough. O(length ×
-/// operators) time, no allocation; `now` and `next` are the columns, with a cell for each operator.
+/// (ρ(◇φ, t) = max(ρ(φ, t), ρ(◇φ, t + 1))), so two columns of values are enough, with a cell for each
+/// operator. Operators with a bound have a [`Window`] of cells each, after the values in `now`;
+/// [`cells`] is the length that `now` needs. O(length × operators) time, whatever the bounds; no
+/// allocation.
 ///
 /// # Errors
 /// The first error of `rho`.
 ///
 /// # Panics
-/// If the columns differ in length or are too short, or an operand is not an earlier operator.
+/// If `now` or `next` is too short, or an operand is not an earlier operator.
 ///
 /// ```
 /// use core::convert::Infallible;
-/// use tltl::robustness::{Op, trajectory};
+/// use tltl::robustness::{Op, cells, trajectory};
 ///
 /// // F (a && b), where a is −1, 2, 1 and b is 3, 0.5, −2.
 /// let formula = [Op::Is(0), Op::Is(1), Op::And(0, 1), Op::Eventually(2)];
@@ -328,6 +335,12 @@ pub fn progress_of_all<E>(
 /// let rho = |i: usize, t: usize| Ok::<f64, Infallible>(values[i][t]);
 /// let (mut now, mut next) = ([0.0; 4], [0.0; 4]);
 /// assert_eq!(trajectory(&formula, 3, &mut now, &mut next, rho), Ok(0.5));
+///
+/// // F[0,1] b: the last instant does not count.
+/// let formula = [Op::Is(1), Op::Within(1, 0)];
+/// assert_eq!(cells(&formula, 3), 5);
+/// let (mut now, mut next) = ([0.0; 5], [0.0; 2]);
+/// assert_eq!(trajectory(&formula, 3, &mut now, &mut next, rho), Ok(3.0));
 /// ```
 pub fn trajectory<E>(
     operators: &[Op],
@@ -336,9 +349,17 @@ pub fn trajectory<E>(
     next: &mut [f64],
     mut rho: impl FnMut(usize, usize) -> Result<f64, E>,
 ) -> Result<f64, E> {
-    next.fill(f64::NEG_INFINITY);
     now.fill(f64::NEG_INFINITY);
+    let (now, windows) = now.split_at_mut(operators.len());
+    let next = &mut next[..operators.len()];
+    next.fill(f64::NEG_INFINITY);
     for t in (0..length).rev() {
+        let mut windows = &mut *windows;
+        let mut push = |window: Window, value| {
+            let (cells, others) = mem::take(&mut windows).split_at_mut(window.cells(length));
+            windows = others;
+            window.push(cells, length - 1 - t, value)
+        };
         for (k, op) in operators.iter().enumerate() {
             now[k] = match *op {
                 Op::True => f64::INFINITY,
@@ -351,11 +372,35 @@ pub fn trajectory<E>(
                 Op::Eventually(a) => max(now[a as usize], next[k]),
                 Op::Until(a, b) => max(now[b as usize], min(now[a as usize], next[k])),
                 Op::Then(a, b) => max(min(now[a as usize], next[b as usize]), next[k]),
+                Op::Delay(n, a) => push(Window::Later(n), now[a as usize]),
+                Op::Within(n, a) => push(Window::Greatest(n), now[a as usize]),
+                Op::Throughout(n, a) => push(Window::Least(n), now[a as usize]),
             };
         }
         next.copy_from_slice(now);
     }
     Ok(operators.len().checked_sub(1).map_or(f64::NEG_INFINITY, |last| now[last]))
+}
+
+/// The number of cells that the robustness of a formula needs on a trajectory of so many states: one
+/// for each operator, and those of the windows.
+///
+/// ```
+/// use tltl::robustness::{Op, cells};
+///
+/// let formula = [Op::Is(0), Op::Throughout(1000, 0)];
+/// // A window is never longer than the trajectory.
+/// assert_eq!((cells(&formula, 10), cells(&formula, 100_000)), (14, 1004));
+/// ```
+#[must_use]
+pub fn cells(operators: &[Op], length: usize) -> usize {
+    let windows = operators.iter().map(|op| match *op {
+        Op::Delay(n, _) => Window::Later(n).cells(length),
+        Op::Within(n, _) => Window::Greatest(n).cells(length),
+        Op::Throughout(n, _) => Window::Least(n).cells(length),
+        _ => 0,
+    });
+    windows.fold(operators.len(), usize::saturating_add)
 }
 
 /// Robustness of a whole trajectory of `length` states by an automaton that came without a formula:

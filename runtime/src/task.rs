@@ -341,8 +341,10 @@ impl<P> Reader<'_, P> {
         };
         let (operators, length) = (self.formula.operators(), trajectory.len());
         // Of a run there is a cell for each state.
-        let cells =
-            if operators.is_empty() { self.automaton.states() as usize } else { operators.len() };
+        let cells = match operators {
+            [] => self.automaton.states() as usize,
+            _ => robustness::cells(operators, length),
+        };
         self.predicates.with_scratch(cells, |now, next| match operators {
             [] => robustness::best_run(self.automaton, length, now, next, rho),
             _ => robustness::trajectory(operators, length, now, next, rho),

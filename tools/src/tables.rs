@@ -76,7 +76,10 @@ pub fn formula(spec: &Spec, text: &str) -> Result<Formula, TableError> {
         Operator::And(a, b) => Op::And(a, b),
         Operator::Or(a, b) => Op::Or(a, b),
         Operator::Next(a) => Op::Next(a),
+        Operator::Delay(n, a) => Op::Delay(n, a),
         Operator::Eventually(a) => Op::Eventually(a),
+        Operator::Within(n, a) => Op::Within(n, a),
+        Operator::Throughout(n, a) => Op::Throughout(n, a),
         Operator::Until(a, b) => Op::Until(a, b),
         Operator::Then(a, b) => Op::Then(a, b),
     });

@@ -29,7 +29,8 @@ pub fn automaton(name: &str, dfa: &Dfa, runtime: &TokenStream, place: Place) -> 
         format!("The task of the automaton `{name}`, over one predicate for each proposition:");
     let docs = documentation(&[about], &[propositions.join(", "), sizes(dfa)]);
     // Without a formula, robustness is that of the best run, which keeps a cell for each state.
-    let implementation = positional(&types, &ident("Predicates"), runtime, &names, dfa.len());
+    let scratch = [dfa.len(); 2];
+    let implementation = positional(&types, &ident("Predicates"), runtime, &names, scratch);
     quote! {
         #docs
         #[must_use]

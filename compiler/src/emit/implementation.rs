@@ -9,6 +9,8 @@ use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 
 use crate::emit::names::{Names, Place};
+use crate::spec::Spec;
+use crate::tables::{cells, operators};
 
 /// The parts of an implementation. For a task of a file the state is one type, and the arms are the
 /// code of the predicates; for a bare formula it is any type that all predicates read.
@@ -31,10 +33,20 @@ pub(super) struct Implementation<'a> {
     pub(super) robustness: TokenStream,
     /// The arms `number => truth,`.
     pub(super) holds: TokenStream,
-    /// The cells of scratch space that the robustness of a trajectory needs, one for each operator.
-    /// The number is known here, so the space is an array on the stack.
-    pub(super) scratch: usize,
+    /// The cells of the two buffers that the robustness of a trajectory needs. The numbers are known
+    /// here, so the buffers are arrays on the stack, unless they are large.
+    pub(super) scratch: [usize; 2],
 }
+
+/// The cells of the two buffers for a formula.
+pub(super) fn scratch(spec: &Spec) -> [usize; 2] {
+    let operators = operators(spec);
+    [cells(&operators), operators.len()]
+}
+
+/// Larger buffers are left to the runtime, which takes them from the heap if there is one: 32 KB, of
+/// the 2 MB that the stack of a thread has.
+const LARGE: usize = 4096;
 
 impl Implementation<'_> {
     /// The `impl` block.
@@ -42,7 +54,7 @@ impl Implementation<'_> {
         let Self { runtime, lints, generics, state, argument: s, name, robustness, holds, .. } =
             self;
         let (i, f) = (self.names.local("i"), self.names.local("f"));
-        let scratch = Literal::usize_unsuffixed(self.scratch);
+        let (cells, scratch) = self.scratch(&f);
         quote! {
             #lints
             impl #generics #runtime::robustness::Predicates<#state> for #name {
@@ -67,16 +79,28 @@ impl Implementation<'_> {
                 #[inline]
                 fn with_scratch<__R>(
                     &self,
-                    _: ::core::primitive::usize,
+                    #cells: ::core::primitive::usize,
                     #f: impl ::core::ops::FnOnce(
                         &mut [::core::primitive::f64],
                         &mut [::core::primitive::f64],
                     ) -> __R,
                 ) -> __R {
-                    #f(&mut [0.0; #scratch], &mut [0.0; #scratch])
+                    #scratch
                 }
             }
         }
+    }
+
+    /// How `with_scratch` names the number of cells, and calls `f`.
+    fn scratch(&self, f: &Ident) -> (TokenStream, TokenStream) {
+        let runtime = self.runtime;
+        let [now, next] = self.scratch.map(Literal::usize_unsuffixed);
+        if self.scratch[0] <= LARGE {
+            return (quote! { _ }, quote! { #f(&mut [0.0; #now], &mut [0.0; #next]) });
+        }
+        let cells = self.names.local("cells");
+        let call = quote! { #runtime::private::large_scratch::<#now, #next, __R>(#cells, #f) };
+        (quote! { #cells }, call)
     }
 }
 
@@ -87,7 +111,7 @@ pub(super) fn positional(
     name: &Ident,
     runtime: &TokenStream,
     names: &Names,
-    scratch: usize,
+    scratch: [usize; 2],
 ) -> TokenStream {
     let places: Vec<_> = (0..types.len()).map(Literal::usize_unsuffixed).collect();
     let s = names.local("s");

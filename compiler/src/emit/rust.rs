@@ -34,14 +34,14 @@ use crate::compile::{Compiled, Factored, Part};
 use crate::dfa::Dfa;
 use crate::emit::declare::{Parameters, documentation};
 pub use crate::emit::declare::{sizes, visible};
-use crate::emit::implementation::{Implementation, positional};
+use crate::emit::implementation::{Implementation, positional, scratch};
 use crate::emit::names::{Names, ident};
 pub use crate::emit::names::{Place, module as module_name};
 use crate::emit::predicates::{Reading, Scope};
 use crate::emit::tables as emit;
 use crate::predicate::{Condition, Predicate, PredicateId, State, Task};
 use crate::source::Span;
-use crate::tables::{operators, tables};
+use crate::tables::tables;
 
 /// Settings that fit the code to its surroundings.
 pub struct Options<'a> {
@@ -99,7 +99,7 @@ fn expression(compiled: &Compiled, options: &Options<'_>) -> TokenStream {
     let types: Vec<Ident> = (0..task.predicates.len()).map(|i| format_ident!("__P{}", i)).collect();
     let name = ident("__Predicates");
     let names = &emitter.scope.names;
-    let implementation = positional(&types, &name, runtime, names, operators(&task.spec).len());
+    let implementation = positional(&types, &name, runtime, names, scratch(&task.spec));
     quote! {
         ({
             #[derive(::core::clone::Clone, ::core::marker::Copy)]
@@ -396,7 +396,7 @@ impl<'a> Emitter<'a> {
             name: quote! { #function },
             robustness: of(Reading::Robustness),
             holds: of(Reading::Truth),
-            scratch: operators(&task.spec).len(),
+            scratch: scratch(&task.spec),
         }
         .tokens()
     }

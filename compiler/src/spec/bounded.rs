@@ -284,39 +284,6 @@ impl Spec {
         }
     }
 
-    /// The same formula with every bound written out in `X`, `&&` and `||`; as long as the bounds
-    /// are large.
-    #[must_use]
-    pub fn unrolled(&self) -> Self {
-        let mut plain = Self::new(self.propositions.clone());
-        let ids: Vec<_> = self.formulas().map(|(id, _)| id).collect();
-        let images = plain
-            .rebuild(self, &ids, &mut |plain, id, formula| plain.unroll(formula, self.span(id)));
-        plain.set_root(images[self.root.0 as usize]);
-        plain
-    }
-
-    /// One operator written out.
-    fn unroll(&mut self, formula: Formula, span: Span) -> FormulaId {
-        let (n, a, last) = match formula {
-            Formula::Delay(n, a) | Formula::Within(n, a) | Formula::Throughout(n, a) => (n, a, a),
-            Formula::UntilWithin(n, a, b) => (n, a, b),
-            other => return self.add(other, span),
-        };
-        (0..n).fold(last, |rest, _| {
-            let later = self.next(rest, span);
-            match formula {
-                Formula::Within(..) => self.or(a, later, span),
-                Formula::Throughout(..) => self.and(a, later, span),
-                Formula::UntilWithin(..) => {
-                    let hold = self.and(a, later, span);
-                    self.or(last, hold, span)
-                }
-                _ => later,
-            }
-        })
-    }
-
     /// G[0,n-1] φ && X[n] ψ: ψ so many steps from now, φ at each instant before that.
     fn after_all(&mut self, n: u32, a: FormulaId, b: FormulaId, span: Span) -> FormulaId {
         let later = self.delay(n, b, span);

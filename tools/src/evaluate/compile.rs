@@ -9,6 +9,7 @@
 use std::hash::Hash;
 
 use rustc_hash::{FxHashMap, FxHashSet};
+use tltl::robustness::Window;
 use tltl_compiler::ast::{Arithmetic, Comparison};
 use tltl_compiler::predicate::{
     Condition, ConditionId, Function, Module, Number, Scalar, State, Step as PlaceStep, Struct,
@@ -17,7 +18,7 @@ use tltl_compiler::predicate::{
 use tltl_compiler::spec::{Formula, FormulaId, Spec};
 use tltl_compiler::unit::Unit;
 
-use super::program::{Carry, Operand, Operation, Program, Step};
+use super::program::{Operand, Operation, Program, Step};
 use super::{Input, InputKind, Unreadable};
 
 /// The reading of a predicate that is computed: a number, or a truth value.
@@ -140,7 +141,7 @@ pub(super) fn predicates(
 ) -> Program {
     let mut compiler = Compiler::new(module, inputs, reading);
     compiler.predicates(roots);
-    Program::new(compiler.steps, 0)
+    Program::new(compiler.steps)
 }
 
 /// Compiles the formula of a task: the outputs are the robustness of each predicate, and after
@@ -154,7 +155,7 @@ pub(super) fn formula(
     let mut compiler = Compiler::new(module, inputs, Reading::Robustness);
     let predicates = compiler.predicates(roots);
     compiler.formula(&task.spec, &predicates);
-    Program::new(compiler.steps, compiler.carries)
+    Program::new(compiler.steps)
 }
 
 /// The steps so far, and the results that are known. The register of a result is the number of its
@@ -164,7 +165,6 @@ struct Compiler<'a> {
     inputs: &'a Inputs,
     reading: Reading,
     steps: Vec<Step>,
-    carries: u32,
     terms: FxHashMap<TermId, Operand>,
     conditions: FxHashMap<ConditionId, Operand>,
 }
@@ -176,7 +176,6 @@ impl<'a> Compiler<'a> {
             inputs,
             reading,
             steps: Vec::new(),
-            carries: 0,
             terms: FxHashMap::default(),
             conditions: FxHashMap::default(),
         }
@@ -343,7 +342,6 @@ impl<'a> Compiler<'a> {
 
     /// The steps for the operators of a formula over its predicates, and the output of the whole.
     fn formula(&mut self, spec: &Spec, predicates: &[Operand]) {
-        let spec = &spec.unrolled();
         let reachable = spec.reachable();
         let mut known = vec![Operand::Constant(f64::NEG_INFINITY); reachable.len()];
         for (id, formula) in spec.formulas().filter(|(id, _)| reachable[id.0 as usize]) {
@@ -364,37 +362,37 @@ impl<'a> Compiler<'a> {
             }
             Formula::And(a, b) => self.step(Operation::Least, of(a), of(b)),
             Formula::Or(a, b) => self.step(Operation::Greatest, of(a), of(b)),
-            Formula::Next(a) => self.next(of(a)),
-            Formula::Eventually(a) => self.eventually(of(a)),
-            Formula::Until(a, b) => {
-                let (a, b, carry) = (self.result(of(a)), self.result(of(b)), self.carry());
-                self.step(Operation::Until(carry), a, b)
+            Formula::Next(a) => self.along(Operation::Next, of(a)),
+            Formula::Delay(n, a) => self.along(Operation::Window(Window::Later(n)), of(a)),
+            Formula::Eventually(a) => self.along(Operation::Eventually, of(a)),
+            Formula::Within(n, a) => self.along(Operation::Window(Window::Greatest(n)), of(a)),
+            Formula::Throughout(n, a) => self.along(Operation::Window(Window::Least(n)), of(a)),
+            Formula::Until(a, b) => self.until(of(a), of(b)),
+            // As the operators of the compiler's tables have it.
+            Formula::UntilWithin(n, a, b) => {
+                let until = self.until(of(a), of(b));
+                let soon = self.along(Operation::Window(Window::Greatest(n)), of(b));
+                self.step(Operation::Least, until, soon)
             }
             // `a T b` is `F (a && X b)`, since the arena has `F` around the `b` of a `T`: once `b`
             // can come later, it can come at any later row.
             Formula::Then(a, b) => {
-                let later = self.next(of(b));
+                let later = self.along(Operation::Next, of(b));
                 let both = self.step(Operation::Least, of(a), later);
-                self.eventually(both)
+                self.along(Operation::Eventually, both)
             }
-            _ => unreachable!("bounds are written out"),
         }
     }
 
-    fn next(&mut self, a: Operand) -> Operand {
-        let (a, carry) = (self.result(a), self.carry());
-        self.unary(Operation::Next(carry), a)
+    /// A step that relates rows.
+    fn along(&mut self, operation: Operation, a: Operand) -> Operand {
+        let a = self.result(a);
+        self.unary(operation, a)
     }
 
-    fn eventually(&mut self, a: Operand) -> Operand {
-        let (a, carry) = (self.result(a), self.carry());
-        self.unary(Operation::Eventually(carry), a)
-    }
-
-    /// A new carry, for an operator that relates rows.
-    fn carry(&mut self) -> Carry {
-        self.carries += 1;
-        Carry(self.carries - 1)
+    fn until(&mut self, a: Operand, b: Operand) -> Operand {
+        let (a, b) = (self.result(a), self.result(b));
+        self.step(Operation::Until, a, b)
     }
 }
 

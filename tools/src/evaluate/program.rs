@@ -15,8 +15,10 @@
 //! # Time
 //!
 //! Blocks run from the last row to the first, and within a block the temporal operators do too:
-//! each needs only its own value in the next row, which a [`Carry`] hands from block to block.
+//! each needs only its own value in the next row, or a [`Window`] of them if it has a bound, which
+//! are carried from block to block.
 
+use tltl::robustness::Window;
 use tltl_compiler::predicate::Function;
 
 use super::column::Columns;
@@ -67,23 +69,26 @@ pub(super) enum Operation {
     /// Whether a ≥ 0, as a truth value; NaN if a is.
     NotNegative,
     /// a in the next row.
-    Next(Carry),
+    Next,
     /// The greatest a from this row on.
-    Eventually(Carry),
+    Eventually,
     /// The greatest, over the rows from this one on, of b there and a in all rows before it.
-    Until(Carry),
+    Until,
+    /// An operator with a bound.
+    Window(Window),
     /// Hands a to the caller, as the output of this number.
     Emit(u32),
 }
 
-/// A number that a block leaves for the block before it. All carries are -∞ at the end of the
-/// trajectory, where no later row exists.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Carry(pub(super) u32);
-
-impl Carry {
-    fn of(self, carries: &mut [f64]) -> &mut f64 {
-        &mut carries[self.0 as usize]
+impl Operation {
+    /// The numbers that it leaves in a block for the block before it, on so many rows. All are -∞ at
+    /// the end of the trajectory, where no later row exists.
+    fn carries(self, rows: usize) -> usize {
+        match self {
+            Self::Next | Self::Eventually | Self::Until => 1,
+            Self::Window(window) => window.cells(rows),
+            _ => 0,
+        }
     }
 }
 
@@ -113,13 +118,12 @@ impl Step {
 pub(super) struct Program {
     steps: Vec<Step>,
     registers: usize,
-    carries: usize,
 }
 
 /// Memory for evaluators to work in, of whatever task: one for each thread.
 ///
-/// It grows to the largest task that has used it, at most 2 KiB for each register, and is reused
-/// after that.
+/// It grows to the largest task that has used it, at most 2 KiB for each register and 8 bytes for
+/// each step of a bound, and is reused after that.
 #[derive(Clone, Debug, Default)]
 pub struct Scratch {
     registers: Vec<f64>,
@@ -127,11 +131,10 @@ pub struct Scratch {
 }
 
 impl Program {
-    /// A program of these steps, whose operands are the numbers of earlier steps, with as many
-    /// carries.
-    pub(super) fn new(mut steps: Vec<Step>, carries: u32) -> Self {
+    /// A program of these steps, whose operands are the numbers of earlier steps.
+    pub(super) fn new(mut steps: Vec<Step>) -> Self {
         let registers = allocate(&mut steps);
-        Self { steps, registers, carries: carries as usize }
+        Self { steps, registers }
     }
 
     /// Runs over all rows, the last block first. `emit` is called with the first row of a block,
@@ -147,8 +150,9 @@ impl Program {
         if scratch.registers.len() < needed {
             scratch.registers.resize(needed, 0.0);
         }
+        let carries = self.steps.iter().map(|step| step.operation.carries(rows)).sum();
         scratch.carries.clear();
-        scratch.carries.resize(self.carries, f64::NEG_INFINITY);
+        scratch.carries.resize(carries, f64::NEG_INFINITY);
         let Scratch { registers, carries } = scratch;
         for first in (0..rows).step_by(BLOCK).rev() {
             let length = BLOCK.min(rows - first);
@@ -171,14 +175,15 @@ impl Program {
         found
     }
 
-    /// Runs all steps over one block of `length` rows.
+    /// Runs all steps over one block of `length` rows. Each step has its part of the carries, in the
+    /// order of the steps.
     fn block(
         &self,
         columns: &Columns<'_>,
         first: usize,
         length: usize,
         registers: &mut [f64],
-        carries: &mut [f64],
+        mut carries: &mut [f64],
         emit: &mut dyn FnMut(usize, u32, &[f64]),
     ) {
         for step in &self.steps {
@@ -192,12 +197,19 @@ impl Program {
                     None => Lanes::Each(&before[register as usize * length..][..length]),
                 },
             });
+            let number = step.operation.carries(columns.rows());
+            let (carry, others) = std::mem::take(&mut carries).split_at_mut(number);
+            carries = others;
             match step.operation {
                 Operation::Input { input, low } => columns.read(input as usize, first, low, out),
                 Operation::Emit(output) => emit(first, output, a.each()),
-                Operation::Next(carry) => next(a.each(), carry.of(carries), out),
-                Operation::Eventually(carry) => eventually(a.each(), carry.of(carries), out),
-                Operation::Until(carry) => until(a.each(), b.each(), carry.of(carries), out),
+                Operation::Next => next(a.each(), &mut carry[0], out),
+                Operation::Eventually => eventually(a.each(), &mut carry[0], out),
+                Operation::Until => until(a.each(), b.each(), &mut carry[0], out),
+                Operation::Window(window) => {
+                    let pushed = columns.rows() - first - length;
+                    slide(window, a.each(), carry, pushed, out);
+                }
                 operation => row_by_row(operation, a, b, out),
             }
         }
@@ -329,6 +341,13 @@ fn until(a: &[f64], b: &[f64], carry: &mut f64, out: &mut [f64]) {
     for (out, (&a, &b)) in out.iter_mut().zip(a.iter().zip(b)).rev() {
         *carry = greatest(b, least(a, *carry));
         *out = *carry;
+    }
+}
+
+/// An operator with a bound, after `pushed` later rows.
+fn slide(window: Window, a: &[f64], cells: &mut [f64], pushed: usize, out: &mut [f64]) {
+    for ((out, &a), pushed) in out.iter_mut().zip(a).rev().zip(pushed..) {
+        *out = window.push(cells, pushed, a);
     }
 }
 
