@@ -51,6 +51,28 @@ use program::Program;
 /// One number that the predicates of a task read from a state: one column.
 ///
 /// Two inputs of a task differ in their names.
+///
+/// ```
+/// use tltl_compiler::{source::Source, translate::Budget};
+/// use tltlc::evaluate::InputKind;
+/// use tltlc::task::{Bound, TaskFile};
+///
+/// let source = Source::new("kitchen.tltl", "
+///     enum Object { apple, mug }
+///     state Kitchen { holding: Object?, x: f64 in m }
+///     task grasp = F (holding == mug && x < 2)");
+/// let Bound::Plain(grasp) = TaskFile::new(source, Budget::default())?.find(None)?.bind(&[])? else {
+///     panic!("it is plain");
+/// };
+/// let [x, holding] = grasp.inputs() else { panic!("two columns") };
+/// assert_eq!((&x.name[..], x.unit.as_deref()), ("x", Some("m")));
+/// assert_eq!((&holding.name[..], &holding.values.concat()[..]), ("holding", "applemug"));
+/// // A formula without a file declares nothing.
+/// let free = tltlc::task::compile("F (x > 2 && docked)", Budget::default())?;
+/// let kinds: Vec<_> = free.inputs().iter().map(|input| input.kind).collect();
+/// assert_eq!(kinds, [InputKind::Variable, InputKind::Proposition]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Input {
     /// Its name: `x`, `pose.x`, `joints[2]` for a place of the state, the variable or the
@@ -79,6 +101,19 @@ pub enum InputKind {
 }
 
 /// The part of a predicate that cannot be read without a Rust compiler.
+///
+/// ```
+/// use tltl_compiler::{compile, source::Source, translate::Budget};
+/// use tltlc::evaluate::{Evaluator, Unreadable};
+///
+/// let source = Source::new("reach.tltl", "
+///     state Robot { places: [f64; 256], at: u8 }
+///     task reach = F places[at] > 2");
+/// let compiled = compile::file(&source, Budget::default())?;
+/// let error = Evaluator::new(&compiled.module, &compiled.module.tasks[0]).unwrap_err();
+/// assert!(matches!(error, Unreadable::Element(_)), "{error}");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Unreadable {
     /// A Rust expression, of this text.
@@ -109,6 +144,17 @@ impl std::error::Error for Unreadable {}
 /// with the lowest number.
 ///
 /// The outputs of the call that returns it are not to be used.
+///
+/// ```
+/// use tltl_compiler::translate::Budget;
+/// use tltlc::evaluate::{Columns, NotANumber, Scratch};
+///
+/// let task = tltlc::task::compile("F (x > 1) && F (y < 0)", Budget::default())?;
+/// let rows = Columns::of_rows(2, 2, &[3.0, 0.5, -3.0, f64::NAN])?;
+/// let error = task.run(&rows, &mut Scratch::default()).unwrap_err();
+/// assert_eq!(error, NotANumber { row: 1, predicate: 1 });
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct NotANumber {
     /// The row, from 0.

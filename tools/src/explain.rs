@@ -20,6 +20,17 @@ use tltl_compiler::dfa::{Dfa, Edge, Guards, Size, State};
 use tltl_compiler::spec::Spec;
 
 /// A task explained. It prints as the text of `tltlc explain`, without the line of the title.
+///
+/// ```
+/// use tltl_compiler::translate::Budget;
+/// use tltlc::{explain::explain, task::compile};
+///
+/// let task = compile("!wet U home", Budget::default())?;
+/// let told = explain(&task.entry().task().spec, task.dfa());
+/// assert_eq!((told.size.states, told.falls.len()), (3, 1));
+/// assert!(told.to_string().contains("How the task is lost\n\n  in state 0 when wet && !home"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Explanation {
     /// The task in plain English, one string a line; empty if the formula is too large to retell.
@@ -39,6 +50,17 @@ pub struct Explanation {
 }
 
 /// The explanation of an automaton state: what the task still asks for there.
+///
+/// ```
+/// use tltl_compiler::translate::Budget;
+/// use tltlc::{explain::explain, task::compile};
+///
+/// let task = compile("fetch T bring", Budget::default())?;
+/// let states = explain(&task.entry().task().spec, task.dfa()).states;
+/// assert!(states[0].moves == Some(2) && states[0].way == ["fetch", "bring"]);
+/// assert!(states[1].needs == ["bring"] && states[1].avoid.is_none());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct StateExplanation {
     /// The state.

@@ -16,8 +16,9 @@
 //! learner takes it, and it reads whole columns of rows through its
 //! [`Evaluator`](crate::evaluate::Evaluator).
 //!
-//! What this module never does: it runs no Rust code. A predicate that is a Rust expression
-//! compiles, and binding its task is refused with [`BindError::Unreadable`].
+//! What this module never does: it runs no Rust code. A predicate that is a Rust expression is a
+//! mistake of the source here, for only the macro can read it; and a task that indexes an array by a
+//! field of the state is refused when it is bound, with [`BindError::Unreadable`].
 
 mod argument;
 mod factored;

@@ -56,6 +56,20 @@ impl fmt::Display for Trace {
 /// It is a depth-first walk over pairs of nodes that visits none twice, so it costs at most the
 /// product of their numbers, never the number of letters. Propositions that are not asked are false
 /// in the letter.
+///
+/// ```
+/// use tltl_compiler::{bdd::Bdd, translate::Budget};
+/// use tltlc::trace::first_letters;
+///
+/// let task = tltlc::task::compile("!wet U home", Budget::default())?;
+/// let dfa = task.dfa();
+/// let mut found = first_letters(&dfa.diagram, 2, dfa.transitions[0], Bdd::TRUE);
+/// found.sort();
+/// // Stay, arrive and lose, each by the first letter over (wet, home) that does.
+/// let letters: Vec<_> = found.into_iter().map(|(_, letter)| letter).collect();
+/// assert_eq!(letters, [vec![false, false], vec![false, true], vec![true, false]]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn first_letters(diagram: &Diagram, width: usize, f: Bdd, possible: Bdd) -> Vec<(u32, Letter)> {
     let mut seen = FxHashSet::default();

@@ -140,6 +140,16 @@ pub fn explicit(formula: &str, dfa: &Dfa) -> Result<String, Error> {
 
 /// The automaton with the guards of its edges, self-loops included, over several lines. A guard is
 /// a formula of the language.
+///
+/// ```
+/// use tltl_compiler::translate::Budget;
+///
+/// let task = tltlc::task::compile("a T b", Budget::default())?;
+/// let json = tltlc::emit::json::automaton("a T b", task.dfa());
+/// let read: serde_json::Value = serde_json::from_str(&json)?;
+/// assert_eq!(read["states"], 3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn automaton(formula: &str, dfa: &Dfa) -> String {
     let guards = dfa.edges().into_iter().map(|edge| Transition {
@@ -172,6 +182,17 @@ pub fn failure(formula: &str, error: &Error) -> String {
 /// It has the name of the file, the severity, the kind, the message, the span in bytes, the line
 /// and the column of its start (both from 1; the column counts characters), the other places with
 /// their labels, and the help lines.
+///
+/// ```
+/// use tltl_compiler::translate::Budget;
+/// use tltlc::task::TaskFile;
+///
+/// let error = TaskFile::of_formula("F near && !F far", Budget::default()).unwrap_err();
+/// let line = tltlc::emit::json::report(error.source_text(), error.errors().first());
+/// let report: serde_json::Value = serde_json::from_str(&line)?;
+/// assert_eq!((&report["kind"], &report["column"]), (&"negated-temporal".into(), &11.into()));
+/// # Ok::<(), serde_json::Error>(())
+/// ```
 #[must_use]
 pub fn report(source: &Source, error: &Error) -> String {
     let span = error.span();

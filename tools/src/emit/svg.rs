@@ -93,6 +93,19 @@ pub fn automaton(title: &str, dfa: &Dfa) -> String {
 }
 
 /// A whole SVG document on a white ground; `title` is what screen readers read.
+///
+/// ```
+/// use tltl_compiler::translate::Budget;
+/// use tltlc::emit::svg::{Drawing, Options, document, drawing};
+///
+/// // Two automata side by side.
+/// let [a, b] = ["F a", "a T b"].map(|formula| tltlc::task::compile(formula, Budget::default()));
+/// let [a, b] = [a?, b?].map(|task| drawing(task.dfa(), &Options::default()));
+/// let beside = format!("{}<g transform=\"translate({} 0)\">{}</g>", a.body, a.width, b.body);
+/// let both = Drawing { width: a.width + b.width, height: a.height.max(b.height), body: beside };
+/// assert!(document("two tasks", &both).contains("<title>two tasks</title>"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn document(title: &str, drawing: &Drawing) -> String {
     let (width, height) = (number(drawing.width), number(drawing.height));

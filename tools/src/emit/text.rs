@@ -35,6 +35,16 @@ pub fn automaton(title: &str, dfa: &Dfa) -> String {
 
 /// The numbers of states and edges with the trap and without it, and of edges with self-loops and
 /// without: papers count in all four ways.
+///
+/// ```
+/// use tltl_compiler::translate::Budget;
+///
+/// let task = tltlc::task::compile("!wet U home", Budget::default())?;
+/// let sizes = tltlc::emit::text::sizes(task.dfa().size());
+/// let numbers: Vec<u32> = sizes.split_whitespace().filter_map(|word| word.parse().ok()).collect();
+/// assert_eq!(numbers, [3, 2, 5, 2, 1, 3], "with the trap, then without it");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[must_use]
 pub fn sizes(size: Size) -> String {
     let mut text = format!("{:<18}{:>8}{:>8}{:>14}\n", "", "states", "edges", "and loops");

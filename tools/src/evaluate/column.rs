@@ -9,6 +9,18 @@ use std::fmt;
 /// The rows of a trajectory, or of many: one column for each input of a task, in their order.
 ///
 /// They are either separate [columns](Self::new), or one [matrix](Self::of_rows) of `f64`.
+///
+/// ```
+/// use tltlc::evaluate::{Column, Columns, WrongLength};
+///
+/// let (x, counts) = ([0.5_f32, 1.5], [1_u8, 2]);
+/// let separate = [Column::from(&x[..]), Column::from(&counts[..])];
+/// let columns = Columns::new(2, &separate)?;
+/// assert_eq!((columns.rows(), columns.width()), (2, 2));
+/// let error = Columns::of_rows(2, 3, &[0.0; 5]).unwrap_err();
+/// assert_eq!(error, WrongLength { expected: 6, found: 5 });
+/// # Ok::<(), WrongLength>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Columns<'a> {
     rows: usize,

@@ -78,6 +78,21 @@ pub(super) type Arguments = Arc<[(String, Value)]>;
 /// A parameter of a task, described for the caller who has to give it a value.
 ///
 /// It prints as the source declares it: `far: f64 in m`.
+///
+/// ```
+/// use tltl_compiler::{source::Source, translate::Budget};
+/// use tltlc::task::TaskFile;
+///
+/// let source = Source::new("kitchen.tltl", "
+///     enum Object { apple, mug }
+///     state Kitchen { holding: Object?, x: f64 in m }
+///     task grasp(o: Object?, far: f64 in m) = F (holding == o && x < far)");
+/// let grasp = TaskFile::new(source, Budget::default())?.find(None)?;
+/// let [o, far] = &grasp.parameters()[..] else { panic!("two parameters") };
+/// assert_eq!((o.to_string(), far.to_string()), ("o: Object?".into(), "far: f64 in m".into()));
+/// assert!(far.values.is_empty() && o.values == ["apple", "mug", "none"]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Parameter {
     /// Its name.
@@ -134,6 +149,17 @@ pub(crate) fn listed(parameters: &[Parameter]) -> String {
 /// The reason why a task does not take some arguments, in one sentence.
 ///
 /// It names the task, what it takes, and the argument at fault; it ends without a full stop.
+///
+/// ```
+/// use tltl_compiler::{source::Source, translate::Budget};
+/// use tltlc::task::TaskFile;
+///
+/// let source = Source::new("dock.tltl", "state Robot { x: f64 }\ntask dock(far: f64) = F x > far");
+/// let dock = TaskFile::new(source, Budget::default())?.find(None)?;
+/// let error = dock.bind(&[("near", 1.0.into())]).unwrap_err();
+/// assert_eq!(error.to_string(), "`dock` takes 1 argument (far: f64), and none is called `near`");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ArgumentError(String);
 

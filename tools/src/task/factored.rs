@@ -122,6 +122,22 @@ impl Factored {
     /// Its states are tuples. Where a single number is needed, as in a table of action values, its
     /// method `numbered` numbers the tuples that can be reached and is a
     /// [`Monitor`](tltl::Monitor).
+    ///
+    /// ```
+    /// use tltl_compiler::{source::Source, translate::Budget};
+    /// use tltlc::task::{Bound, TaskFile};
+    ///
+    /// let source = Source::new("tour.tltl", "
+    ///     state Robot { x: f64 }
+    ///     #[factored] task tour = F x < 0 && F x > 9");
+    /// let Bound::Factored(tour) = TaskFile::new(source, Budget::default())?.find(None)?.bind(&[])? else {
+    ///     panic!("the task is factored");
+    /// };
+    /// let mut q = [0, 0];
+    /// tour.monitor().next(&mut q, &[-1.0])?;
+    /// assert_eq!((q, tour.monitor().is_accepting(&q)), ([1, 0], false));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn monitor(&self) -> &tltl::Factored<Evaluator> {
         &self.0.monitor

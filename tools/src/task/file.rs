@@ -67,6 +67,16 @@ impl TaskFile {
 
     /// Compiles a bare formula: a file with one task, which has no name and no parameters.
     ///
+    /// ```
+    /// use tltl_compiler::translate::Budget;
+    /// use tltlc::task::TaskFile;
+    ///
+    /// let file = TaskFile::of_formula("F docked || true", Budget::default())?;
+    /// assert_eq!((file.entries().count(), file.find(None)?.name()), (1, None));
+    /// assert_eq!(file.warnings()[0].kind().name(), "valid");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
     /// # Errors
     /// Every mistake of the formula, or that its automaton is larger than the budget allows.
     pub fn of_formula(formula: &str, budget: Budget) -> Result<Self, CompileError> {
@@ -110,6 +120,20 @@ impl TaskFile {
     }
 
     /// Its tasks: the plain ones in the order of the source, then the factored ones in theirs.
+    ///
+    /// ```
+    /// use tltl_compiler::{source::Source, translate::Budget};
+    /// use tltlc::task::TaskFile;
+    ///
+    /// let source = Source::new("tour.tltl", "
+    ///     state Robot { a: bool, b: bool }
+    ///     #[factored] task tour = F a && F b
+    ///     task order = a T b");
+    /// let file = TaskFile::new(source, Budget::default())?;
+    /// let names: Vec<_> = file.entries().map(|entry| entry.name().map(str::to_owned)).collect();
+    /// assert_eq!(names, [Some("order".to_owned()), Some("tour".to_owned())]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn entries(&self) -> impl Iterator<Item = Entry> {
         let plain = (0..self.compiled.module.tasks.len()).map(Place::Plain);
         let factored = (0..self.compiled.factored.len()).map(Place::Factored);
@@ -148,6 +172,20 @@ enum Place {
 }
 
 /// A task of a file as the author wrote it: its parameters have no values. It keeps its file alive.
+///
+/// ```
+/// use tltl_compiler::{source::Source, translate::Budget};
+/// use tltlc::task::TaskFile;
+///
+/// let source = Source::new("tour.tltl", "
+///     state Robot { a: bool, b: bool }
+///     #[factored] task tour = F a && F b");
+/// let tour = TaskFile::new(source, Budget::default())?.find(Some("tour"))?;
+/// // The file is kept by its entry. Its automaton would have 4 states, and is never made.
+/// assert!(tour.is_factored() && tour.automata().is_none());
+/// assert_eq!((tour.file().source().name(), &tour.task().text[..]), ("tour.tltl", "F a && F b"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Entry {
     file: TaskFile,
@@ -268,6 +306,17 @@ impl Entry {
 
 /// A source with mistakes. It prints as the compiler reports: each mistake with its lines of the
 /// source, carets under the place at fault, and help.
+///
+/// ```
+/// use tltl_compiler::translate::Budget;
+/// use tltlc::task::TaskFile;
+///
+/// let error = TaskFile::of_formula("F near && !F far", Budget::default()).unwrap_err();
+/// let first = error.errors().first();
+/// assert_eq!((first.kind().name(), error.source_text().name()), ("negated-temporal", "formula"));
+/// assert_eq!(&error.source_text().text()[first.span().start..], "!F far");
+/// assert!(error.to_string().contains("^"), "the report has carets under the place");
+/// ```
 #[derive(Clone, Debug)]
 pub struct CompileError {
     source: Source,
@@ -298,6 +347,20 @@ impl fmt::Display for CompileError {
 impl std::error::Error for CompileError {}
 
 /// The reason why a task cannot be bound.
+///
+/// ```
+/// use tltl_compiler::{source::Source, translate::Budget};
+/// use tltlc::task::{BindError, TaskFile};
+///
+/// let source = Source::new("reach.tltl", "
+///     state Robot { places: [f64; 256], at: u8 }
+///     task reach(far: f64) = F places[at] > far");
+/// let reach = TaskFile::new(source, Budget::default())?.find(None)?;
+/// assert!(matches!(reach.bind(&[]).unwrap_err(), BindError::Argument(_)));
+/// let error = reach.bind(&[("far", 2.0.into())]).unwrap_err();
+/// assert!(matches!(error, BindError::Unreadable(_)), "an index that is a field: {error}");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum BindError {
     /// The task does not take these arguments.
@@ -318,6 +381,17 @@ impl fmt::Display for BindError {
 impl std::error::Error for BindError {}
 
 /// The reason why a file does not have the task that was asked for.
+///
+/// ```
+/// use tltl_compiler::{source::Source, translate::Budget};
+/// use tltlc::task::{NoSuchTask, TaskFile};
+///
+/// let source = Source::new("two.tltl", "state S { a: bool }\ntask one = F a\ntask two = X a");
+/// let file = TaskFile::new(source, Budget::default())?;
+/// let names = ["one", "two"].map(str::to_owned).to_vec();
+/// assert_eq!(file.find(None).unwrap_err(), NoSuchTask::Several(names));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NoSuchTask {
     /// The file has no task at all.

@@ -77,6 +77,18 @@ impl Task {
     }
 
     /// The names of its parameters, each with the value that was bound to it.
+    ///
+    /// ```
+    /// use tltl_compiler::{source::Source, translate::Budget};
+    /// use tltlc::task::{Bound, TaskFile, Value};
+    ///
+    /// let source = Source::new("dock.tltl", "state Robot { x: f64 }\ntask dock(far: f64) = F x > far");
+    /// let dock = TaskFile::new(source, Budget::default())?.find(None)?;
+    /// let Bound::Plain(dock) = dock.bind(&[("far", 2.5.into())])? else { panic!("it is plain") };
+    /// assert_eq!(dock.arguments(), [("far".to_owned(), Value::Number(2.5))]);
+    /// assert_eq!((&dock.inputs()[0].name[..], dock.evaluator().propositions()), ("x", 1));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn arguments(&self) -> &[(String, Value)] {
         &self.0.arguments

@@ -41,6 +41,20 @@ impl fmt::Display for Verdict {
 /// The result of running a trajectory of n rows.
 ///
 /// Its verdict is that of the last row; everything else is row by row.
+///
+/// ```
+/// use tltl_compiler::translate::Budget;
+/// use tltlc::evaluate::{Columns, Scratch};
+/// use tltlc::task::{Verdict, compile};
+///
+/// // Lost in row 1, and it stays so.
+/// let task = compile("!wet U home", Budget::default())?;
+/// let rows = Columns::of_rows(3, 2, &[-1.0, -1.0, 1.0, -1.0, -1.0, 1.0])?;
+/// let run = task.run(&rows, &mut Scratch::default())?;
+/// assert_eq!(run.verdicts, [Verdict::Open, Verdict::Lost, Verdict::Lost]);
+/// assert_eq!((run.since(), run.progress[2]), (Some(1), f64::NEG_INFINITY));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
     /// The automaton's state after each row: n entries; for a factored task n times the number of
