@@ -95,7 +95,7 @@ impl Folder {
     /// If it cannot be written.
     pub fn write(&self, name: &str, content: &str) -> Result<(), Box<dyn Error>> {
         let path = self.0.join(name);
-        std::fs::write(&path, content)?;
+        tltl::file::replace(&path, content.as_bytes())?;
         println!("wrote {}", path.display());
         Ok(())
     }

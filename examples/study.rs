@@ -10,11 +10,11 @@ use indicatif::{ProgressBar, ProgressStyle};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
-use tltl::checkpoint;
 use tltl::learn::seeds;
 use tltl::prelude::*;
 use tltl::rand::{Rng, SeedableRng, rngs::Xoshiro256PlusPlus};
 use tltl::reward::End;
+use tltl::{checkpoint, file};
 
 use crate::grid::{Cell, Grid};
 
@@ -225,7 +225,7 @@ impl Study {
     pub fn publish(&self, added: &str, content: &str) -> io::Result<()> {
         let name = format!("{}{added}", self.name);
         let path = self.folder.join(&name);
-        fs::write(&path, content)?;
+        file::replace(&path, content.as_bytes())?;
         writeln!(io::stdout(), "{}", path.display())
     }
 

@@ -85,7 +85,7 @@ const ORDER: [(&str, &str); 4] = [
     ("macros", "tokens expand"),
     (
         "runtime",
-        "shared range checksum interner automaton formula robustness monitor task factored \
+        "shared range checksum file interner automaton formula robustness monitor task factored \
          private product model env mismatch reward episode augmented estimate certificate settings \
          policy q experience solve shield learn compose controller network deep checkpoint prelude",
     ),

@@ -21,9 +21,45 @@
 //! assert_eq!(source.slice(Span::new(90, 99)), "");
 //! ```
 
+use std::borrow::Cow;
 use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
+
+/// Whether a character is obeyed and not shown: a control character, a tab apart, or one that ends a
+/// line or changes the direction of text, so that what is read is not what is there ("Trojan
+/// Source", Boucher and Anderson, 2021). rustc refuses most of them in comments.
+///
+/// ```
+/// use tltl_compiler::source::is_hidden;
+///
+/// assert!(is_hidden('\x1b') && is_hidden('\u{202e}') && !is_hidden('\t') && !is_hidden('é'));
+/// ```
+#[must_use]
+pub fn is_hidden(c: char) -> bool {
+    // Unicode's `Bidi_Control`, and its separators of lines and paragraphs.
+    let directs = matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    c != '\t' && (directs || c.is_control())
+}
+
+/// A text in which [hidden](is_hidden) characters stand as `\u{…}`: for comments, and for terminals.
+///
+/// ```
+/// use tltl_compiler::source::visible;
+///
+/// assert_eq!(visible("red \x1b[31m"), "red \\u{1b}[31m");
+/// ```
+#[must_use]
+pub fn visible(text: &str) -> Cow<'_, str> {
+    if !text.contains(is_hidden) {
+        return Cow::Borrowed(text);
+    }
+    let mut visible = String::new();
+    for c in text.chars() {
+        if is_hidden(c) { visible.extend(c.escape_unicode()) } else { visible.push(c) }
+    }
+    Cow::Owned(visible)
+}
 
 /// A range of bytes of a source. Ordered by its start, then by its end: the order in which errors
 /// are reported.

@@ -1,7 +1,7 @@
 //! Files that are whole or not there: checkpoints of learners and studies.
 //!
-//! [`write()`] puts a file down beside its place, flushes it to the disk and renames it, so that a
-//! process killed at any point leaves the old file or the new one. [`read`] refuses what is cut
+//! [`write()`] [replaces](file::replace) a file as a whole, so that a process killed at any point
+//! leaves the old file or the new one. [`read`] refuses what is cut
 //! short, changed, or another kind of file. The content is bytes: serialise with whatever you like
 //! (serde_json reads floats back exactly with its feature `float_roundtrip`).
 //!
@@ -9,13 +9,14 @@
 //! is 64-bit FNV-1a over the content: against accidents, not against forgery.
 
 use core::fmt;
-use std::fs::{self, File};
-use std::io::{self, Write as _};
+use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 use std::string::{String, ToString};
 use std::vec::Vec;
 
 use crate::checksum::fnv;
+use crate::file;
 
 /// The first word of the file: what says that it is ours before anything else is read.
 const MAGIC: &str = "tltl-checkpoint";
@@ -113,31 +114,8 @@ pub fn write(path: &Path, kind: &str, content: &[u8]) -> Result<(), Error> {
         content.len(),
         fnv(content.iter().copied())
     );
-    let put = || {
-        let beside = beside(path);
-        let mut file = File::create(&beside)?;
-        file.write_all(header.as_bytes())?;
-        file.write_all(content)?;
-        // The content must be on the disk before the name is: otherwise a power failure can leave an
-        // empty file under the right name.
-        file.sync_all()?;
-        fs::rename(&beside, path)?;
-        sync_folder(path)
-    };
-    put().map_err(|error| Error::Io(path.to_path_buf(), error))
-}
-
-/// The name under which a file is written before it is renamed; each process has its own.
-fn beside(path: &Path) -> PathBuf {
-    let mut name = path.file_name().unwrap_or_default().to_os_string();
-    name.push(std::format!(".{}.tmp", std::process::id()));
-    path.with_file_name(name)
-}
-
-/// Makes the renaming last; only Unix lets a folder be opened for that.
-fn sync_folder(path: &Path) -> io::Result<()> {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-    if cfg!(unix) { File::open(folder.unwrap_or(Path::new(".")))?.sync_all() } else { Ok(()) }
+    let whole = [header.as_bytes(), content].concat();
+    file::replace(path, &whole).map_err(|error| Error::Io(path.to_path_buf(), error))
 }
 
 /// The content of the checkpoint at `path`, if it is one of `kind` and whole; `None` if there is no

@@ -15,7 +15,7 @@
 //! | `product`, `compose` | learned skills into new ones (Algorithm 2), without a step in the world |
 //! | `solve`, `estimate` | any policy into its certificate: P(satisfied), E\[steps\], regret |
 //! | `deep` | experience of worlds whose states have no numbers into networks, and networks into new ones |
-//! | `policy`, `network`, `controller`, `shield`, `checkpoint` | results into what runs, is safe, and is kept |
+//! | `policy`, `network`, `controller`, `shield`, `checkpoint`, `file` | results into what runs, is safe, and is kept |
 //!
 //! Features: `std` and `macros` are on; `alloc` is all that owns tables; `serde` saves and loads;
 //! `libm` has `sqrt` and the like without `std`; `deep` learns with networks (Rust 1.95); `hoa` lets
@@ -91,6 +91,8 @@ pub mod estimate;
 #[cfg(feature = "alloc")]
 mod experience;
 pub mod factored;
+#[cfg(feature = "std")]
+pub mod file;
 mod formula;
 #[cfg(feature = "alloc")]
 mod interner;

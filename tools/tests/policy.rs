@@ -97,3 +97,44 @@ fn what_is_not_a_policy_is_refused() {
     let text = policy().to_string();
     assert!(rust(&text[..text.len() / 2]).unwrap_err().contains("not JSON"));
 }
+
+/// The JSON of `value`, in which the entry of number `twice` stands twice, counted down to 0.
+fn with_one_twice(value: &Value, twice: &mut usize) -> String {
+    match value {
+        Value::Object(fields) => {
+            let mut entries = Vec::new();
+            for (key, value) in fields {
+                let is_it = std::mem::replace(twice, twice.wrapping_sub(1)) == 0;
+                let entry = format!("{}:{}", json!(key), with_one_twice(value, twice));
+                entries.extend(is_it.then(|| entry.clone()));
+                entries.push(entry);
+            }
+            format!("{{{}}}", entries.join(","))
+        }
+        Value::Array(values) => {
+            let values: Vec<_> = values.iter().map(|value| with_one_twice(value, twice)).collect();
+            format!("[{}]", values.join(","))
+        }
+        other => other.to_string(),
+    }
+}
+
+#[test]
+fn no_field_stands_twice() {
+    let network = include_str!("cli/network.json");
+    for whole in [policy(), serde_json::from_str(network).unwrap()] {
+        assert!(rust(&whole.to_string()).is_ok());
+        for number in 0.. {
+            let mut left = number;
+            let text = with_one_twice(&whole, &mut left);
+            if left < usize::MAX / 2 {
+                assert!(number > 20, "the policy has fields");
+                break;
+            }
+            let error = rust(&text).expect_err(&text);
+            // A schedule is an object of one field; there a comma is no JSON.
+            let named = error.contains("duplicate field") || error.contains("expected value");
+            assert!(named, "{error}: {text}");
+        }
+    }
+}

@@ -12,6 +12,7 @@ use crate::dfa::Dfa;
 use crate::emit::names::{Place, ident};
 use crate::emit::rust::Emitter;
 use crate::predicate::{Enum, Parameter, ParameterType, Scalar, Struct, Type};
+use crate::source::visible;
 use crate::unit::Unit;
 
 impl Emitter<'_> {
@@ -245,23 +246,6 @@ pub(super) fn documentation(lines: &[String], paragraphs: &[String]) -> TokenStr
     let lines = author.chain(paragraphs.iter().flat_map(known));
     let lines = lines.skip_while(String::is_empty);
     quote! { #(#[doc = #lines])* }
-}
-
-/// A text with the characters escaped that no comment may have: rustc refuses those that change the
-/// direction of text ("Trojan Source", Boucher and Anderson, 2021), and terminals obey control
-/// characters.
-#[must_use]
-pub fn visible(text: &str) -> String {
-    let mut visible = String::new();
-    for c in text.chars() {
-        match c {
-            '\t' => visible.push(c),
-            '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => visible.extend(c.escape_unicode()),
-            c if c.is_control() => visible.extend(c.escape_unicode()),
-            c => visible.push(c),
-        }
-    }
-    visible
 }
 
 /// The size of an automaton, as a sentence of its documentation.

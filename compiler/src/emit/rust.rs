@@ -32,8 +32,8 @@ use quote::{format_ident, quote};
 
 use crate::compile::{Compiled, Factored, Part};
 use crate::dfa::Dfa;
+pub use crate::emit::declare::sizes;
 use crate::emit::declare::{Parameters, documentation};
-pub use crate::emit::declare::{sizes, visible};
 use crate::emit::implementation::{Implementation, positional, scratch};
 use crate::emit::names::{Names, ident};
 pub use crate::emit::names::{Place, module as module_name};

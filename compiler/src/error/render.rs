@@ -10,7 +10,7 @@
 use std::fmt::Write;
 
 use super::{Error, Severity};
-use crate::source::{Source, Span};
+use crate::source::{Source, Span, is_hidden, visible};
 
 /// The look of a report.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -59,13 +59,14 @@ pub(super) fn report(error: &Error, source: &Source, style: Style) -> String {
         Severity::Error => ("error", RED),
         Severity::Warning => ("warning", YELLOW),
     };
+    let error = &shown(error);
     let head = style.paint(colour, &format!("{word}[{}]", error.kind.name()));
     let mut out = format!("{head}{}\n", style.paint(BOLD, &format!(": {}", error.message)));
     let gutter = gutter_width(error, source);
     let bar = style.paint(BLUE, "|");
     let arrow = style.paint(BLUE, "-->");
     let place = source.place(error.span.start);
-    let _ = writeln!(out, "{:gutter$}{arrow} {}:{place}", "", source.name());
+    let _ = writeln!(out, "{:gutter$}{arrow} {}:{place}", "", visible(source.name()));
     let _ = writeln!(out, "{:gutter$} {bar}", "");
     snippets(&mut out, error, source, style, colour);
     for help in &error.help {
@@ -75,6 +76,17 @@ pub(super) fn report(error: &Error, source: &Source, style: Style) -> String {
     }
     // Editors and snapshots strip trailing blanks, so none is written.
     out.lines().map(|line| line.trim_end().to_owned() + "\n").collect()
+}
+
+/// The error with all its texts as a terminal may get them.
+fn shown(error: &Error) -> Error {
+    let lines = |text: &str| text.split('\n').map(visible).collect::<Vec<_>>().join("\n");
+    let mut shown = error.clone();
+    shown.message = lines(&error.message);
+    shown.label = lines(&error.label);
+    shown.related.iter_mut().for_each(|(_, text)| *text = lines(text));
+    shown.help.iter_mut().for_each(|help| *help = lines(help));
+    shown
 }
 
 /// The width of the largest line number.
@@ -145,7 +157,7 @@ fn underline(source: &Source, line: Span, start: usize, label: &Label<'_>) -> St
 
 /// The text with a fixed width for each character.
 fn printable(text: &str) -> String {
-    text.replace('\t', "    ").replace(|c: char| c.is_control(), "\u{fffd}")
+    text.replace('\t', "    ").replace(is_hidden, "\u{fffd}")
 }
 
 /// The number of terminal columns of `text`.
@@ -159,7 +171,7 @@ fn width(text: &str) -> usize {
 fn columns(c: char) -> usize {
     match c {
         '\t' => 4,
-        '\u{300}'..='\u{36f}' | '\u{200b}'..='\u{200f}' | '\u{fe00}'..='\u{fe0f}' => 0,
+        '\u{300}'..='\u{36f}' | '\u{200b}'..='\u{200d}' | '\u{fe00}'..='\u{fe0f}' => 0,
         '\u{1100}'..='\u{115f}' | '\u{2e80}'..='\u{a4cf}' | '\u{ac00}'..='\u{d7a3}' => 2,
         '\u{f900}'..='\u{faff}' | '\u{fe30}'..='\u{fe6f}' | '\u{ff00}'..='\u{ff60}' => 2,
         '\u{1f300}'..='\u{1faff}' | '\u{20000}'..='\u{3fffd}' => 2,

@@ -74,7 +74,7 @@ fn show(
         Report::Json => streams.print(&json::report(source, error)).map(|_| ()),
         Report::Human => {
             let text = error.render(source, streams.err.style);
-            streams.complain(&text);
+            streams.report(&text);
             Ok(())
         }
     }

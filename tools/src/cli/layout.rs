@@ -7,7 +7,7 @@ use tltl_compiler::source::Source;
 
 use crate::format::format;
 
-use super::{Exit, Outcome, Report, Streams, input};
+use super::{Exit, Outcome, Report, Streams, input, streams};
 
 /// Lays out files in place, or says which are not laid out; the path `-` goes from the input to the
 /// output.
@@ -37,10 +37,9 @@ fn one(path: &Path, check: bool, streams: &mut Streams<'_>) -> Result<bool, Stri
         return Ok(same);
     }
     if path == Path::new("-") {
-        streams.print(&laid_out)?;
+        streams.out.print_raw(&laid_out)?;
     } else if !same {
-        let failed = |error| format!("cannot write {name}: {error}");
-        std::fs::write(path, laid_out).map_err(failed)?;
+        streams::write(path, &laid_out)?;
     }
     Ok(true)
 }

@@ -21,6 +21,7 @@ mod streams;
 mod subject;
 mod tell;
 
+use std::borrow::Cow;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -276,10 +277,10 @@ fn run(command: Command, streams: &mut Streams<'_>) -> Outcome {
 /// itself.
 fn usage(error: &clap::Error, streams: &mut Streams<'_>) -> Exit {
     let output = if error.use_stderr() { &mut streams.err } else { &mut streams.out };
-    let text = error.render();
-    let _ = match output.style {
-        Style::Coloured => write!(output.stream, "{}", text.ansi()),
-        Style::Plain => write!(output.stream, "{text}"),
+    let text = error.render().to_string();
+    let _ = match (output.style, streams::shown(&text)) {
+        (Style::Coloured, Cow::Borrowed(_)) => write!(output.stream, "{}", error.render().ansi()),
+        (_, shown) => write!(output.stream, "{shown}"),
     };
     if error.use_stderr() { Exit::Failed } else { Exit::Success }
 }
@@ -294,8 +295,6 @@ fn write_policy(file: &Path, output: Option<PathBuf>, streams: &mut Streams<'_>)
     let rust = policy::rust(&streams.read(file)?).map_err(|error| format!("{name}: {error}"))?;
     match output {
         None => streams.print(&rust),
-        Some(path) => std::fs::write(&path, rust)
-            .map(|()| Exit::Success)
-            .map_err(|error| format!("cannot write {}: {error}", path.display())),
+        Some(path) => streams::write(&path, &rust),
     }
 }

@@ -1,10 +1,13 @@
 //! The streams of a run: those of the process, or others in their place.
 
+use std::borrow::Cow;
 use std::fs::File;
 use std::io::{BufRead, BufReader, ErrorKind, IsTerminal, Read, Write};
 use std::path::Path;
 
+use tltl::file;
 use tltl_compiler::error::Style;
+use tltl_compiler::source::{is_hidden, visible};
 
 use super::{Exit, Outcome};
 
@@ -49,14 +52,24 @@ impl Streams<'_> {
 
     /// Writes a message. If nobody can read it, there is nobody to be told.
     pub(super) fn complain(&mut self, text: &str) {
+        self.report(&shown(text));
+    }
+
+    /// Writes a message that has colours, and else only what a terminal shows.
+    pub(super) fn report(&mut self, text: &str) {
         let _ = writeln!(self.err.stream, "{text}");
     }
 }
 
 impl Output<'_> {
-    /// Writes a result, with a line break at its end. A reader that has gone away, as `head` does,
-    /// is no fault.
+    /// Writes a result, with a line break at its end. What a terminal would obey is shown.
     pub(super) fn print(&mut self, text: &str) -> Outcome {
+        self.print_raw(&shown(text))
+    }
+
+    /// Writes a result as it is: a source that must not change, or a text with colours. A reader
+    /// that has gone away, as `head` does, is no fault.
+    pub(super) fn print_raw(&mut self, text: &str) -> Outcome {
         let end = if text.ends_with('\n') || text.is_empty() { "" } else { "\n" };
         match write!(self.stream, "{text}{end}").and_then(|()| self.stream.flush()) {
             Err(error) if error.kind() != ErrorKind::BrokenPipe => {
@@ -77,6 +90,20 @@ pub(super) fn open<'a>(
     }
     let file = File::open(path).map_err(|error| unreadable(path, &error))?;
     Ok(Box::new(BufReader::with_capacity(1 << 16, file)))
+}
+
+/// Replaces a file, or makes it.
+pub(super) fn write(path: &Path, text: &str) -> Outcome {
+    let failed = |error| format!("cannot write {}: {error}", path.display());
+    file::replace(path, text.as_bytes()).map(|()| Exit::Success).map_err(failed)
+}
+
+/// A text of several lines in which no character is obeyed, whatever it was made of.
+pub(super) fn shown(text: &str) -> Cow<'_, str> {
+    if !text.contains(|c| c != '\n' && is_hidden(c)) {
+        return Cow::Borrowed(text);
+    }
+    Cow::Owned(text.split('\n').map(visible).collect::<Vec<_>>().join("\n"))
 }
 
 fn unreadable(path: &Path, error: &std::io::Error) -> String {

@@ -7,6 +7,7 @@ use tltl_compiler::translate::Budget;
 use crate::diff::{Difference, diff};
 use crate::explain::explain as explanation;
 
+use super::streams::shown;
 use super::subject::{self, Subject};
 use super::{Exit, Outcome, Streams};
 
@@ -24,8 +25,9 @@ pub(super) fn explain(text: &str, task: Option<&str>, streams: &mut Streams<'_>)
                 None => task.text.clone(),
             };
             let told = explanation(&task.spec, &automata.dfa);
-            let told = headed(&format!("{title}\n\n{told}"), streams.out.style);
-            streams.print(&told)
+            let told = format!("{title}\n\n{told}");
+            let style = streams.out.style;
+            streams.out.print_raw(&headed(&shown(&told), style))
         }
     }
 }

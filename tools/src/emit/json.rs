@@ -8,12 +8,14 @@
 //!
 //! Spans count bytes from the beginning of the text, the end excluded.
 
+use std::fmt::Write as _;
+
 use serde::Serialize;
 
 use crate::emit::sum::{Notation, label};
 use tltl_compiler::dfa::{Dfa, State};
 use tltl_compiler::error::{Error, Kind};
-use tltl_compiler::source::{Source, Span};
+use tltl_compiler::source::{Source, Span, is_hidden};
 
 /// The most propositions of a table of all transitions: 65,536 entries for each state. The guards
 /// of the edges have no such limit.
@@ -212,12 +214,29 @@ pub fn report(source: &Source, error: &Error) -> String {
     })
 }
 
-/// An object on one line.
-fn line(value: &impl Serialize) -> String {
-    serde_json::to_string(value).expect("strings and numbers are JSON")
+/// An object on one line, in characters that a terminal shows: JSON itself escapes only those below
+/// U+0020, and the others that are obeyed stand in strings alone.
+pub(crate) fn line(value: &impl Serialize) -> String {
+    shown(serde_json::to_string(value).expect("strings and numbers are JSON"))
 }
 
 /// An object over several lines, with a line break at the end.
 fn pretty(value: &impl Serialize) -> String {
-    serde_json::to_string_pretty(value).expect("strings and numbers are JSON") + "\n"
+    shown(serde_json::to_string_pretty(value).expect("strings and numbers are JSON")) + "\n"
+}
+
+fn shown(json: String) -> String {
+    let is_obeyed = |c: char| c != '\n' && is_hidden(c);
+    if !json.contains(is_obeyed) {
+        return json;
+    }
+    json.chars().fold(String::new(), |mut shown, c| {
+        // All of them are below U+10000.
+        let _ = if is_obeyed(c) {
+            write!(shown, "\\u{:04x}", u32::from(c))
+        } else {
+            write!(shown, "{c}")
+        };
+        shown
+    })
 }

@@ -16,7 +16,7 @@ use tltl::network::policy::NetworkPolicy;
 use tltl::policy::{Document, Policy, Starts, States, Training};
 use tltl::shield::Shielded;
 use tltl::solve::Certificate;
-use tltl_compiler::emit::rust::visible;
+use tltl_compiler::source::visible;
 
 use super::network;
 

@@ -6,8 +6,9 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 use tltl_compiler::compile::Compiled;
-use tltl_compiler::emit::rust::{Options, Place, code, is_bare, sizes, visible};
+use tltl_compiler::emit::rust::{Options, Place, code, is_bare, sizes};
 use tltl_compiler::emit::tables as emit;
+use tltl_compiler::source::visible;
 use tltl_compiler::tables::tables;
 
 /// A compiled source as a Rust file.

@@ -113,9 +113,10 @@ fn draw(trials: &Experiment, folder: &Path) -> Result<(), Box<dyn Error + Send +
     let read = |name| fs::read_to_string(folder.join(name));
     let record = Record::read(&read("kitchen.csv")?)?;
     let figure = figure::svg(&record, &report::references(trials)?);
-    fs::write(folder.join("kitchen.svg"), figure)?;
+    tltl::file::replace(&folder.join("kitchen.svg"), figure.as_bytes())?;
     let episode = trials.replay(&read("kitchen_episode.txt")?)?;
-    Ok(fs::write(folder.join("kitchen_episode.svg"), strip::svg(&episode, &trials.layout))?)
+    let strip = strip::svg(&episode, &trials.layout);
+    Ok(tltl::file::replace(&folder.join("kitchen_episode.svg"), strip.as_bytes())?)
 }
 
 /// Where the studies are kept.

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use serde::Serialize;
 
 use crate::cli::{RowFormat, Run};
+use crate::emit::json;
 use crate::task::{Task, Verdict};
 
 use super::Followed;
@@ -170,7 +171,7 @@ impl<'a> Writer<'a> {
     }
 
     fn json(&mut self, line: &impl Serialize) {
-        self.text.push_str(&serde_json::to_string(line).unwrap_or_default());
+        self.text.push_str(&json::line(line));
         self.text.push('\n');
     }
 }
