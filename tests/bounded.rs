@@ -16,6 +16,7 @@ use tltlc::evaluate::{Columns, Evaluator, Scratch};
 use tltlc::task::compile;
 use tltlc::{semantics, tables};
 
+use crate::corpus;
 use crate::random::{self, Bytes, Choices, NAMES, Seeded};
 
 /// The number of propositions.
@@ -276,7 +277,7 @@ proptest! {
             let about = format!("{spec} on {:?}", &trace[..length]);
             let columns = by_columns(task.evaluator(), length, &rows[..length].concat());
             prop_assert_eq!(columns, expected, "{}", &about);
-            prop_assert_eq!(by_operators(&spec, &trace[..length]), expected, "{}", &about);
+            prop_assert_eq!(by_operators(&spec, length, |p, t| trace[t][p]), expected, "{}", &about);
             prop_assert!(expected >= before, "{}", &about);
             q = task.next(q, &rows[length - 1]).unwrap();
             prop_assert_eq!(expected > 0.0, task.is_accepting(q), "{}", &about);
@@ -304,6 +305,31 @@ proptest! {
     }
 }
 
+/// Every engine gives the robustness of the corpus on every prefix of its traces.
+#[test]
+fn engines_give_the_robustness_of_the_corpus() {
+    for row in corpus::robustness() {
+        let module = check::formula(&Source::new("formula", row.formula.as_str())).unwrap();
+        let (task, about) = (&module.tasks[0], &row.formula);
+        let evaluator = Evaluator::new(&module, task).unwrap();
+        let place = |name: &str| row.aps.iter().position(|ap| ap == name).unwrap();
+        let places: Vec<_> = task.spec.propositions().iter().map(|p| place(&p.name)).collect();
+        let inputs: Vec<_> = evaluator.inputs().iter().map(|input| place(&input.name)).collect();
+        let rho = |p: usize, t: usize| row.trace[t][places[p]];
+        for (length, expected) in (1..).zip(&row.rho_prefixes) {
+            let expected = expected.value();
+            let rows = row.trace[..length].iter();
+            let numbers: Vec<f64> =
+                rows.flat_map(|row| inputs.iter().map(|&place| row[place])).collect();
+            assert_eq!(by_columns(&evaluator, length, &numbers), expected, "{about}, {length}");
+            assert_eq!(by_operators(&task.spec, length, rho), expected, "{about}, {length}");
+            let by_definition =
+                semantics::robustness(&task.spec, length, |p, t| rho(p as usize, t));
+            assert_eq!(by_definition, expected, "{about}, {length}");
+        }
+    }
+}
+
 /// Windows that are shorter and longer than a block of rows and than the trajectory.
 #[test]
 fn long_windows_give_the_robustness_of_their_definitions() {
@@ -321,7 +347,7 @@ fn long_windows_give_the_robustness_of_their_definitions() {
         ] {
             let spec = spec(&tree);
             let expected = tree.rho(&trace, 0);
-            assert_eq!(by_operators(&spec, &trace), expected, "{spec}");
+            assert_eq!(by_operators(&spec, trace.len(), |p, t| trace[t][p]), expected, "{spec}");
             let module = check::formula(&Source::new("formula", spec.to_string())).unwrap();
             let evaluator = Evaluator::new(&module, &module.tasks[0]).unwrap();
             let width = evaluator.inputs().len();
@@ -332,12 +358,12 @@ fn long_windows_give_the_robustness_of_their_definitions() {
 }
 
 /// The robustness by the runtime's pass over the operators, in memory of just the size it states.
-fn by_operators(spec: &Spec, trace: &[[f64; 5]]) -> f64 {
+fn by_operators(spec: &Spec, length: usize, rho: impl Fn(usize, usize) -> f64) -> f64 {
     let formula = tables::formula(spec, "").unwrap();
     let operators = formula.operators();
-    let mut now = vec![0.0; robustness::cells(operators, trace.len())];
+    let mut now = vec![0.0; robustness::cells(operators, length)];
     let mut next = vec![0.0; operators.len()];
-    let rho = |p: usize, t: usize| Ok::<f64, Infallible>(trace[t][p]);
-    let Ok(rho) = robustness::trajectory(operators, trace.len(), &mut now, &mut next, rho);
+    let rho = |p: usize, t: usize| Ok::<f64, Infallible>(rho(p, t));
+    let Ok(rho) = robustness::trajectory(operators, length, &mut now, &mut next, rho);
     rho
 }

@@ -31,6 +31,33 @@ pub(crate) struct Trace {
     pub(crate) first_accept: Option<usize>,
 }
 
+/// A formula with a trace and the robustness of every prefix of it.
+#[derive(Deserialize)]
+pub(crate) struct Robustness {
+    pub(crate) formula: String,
+    pub(crate) aps: Vec<String>,
+    /// For each instant the robustness of each proposition.
+    pub(crate) trace: Vec<Vec<f64>>,
+    pub(crate) rho_prefixes: Vec<Rho>,
+}
+
+/// A number, or an infinity as text.
+#[derive(Deserialize)]
+#[serde(untagged)]
+pub(crate) enum Rho {
+    Number(f64),
+    Infinite(String),
+}
+
+impl Rho {
+    pub(crate) fn value(&self) -> f64 {
+        match self {
+            Self::Number(value) => *value,
+            Self::Infinite(text) => text.parse().unwrap(),
+        }
+    }
+}
+
 /// A formula outside the language.
 #[derive(Deserialize)]
 pub(crate) struct Reject {
@@ -38,11 +65,14 @@ pub(crate) struct Reject {
     pub(crate) expect: String,
 }
 
-/// The rows of the corpus, corner cases last.
+/// The rows of the corpus: without bounds, corner cases, with bounds.
 pub(crate) fn rows() -> Vec<Row> {
-    let mut rows = read("corpus.jsonl");
-    rows.extend(read("corner.jsonl"));
-    rows
+    ["corpus.jsonl", "corner.jsonl", "bounded.jsonl"].into_iter().flat_map(read).collect()
+}
+
+/// Formulas with the robustness of every prefix of a trace.
+pub(crate) fn robustness() -> Vec<Robustness> {
+    read("robustness.jsonl")
 }
 
 /// The formulas outside the language.
