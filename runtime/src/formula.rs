@@ -25,14 +25,14 @@ pub enum Op {
     Or(u32, u32),
     /// ○φ, strong: there must be a next state.
     Next(u32),
-    /// X[n] φ, strong: φ at the instant n steps later, which must exist. The bound comes before the
+    /// `X[n] φ`, strong: φ at the instant n steps later, which must exist. The bound comes before the
     /// operand, here and below.
     Delay(u32, u32),
     /// ◇φ.
     Eventually(u32),
-    /// F[0,n] φ: φ now or at one of the next n instants.
+    /// `F[0,n] φ`: φ now or at one of the next n instants.
     Within(u32, u32),
-    /// G[0,n] φ, strong: φ now and at each of the next n instants, which must exist.
+    /// `G[0,n] φ`, strong: φ now and at each of the next n instants, which must exist.
     Throughout(u32, u32),
     /// φ U ψ, strong.
     Until(u32, u32),

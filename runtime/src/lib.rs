@@ -142,8 +142,54 @@ pub use range::OutOfRange;
 pub use robustness::{Boolean, Predicate};
 pub use shared::Shared;
 pub use task::{Formula, Task};
+/// A task file, or an automaton of another tool, as a module of tasks.
+///
+/// ```
+/// use tltl::Acceptor;
+///
+/// // pub mod gridworld { pub struct Cell { … }, a function for each predicate and task }
+/// tltl::include_tltl!("../examples/tasks/gridworld.tltl");
+/// use gridworld::{Cell, visit_a_b};
+///
+/// let walk = [Cell { x: 0, y: 0 }, Cell { x: 5, y: 5 }, Cell { x: 2, y: 2 }];
+/// assert_eq!(visit_a_b().satisfied(&walk), Ok(true));
+/// assert_eq!(visit_a_b().name(), "visit_a_b");
+/// ```
 #[cfg(feature = "macros")]
-pub use tltl_macros::{include_tltl, tltl};
+pub use tltl_macros::include_tltl;
+/// A formula as a task, or declarations of predicates and tasks as functions.
+///
+/// ```
+/// use tltl::{Acceptor, Boolean, tltl};
+///
+/// struct Robot {
+///     x: f64,
+///     wet: bool,
+/// }
+///
+/// // Names are predicates in scope: here functions that give a robustness, and one that gives a truth.
+/// let (near, far) = (|s: &Robot| 1.0 - s.x, |s: &Robot| s.x - 3.0);
+/// let wet = Boolean::new(|s: &Robot| s.wet);
+/// let there_and_back = tltl! { (far T near) && (!wet U near) };
+///
+/// // With a header, comparisons of the state's fields; with a string, the symbols of the paper.
+/// let again = tltl! { |s: &Robot| (s.x > 3 T s.x < 1) && (!s.wet U s.x < 1) };
+/// let once_more = tltl! { "(far T near) ∧ (¬wet U near)" };
+///
+/// // Declarations are items: `dock(&Robot) -> f64`, and a function that gives the task.
+/// tltl! {
+///     state s: Robot;
+///     predicate dock = s.x < 1;
+///     task come = F dock;
+/// }
+///
+/// let walk = [4.0, 2.0, 0.5].map(|x| Robot { x, wet: false });
+/// assert_eq!(there_and_back.robustness(&walk), again.robustness(&walk));
+/// assert_eq!((once_more.satisfied(&walk), come().satisfied(&walk)), (Ok(true), Ok(true)));
+/// assert_eq!((dock(&walk[2]), come().states()), (0.5, 2));
+/// ```
+#[cfg(feature = "macros")]
+pub use tltl_macros::tltl;
 
 /// The example of the README runs.
 #[cfg(all(doctest, feature = "std", feature = "macros"))]
