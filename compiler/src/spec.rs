@@ -71,17 +71,17 @@ pub enum Formula {
     Or(FormulaId, FormulaId),
     /// ○φ, strong: there must be a next state.
     Next(FormulaId),
-    /// X[n] φ: φ at the instant n steps from now, which must exist; n ≥ 2, for X[1] φ is ○φ.
+    /// X\[n\] φ: φ at the instant n steps from now, which must exist; n ≥ 2, for X\[1\] φ is ○φ.
     Delay(u32, FormulaId),
     /// ◇φ
     Eventually(FormulaId),
-    /// F[0,n] φ: φ now or at one of the next n instants; n ≥ 1.
+    /// F\[0,n\] φ: φ now or at one of the next n instants; n ≥ 1.
     Within(u32, FormulaId),
-    /// G[0,n] φ, strong: φ now and at each of the next n instants, which must exist; n ≥ 1.
+    /// G\[0,n\] φ, strong: φ now and at each of the next n instants, which must exist; n ≥ 1.
     Throughout(u32, FormulaId),
     /// φ U ψ, strong: ψ must come.
     Until(FormulaId, FormulaId),
-    /// φ U[0,n] ψ: ψ now or at one of the next n instants, φ at each instant before; n ≥ 1.
+    /// φ U\[0,n\] ψ: ψ now or at one of the next n instants, φ at each instant before; n ≥ 1.
     UntilWithin(u32, FormulaId, FormulaId),
     /// φ T ψ = ◇(φ ∧ ○◇ψ): the operands are φ and ◇ψ, which is an operator of its own, for it
     /// becomes an obligation of its own.
@@ -303,7 +303,7 @@ impl Spec {
     }
 
     /// ◇φ. An operator that is satisfied later whenever it is satisfied now, ◇ and T, absorbs it;
-    /// it absorbs F[0,n].
+    /// it absorbs F\[0,n\].
     pub fn eventually(&mut self, a: FormulaId, span: Span) -> FormulaId {
         match self.formula(a) {
             Formula::True | Formula::False | Formula::Eventually(_) | Formula::Then(..) => a,

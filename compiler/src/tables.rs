@@ -119,13 +119,13 @@ pub enum Operator {
     Or(u32, u32),
     /// ○φ, strong
     Next(u32),
-    /// X[n] φ, strong; the bound comes first, here and below
+    /// X\[n\] φ, strong; the bound comes first, here and below
     Delay(u32, u32),
     /// ◇φ
     Eventually(u32),
-    /// F[0,n] φ
+    /// F\[0,n\] φ
     Within(u32, u32),
-    /// G[0,n] φ, strong
+    /// G\[0,n\] φ, strong
     Throughout(u32, u32),
     /// φ U ψ, strong
     Until(u32, u32),
@@ -136,7 +136,7 @@ pub enum Operator {
 /// The operators of a formula, operands first; the last one is the whole formula. Operators that
 /// the root does not need are left out, and shared ones stand there once.
 ///
-/// There is none for φ U[0,n] ψ, which is (φ U ψ) ∧ F[0,n] ψ: if ψ comes at all and comes within n
+/// There is none for φ U\[0,n\] ψ, which is (φ U ψ) ∧ F\[0,n\] ψ: if ψ comes at all and comes within n
 /// instants, then so does its first instant, until which φ holds. Minima and maxima only select, so
 /// the two have the same robustness too (each threshold on it is a Boolean reading; Donzé, Ferrère
 /// and Maler, "Efficient Robust Monitoring for STL", 2013, Lemma 2).

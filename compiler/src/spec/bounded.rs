@@ -66,7 +66,7 @@ impl Formula {
 }
 
 impl Spec {
-    /// X[n] φ: φ at the instant `n` steps from now, which must exist.
+    /// X\[n\] φ: φ at the instant `n` steps from now, which must exist.
     ///
     /// ```
     /// use tltl_compiler::{source::Span, spec::{Formula, Spec}};
@@ -95,7 +95,7 @@ impl Spec {
         }
     }
 
-    /// F[0,n] φ: φ now or at one of the next `n` instants.
+    /// F\[0,n\] φ: φ now or at one of the next `n` instants.
     pub fn within(&mut self, n: u32, a: FormulaId, span: Span) -> FormulaId {
         match self.formula(a) {
             _ if n == 0 => a,
@@ -110,7 +110,7 @@ impl Spec {
         }
     }
 
-    /// G[0,n] φ: φ now and at each of the next `n` instants, all of which must exist.
+    /// G\[0,n\] φ: φ now and at each of the next `n` instants, all of which must exist.
     ///
     /// ```
     /// use tltl_compiler::{source::Span, spec::Spec};
@@ -139,7 +139,7 @@ impl Spec {
         }
     }
 
-    /// φ U[0,n] ψ: ψ now or at one of the next `n` instants, and φ at each instant before that.
+    /// φ U\[0,n\] ψ: ψ now or at one of the next `n` instants, and φ at each instant before that.
     pub fn until_within(&mut self, n: u32, a: FormulaId, b: FormulaId, span: Span) -> FormulaId {
         match (self.formula(a), self.formula(b)) {
             _ if n == 0 || a == b => b,
@@ -154,7 +154,7 @@ impl Spec {
         }
     }
 
-    /// F[first,last] φ: φ at an instant so many steps from now.
+    /// F\[first,last\] φ: φ at an instant so many steps from now.
     pub fn eventually_in(
         &mut self,
         steps: RangeInclusive<u32>,
@@ -166,7 +166,7 @@ impl Spec {
         self.delay(first, inner, span)
     }
 
-    /// G[first,last] φ: φ at every instant so many steps from now, all of which must exist.
+    /// G\[first,last\] φ: φ at every instant so many steps from now, all of which must exist.
     pub fn throughout_in(
         &mut self,
         steps: RangeInclusive<u32>,
@@ -178,7 +178,7 @@ impl Spec {
         self.delay(first, inner, span)
     }
 
-    /// φ U[first,last] ψ: ψ at an instant so many steps from now, and φ at each instant before
+    /// φ U\[first,last\] ψ: ψ at an instant so many steps from now, and φ at each instant before
     /// that.
     pub fn until_in(
         &mut self,
@@ -192,7 +192,7 @@ impl Spec {
         self.after_all(first, a, inner, span)
     }
 
-    /// φ T[first,last] ψ: φ at some instant, and ψ so many steps after it; `first` is at least 1.
+    /// φ T\[first,last\] ψ: φ at some instant, and ψ so many steps after it; `first` is at least 1.
     ///
     /// ```
     /// use tltl_compiler::{source::Span, spec::Spec};
