@@ -10,7 +10,9 @@ use std::collections::BTreeSet;
 use proptest::prelude::*;
 use tltl_compiler::arithmetic;
 use tltl_compiler::check;
+use tltl_compiler::compile;
 use tltl_compiler::source::Source;
+use tltl_compiler::translate::Budget;
 use tltlc::evaluate::{Columns, Evaluator, Scratch};
 
 /// A condition of some comparisons, as text.
@@ -70,7 +72,7 @@ fn letters(
     let module = check::file(&source).unwrap_or_else(|errors| panic!("{text}{errors}"));
     let task = &module.tasks[0];
 
-    let mut possible = arithmetic::possible(&module, task);
+    let possible = arithmetic::possible(&module, task);
     let all = (0..1_u32 << conditions.len())
         .map(|bits| (0..conditions.len()).map(|p| bits >> p & 1 == 1).collect::<Vec<_>>());
     let literals = |letter: &[bool]| (0..).zip(letter.iter().copied()).collect::<Vec<_>>();
@@ -125,6 +127,19 @@ proptest! {
         prop_assert_eq!(claimed, shown);
     }
 
+    /// Differences say nothing about where `z` is, so it may be 0, and the others are a plane.
+    #[test]
+    fn differences_of_real_numbers_are_exact(
+        conditions in prop::collection::vec(condition(linear(&["x - y", "y - z", "x - z", "z - x"])), 1..5),
+    ) {
+        let state = "state Line { x: f64, y: f64, z: f64 }";
+        let [claimed, shown] = letters(state, &conditions, |name| match name {
+            "z" => vec![0.0],
+            _ => steps(-5, 5, 4),
+        });
+        prop_assert_eq!(claimed, shown);
+    }
+
     #[test]
     fn what_whole_numbers_show_is_possible(
         conditions in prop::collection::vec(
@@ -139,4 +154,69 @@ proptest! {
         });
         prop_assert!(claimed.is_superset(&shown), "{:?}", shown.difference(&claimed));
     }
+}
+
+/// Joins the texts that `part` gives for the numbers from 0 on.
+fn joined(count: usize, by: &str, part: impl Fn(usize) -> String) -> String {
+    (0..count).map(part).collect::<Vec<_>>().join(by)
+}
+
+/// Sources with hundreds of related comparisons: each is answered or refused, in work that does not
+/// explode, and says what it says here.
+#[test]
+fn hundreds_of_related_comparisons_are_answered() {
+    let number = "state S { x: f64 }";
+    let numbers =
+        |count| format!("state S {{ {} }}", joined(count, ", ", |i| format!("x{i}: f64")));
+    let mixed = |i: usize| i * 193 % 500;
+    let chain = joined(500, " < ", |i| format!("x{i}"));
+    let pairs = (0..18).flat_map(|i| (i + 1..18).map(move |j| format!("x{i} < x{j}")));
+    let pairs = pairs.collect::<Vec<_>>().join(" && ");
+    let entangled = |i: usize| format!("x0 + {i} * x1 + {} * x2 + x3 < {}", i * i, i * i * i);
+    let cases = [
+        (number.to_owned(), "for all i in 0..500: x < i".to_owned(), "2"),
+        (number.to_owned(), joined(500, " && ", |i| format!("x < {}", mixed(i))), "2"),
+        (number.to_owned(), joined(500, " && ", |i| format!("x != {}", mixed(i))), "2"),
+        (
+            number.to_owned(),
+            format!("{} && x > 600", joined(500, " && ", |i| format!("x < {}", mixed(i)))),
+            "unsatisfiable",
+        ),
+        (numbers(500), chain.clone(), "2"),
+        (numbers(500), format!("{chain} && x499 < x0"), "2"),
+        (numbers(18), pairs, "2"),
+        (numbers(4), joined(60, " && ", entangled), "2"),
+        (numbers(4), joined(60, " || ", |i| format!("({})", entangled(i))), "2"),
+        (numbers(3), "x0 < x1 && x1 < x2 && x2 < x0".to_owned(), "unsatisfiable"),
+    ];
+    for (state, condition, expected) in cases {
+        let source = Source::new("t.tltl", format!("{state}\ntask t = F ({condition})\n"));
+        let found = match compile::file(&source, Budget::EMITTED) {
+            Ok(compiled) => compiled.automata[0].dfa.len().to_string(),
+            Err(errors) => errors.first().kind().name().to_owned(),
+        };
+        assert_eq!(found, expected, "{condition}");
+    }
+}
+
+/// The search for the reason of a contradiction does not write out guards that are too large.
+#[test]
+fn a_contradiction_of_large_guards_has_a_reason() {
+    let predicates =
+        joined(300, "\n", |i| format!("predicate p{} = x < {}", i * 7 % 300, i * 7 % 300));
+    let task = joined(150, " || ", |i| format!("(p{} && !p{})", 2 * i, 2 * i + 1));
+    let text = format!("state S {{ x: f64 }}\n{predicates}\ntask t = F ({task})\n");
+    let errors = compile::file(&Source::new("t.tltl", text), Budget::EMITTED).unwrap_err();
+    assert!(errors.to_string().contains("it needs `p0` and `!(p1)`, which exclude each other"));
+}
+
+/// Names that nothing declares are reported, the first hundred of them, with suggestions.
+#[test]
+fn thousands_of_unknown_names_are_reported() {
+    let fields = joined(1000, ", ", |i| format!("field{i}: f64"));
+    let names = joined(2000, " && ", |i| format!("fiedl{i} < 1"));
+    let text = format!("state S {{ {fields} }}\ntask t = F ({names})\n");
+    let errors = compile::file(&Source::new("t.tltl", text), Budget::EMITTED).unwrap_err();
+    assert_eq!(errors.iter().count(), 100);
+    assert!(errors.to_string().contains("did you mean `field1`?"));
 }

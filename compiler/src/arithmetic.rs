@@ -21,7 +21,7 @@
 //!
 //! All arithmetic is exact and rational, on the numbers that the source writes. Non-linear terms,
 //! and sums of very many, count as variables of their own, and predicates too entangled to relate
-//! within [`NODE_LIMIT`] nodes or [`CELL_LIMIT`] combinations count as independent. That is sound:
+//! within [`NODE_LIMIT`] nodes or [`WORK_LIMIT`] coefficients count as independent. That is sound:
 //! it leaves letters possible that are not, and never removes one that is. Integers are relaxed to
 //! reals across forms, so `2*x == 2*y + 1` counts as possible.
 //!
@@ -29,35 +29,37 @@
 //! use tltl_compiler::{arithmetic, check, source::Source};
 //!
 //! let module = check::formula(&Source::new("formula", "F (x < 3) && F (x > 5)"))?;
-//! let mut possible = arithmetic::possible(&module, &module.tasks[0]);
+//! let possible = arithmetic::possible(&module, &module.tasks[0]);
 //! assert!(!possible.all());
 //! // No state is below 3 and above 5; each alone can be.
 //! assert!(possible.excludes(&[(0, true), (1, true)]));
-//! assert_eq!(possible.values(0), (true, true));
+//! assert_eq!(possible.values(), [(true, true), (true, true)]);
 //! # Ok::<(), tltl_compiler::error::Errors>(())
 //! ```
 
 mod form;
 mod relation;
 
-use crate::bdd::{Bdd, Diagram};
+use crate::bdd::{Bdd, Diagram, Node};
 use crate::dfa::Dfa;
 use crate::predicate::{ConditionId, Module, PredicateId, Task};
 
 use relation::Analysis;
 
-/// Predicates whose relation needs more nodes than this count as independent. A million nodes with
-/// their tables take less than 100 MB.
-pub const NODE_LIMIT: usize = 1 << 20;
-/// Linear forms with more combinations of cells than this count as independent. Each combination is
-/// one system of inequalities to decide.
-pub const CELL_LIMIT: usize = 1 << 12;
+/// Predicates whose relation needs more nodes than this count as independent. An unoptimized macro
+/// makes so many in a second.
+pub const NODE_LIMIT: usize = 1 << 17;
+/// Linear forms count as independent if relating them takes more work than this: coefficients that
+/// are looked at while their systems of inequalities are decided. An unoptimized macro looks at a
+/// million in a fifth of a second.
+pub const WORK_LIMIT: usize = 1 << 20;
 
 /// The letters of a task that can occur: a Boolean function of its propositions.
 ///
 /// Invariant: at least one letter can occur, since every component of related predicates has a
 /// state.
 pub struct Possible {
+    propositions: usize,
     diagram: Diagram,
     letters: Bdd,
 }
@@ -79,7 +81,7 @@ pub fn possible(module: &Module, task: &Task) -> Possible {
 /// let text = "state S { x: i8 }\npredicate p = x > 3\npredicate q = x < 4\ntask t = F (p && q)\n";
 /// let module = check::file(&Source::new("s.tltl", text))?;
 /// let conditions: Vec<_> = module.predicates.iter().map(|known| known.condition).collect();
-/// let mut possible = arithmetic::possible_conditions(&module, &conditions);
+/// let possible = arithmetic::possible_conditions(&module, &conditions);
 /// // No integer is between 3 and 4.
 /// assert!(possible.excludes(&[(0, true), (1, true)]));
 /// assert!(possible.excludes(&[(0, false), (1, false)]));
@@ -88,7 +90,8 @@ pub fn possible(module: &Module, task: &Task) -> Possible {
 #[must_use]
 pub fn possible_conditions(module: &Module, roots: &[ConditionId]) -> Possible {
     let analysis = Analysis::new(module);
-    let mut possible = Possible { diagram: Diagram::default(), letters: Bdd::TRUE };
+    let (propositions, diagram) = (roots.len(), Diagram::default());
+    let mut possible = Possible { propositions, diagram, letters: Bdd::TRUE };
     for component in analysis.components(roots) {
         if let Some(letters) = analysis.relate(roots, &component, &mut possible.diagram) {
             possible.letters = possible.diagram.and(possible.letters, letters);
@@ -104,27 +107,60 @@ impl Possible {
         self.letters == Bdd::TRUE
     }
 
-    /// Whether a proposition can be true, and whether it can be false.
+    /// For each proposition whether it can be true, and whether it can be false. Linear in the
+    /// diagram.
     #[must_use]
-    pub fn values(&mut self, proposition: u32) -> (bool, bool) {
-        let holds = self.diagram.variable(proposition);
-        let yes = self.diagram.and(self.letters, holds);
-        let no = self.diagram.minus(self.letters, holds);
-        (yes != Bdd::FALSE, no != Bdd::FALSE)
+    pub fn values(&self) -> Vec<(bool, bool)> {
+        // Every path leads to ⊤ and takes some letters that can occur: a proposition that it skips
+        // has both values. Skips are counted where they begin and taken back where they end.
+        let mut skips = vec![0_isize; self.propositions + 1];
+        let mut values = vec![(false, false); self.propositions];
+        let mut skip = |from: usize, to: Bdd| {
+            let node = self.diagram.get(to);
+            skips[from] += 1;
+            skips[node.map_or(self.propositions, |node| node.level as usize)] -= 1;
+        };
+        skip(0, self.letters);
+        for place in self.diagram.postorder(&[self.letters]) {
+            let Node { level, low, high } = self.diagram.nodes()[place as usize];
+            let level = level as usize;
+            values[level].0 |= high != Bdd::FALSE;
+            values[level].1 |= low != Bdd::FALSE;
+            [low, high]
+                .into_iter()
+                .filter(|&to| to != Bdd::FALSE)
+                .for_each(|to| skip(level + 1, to));
+        }
+        let mut open = 0;
+        for (values, skips) in values.iter_mut().zip(skips) {
+            open += skips;
+            *values = if open > 0 { (true, true) } else { *values };
+        }
+        values
     }
 
-    /// Whether no possible letter has all of these values.
+    /// Whether no possible letter has all of these values. Linear in the diagram.
     #[must_use]
-    pub fn excludes(&mut self, literals: &[(u32, bool)]) -> bool {
-        let mut letters = self.letters;
-        for &(proposition, value) in literals {
-            let holds = self.diagram.variable(proposition);
-            letters = match value {
-                true => self.diagram.and(letters, holds),
-                false => self.diagram.minus(letters, holds),
+    pub fn excludes(&self, literals: &[(u32, bool)]) -> bool {
+        let mut fixed = vec![None; self.propositions];
+        literals.iter().for_each(|&(proposition, value)| fixed[proposition as usize] = Some(value));
+        let mut seen = vec![false; self.diagram.nodes().len()];
+        let mut open = vec![self.letters];
+        while let Some(f) = open.pop() {
+            let Some(node) = self.diagram.get(f) else {
+                if f == Bdd::TRUE {
+                    return false;
+                }
+                continue;
             };
+            let place = f.index().expect("a node has a place") as usize;
+            if !std::mem::replace(&mut seen[place], true) {
+                let value = fixed[node.level as usize];
+                open.extend((value != Some(true)).then_some(node.low));
+                open.extend((value != Some(false)).then_some(node.high));
+            }
         }
-        letters == Bdd::FALSE
+        true
     }
 
     /// The automaton without the edges that only impossible letters take.

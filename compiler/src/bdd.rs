@@ -67,7 +67,7 @@
 mod sum;
 mod walk;
 
-use crate::arena;
+use crate::arena::{self, Memo};
 
 pub use sum::{Cube, Literal};
 pub use walk::Images;
@@ -467,6 +467,38 @@ impl Diagram {
         self.depth -= 1;
         let result = self.node(level, low, high);
         self.remember(key, Known { operation, f, g, result });
+        result
+    }
+
+    /// The disjunction of the functions that `f` is for all values of a range of levels, first to
+    /// last: no part of a chain, but chains as a whole may be among them.
+    ///
+    /// ```
+    /// use tltl_compiler::bdd::Diagram;
+    ///
+    /// let mut diagram = Diagram::default();
+    /// let [a, b, c] = [0, 1, 2].map(|level| diagram.variable(level));
+    /// let [ab, bc] = [(a, b), (b, c)].map(|(f, g)| diagram.and(f, g));
+    /// let either = diagram.or(ab, bc);
+    /// let a_or_c = diagram.or(a, c);
+    /// assert_eq!(diagram.exists(either, 1, 1), a_or_c);
+    /// ```
+    pub fn exists(&mut self, f: Bdd, first: u32, last: u32) -> Bdd {
+        self.without(f, first, last, &mut Memo::default())
+    }
+
+    /// [`exists`](Self::exists), with the results so far.
+    fn without(&mut self, f: Bdd, first: u32, last: u32, known: &mut Memo<Bdd, Bdd>) -> Bdd {
+        let Some(Node { level, low, high }) = self.get(f).filter(|node| node.level <= last) else {
+            return f;
+        };
+        if let Some(result) = known.get(f) {
+            return result;
+        }
+        let low = self.without(low, first, last, known);
+        let high = self.without(high, first, last, known);
+        let result = if level < first { self.node(level, low, high) } else { self.or(low, high) };
+        known.insert(f, result);
         result
     }
 

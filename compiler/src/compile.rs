@@ -210,7 +210,7 @@ fn task_automata(
     mistakes: &mut Vec<Error>,
 ) -> Result<Automata, Exceeded> {
     let propositional = minimize(&translate(&task.spec, budget)?);
-    let mut possible = arithmetic::possible(module, task);
+    let possible = arithmetic::possible(module, task);
     let dfa = if possible.all() {
         propositional.clone()
     } else {
@@ -223,7 +223,7 @@ fn task_automata(
     let automata = Automata { propositional, dfa };
     // A formula without a name may be there to be explored.
     if task.name.is_some() {
-        mistakes.extend(judge::task(module, task, &mut possible, &automata));
+        mistakes.extend(judge::task(module, task, &possible, &automata));
     }
     Ok(automata)
 }

@@ -256,6 +256,18 @@ impl<'a> Guards<'a> {
         self.sum(when)
     }
 
+    /// The first product of the guard of an edge that no possible letter takes: a demand that no
+    /// state meets. `None` if one does, or if the guard has more than 4,096 products, which nobody
+    /// would read.
+    pub(crate) fn impossible(&mut self, q: State, to: State) -> Option<Cube> {
+        let when = self.when(q, to);
+        let is_possible = self.diagram.and(when, self.possible) != Bdd::FALSE;
+        if is_possible || self.diagram.count_products(when, when) > 1 << 12 {
+            return None;
+        }
+        self.diagram.sum_of_products(when, when).into_iter().next()
+    }
+
     /// Whether no guard has more than `most` products. Counts them without writing one out.
     pub fn are_below(&mut self, most: usize) -> bool {
         self.dfa.states().all(|q| {

@@ -26,29 +26,24 @@
 //! ```
 
 use crate::arithmetic::{self, Possible};
-use crate::dfa::{Automata, Dfa};
+use crate::dfa::{Automata, Dfa, Guards};
 use crate::error::{Error, Kind};
 use crate::predicate::{Condition, ConditionId, Module, Task};
 use crate::source::Span;
 
 /// The mistakes of one task, its predicates first.
 #[must_use]
-pub fn task(
-    module: &Module,
-    task: &Task,
-    possible: &mut Possible,
-    automata: &Automata,
-) -> Vec<Error> {
+pub fn task(module: &Module, task: &Task, possible: &Possible, automata: &Automata) -> Vec<Error> {
     let mut mistakes = predicates(module, task, possible);
     mistakes.extend(formula(module, task, possible, automata));
     mistakes
 }
 
 /// A mistake for each predicate that never holds.
-fn predicates(module: &Module, task: &Task, possible: &mut Possible) -> Vec<Error> {
+fn predicates(module: &Module, task: &Task, possible: &Possible) -> Vec<Error> {
     let mut mistakes = Vec::new();
-    for (proposition, &id) in (0..).zip(&task.predicates) {
-        if possible.values(proposition) == (false, true) {
+    for (values, &id) in possible.values().into_iter().zip(&task.predicates) {
+        if values == (false, true) {
             let predicate = &module.predicates[id.0 as usize];
             let core = contradiction(module, &[(predicate.condition, true, predicate.span)]);
             let message = format!("the predicate `{}` can never hold", predicate.name);
@@ -131,9 +126,9 @@ pub struct Part {
 pub fn contradiction(module: &Module, conditions: &[(ConditionId, bool, Span)]) -> Vec<Part> {
     let mut parts = parts(module, conditions);
     let roots: Vec<_> = parts.iter().map(|part| part.id).collect();
-    let mut possible = arithmetic::possible_conditions(module, &roots);
+    let possible = arithmetic::possible_conditions(module, &roots);
     let literals: Vec<_> = (0..).zip(parts.iter().map(|part| part.holds)).collect();
-    let core = core(&mut possible, literals);
+    let core = core(&possible, literals);
     let mut place = 0..;
     parts.retain(|_| place.next().is_some_and(|at| core.iter().any(|(kept, _)| *kept == at)));
     parts
@@ -206,7 +201,7 @@ fn part_text(module: &Module, part: ConditionId, holds: bool) -> String {
 
 /// A minimal subset of `literals` that no possible letter has, by deletion: each literal is left
 /// out, and put back if the rest can occur. Empty if all can occur together.
-fn core(possible: &mut Possible, mut literals: Vec<(u32, bool)>) -> Vec<(u32, bool)> {
+fn core(possible: &Possible, mut literals: Vec<(u32, bool)>) -> Vec<(u32, bool)> {
     if !possible.excludes(&literals) {
         return Vec::new();
     }
@@ -225,7 +220,7 @@ fn core(possible: &mut Possible, mut literals: Vec<(u32, bool)>) -> Vec<(u32, bo
 fn formula(
     module: &Module,
     task: &Task,
-    possible: &mut Possible,
+    possible: &Possible,
     automata: &Automata,
 ) -> Option<Error> {
     if automata.dfa.accepting.is_some() {
@@ -255,17 +250,20 @@ fn formula(
 /// The demand of a formula that no state meets at one instant: the literals of a guard of which a
 /// subset cannot occur.
 ///
-/// Looks at the edges of the propositional automaton that lead nearer to acceptance. If every cube
-/// of the guard of one of them is impossible, that edge is a reason.
-fn obstacle(possible: &mut Possible, dfa: &Dfa) -> Option<Vec<(u32, bool)>> {
+/// Looks at the edges of the propositional automaton that lead nearer to acceptance. One that no
+/// possible letter takes is a reason; the first cube of its guard stands for all of them.
+fn obstacle(possible: &Possible, dfa: &Dfa) -> Option<Vec<(u32, bool)>> {
     dfa.accepting?;
     let distances = dfa.distances();
-    let nearer = |from: u32, to: u32| distances[to as usize] < distances[from as usize];
-    for edge in dfa.edges().iter().filter(|edge| nearer(edge.from, edge.to)) {
-        let cubes = edge.guard.iter().map(|cube| core(possible, cube.clone()));
-        let cores: Vec<_> = cubes.collect();
-        if let (Some(first), true) = (cores.first(), cores.iter().all(|core| !core.is_empty())) {
-            return Some(first.clone());
+    let mut dfa = dfa.clone();
+    possible.attach(&mut dfa);
+    let mut guards = Guards::new(&dfa);
+    for q in dfa.states() {
+        for to in dfa.successors(q) {
+            let nearer = distances[to as usize] < distances[q as usize];
+            if let Some(cube) = nearer.then(|| guards.impossible(q, to)).flatten() {
+                return Some(core(possible, cube));
+            }
         }
     }
     None

@@ -11,15 +11,13 @@
 //!
 //! The simplex method has the better worst case and needs fractions, pivoting rules and strict
 //! bounds as a special case. Elimination can grow doubly exponentially, so systems that outgrow
-//! [`MOST`] inequalities or 62 bits are given up; the systems that predicates make have a handful
-//! of each, and the code is a page.
+//! [`MOST`] inequalities, 62 bits or the caller's work are given up; the systems that predicates
+//! make have a handful of each, and the code is a page.
 //!
 //! # Limits
 //!
 //! Solutions are real: `2*x == 1` has one although no integer satisfies it. The answer `None` means
 //! "not known", and callers then treat the inequalities as independent.
-
-use rustc_hash::FxHashSet;
 
 use crate::predicate::TermId;
 
@@ -33,7 +31,7 @@ const LARGE: i128 = 1 << 62;
 pub type Form = Vec<(TermId, i128)>;
 
 /// Σ coefficient × variable ≤ bound, or < bound.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Debug)]
 pub struct Inequality {
     /// The sum that is bounded.
     pub form: Form,
@@ -45,6 +43,9 @@ pub struct Inequality {
 
 /// Whether the system has a real solution; `None` if finding out would exceed a limit.
 ///
+/// `work` is how many coefficients may be looked at: what is needed is taken from it, and it is 0
+/// once it does not suffice.
+///
 /// ```
 /// use tltl_compiler::linear::{Inequality, feasible};
 /// use tltl_compiler::predicate::TermId;
@@ -53,29 +54,32 @@ pub struct Inequality {
 /// let below = |form: &[(TermId, i128)], bound| Inequality { form: form.to_vec(), bound, strict: true };
 /// // x < 1 and y < 1, and x + y > 2.
 /// let system = [below(&[(x, 1)], 1), below(&[(y, 1)], 1), below(&[(x, -1), (y, -1)], -2)];
-/// assert_eq!(feasible(&system[..2]), Some(true));
-/// assert_eq!(feasible(&system), Some(false));
+/// let mut work = 1000;
+/// assert_eq!(feasible(&system[..2], &mut work), Some(true));
+/// assert_eq!(feasible(&system, &mut work), Some(false));
+/// assert_eq!(feasible(&system, &mut 5), None);
 /// ```
 #[must_use]
-pub fn feasible(system: &[Inequality]) -> Option<bool> {
-    // A set, because elimination produces the same row many times over. Its order is never visible:
-    // the variable to eliminate is chosen by counts, and the answer does not depend on the order of
-    // rows.
-    let mut system: FxHashSet<Inequality> = system.iter().map(reduced).collect();
+pub fn feasible(system: &[Inequality], work: &mut usize) -> Option<bool> {
+    let mut system: Vec<Inequality> = system.iter().map(reduced).collect();
     while let Some(variable) = cheapest(&system) {
-        let (mut upper, mut lower, mut rest) = (Vec::new(), Vec::new(), FxHashSet::default());
+        let size = system.iter().map(|row| row.form.len() + 1).sum();
+        spend(work, size)?;
+        let (mut upper, mut lower, mut rest) = (Vec::new(), Vec::new(), Vec::new());
         for row in system {
             match coefficient(&row.form, variable) {
-                0 => drop(rest.insert(row)),
+                0 => rest.push(row),
                 above if above > 0 => upper.push(row),
                 _ => lower.push(row),
             }
         }
         for a in &upper {
             for b in &lower {
-                rest.insert(eliminated(a, b, variable)?);
+                spend(work, a.form.len() + b.form.len())?;
+                rest.push(eliminated(a, b, variable)?);
             }
         }
+        keep_tightest(&mut rest);
         if rest.len() > MOST {
             return None;
         }
@@ -84,21 +88,82 @@ pub fn feasible(system: &[Inequality]) -> Option<bool> {
     Some(system.iter().all(|row| row.bound > 0 || row.bound == 0 && !row.strict))
 }
 
+/// Takes `cost` from `work`; `None` if it does not suffice.
+fn spend(work: &mut usize, cost: usize) -> Option<()> {
+    *work = work.saturating_sub(cost);
+    (*work > 0).then_some(())
+}
+
+/// Leaves the tightest of the bounds on each form: elimination makes the same form many times over.
+fn keep_tightest(rows: &mut Vec<Inequality>) {
+    rows.sort_by(|a, b| (&a.form, a.bound, b.strict).cmp(&(&b.form, b.bound, a.strict)));
+    rows.dedup_by(|looser, tight| looser.form == tight.form);
+}
+
 /// The variable whose elimination makes the fewest new inequalities, the first of several; `None`
 /// if no variable is left.
-fn cheapest(system: &FxHashSet<Inequality>) -> Option<TermId> {
-    // For each variable the number of rows that bound it from above and from below.
-    let mut bounds: Vec<(TermId, usize, usize)> = Vec::new();
-    for &(variable, coefficient) in system.iter().flat_map(|row| &row.form) {
-        let place = bounds.binary_search_by_key(&variable, |known| known.0);
-        let place = place.unwrap_or_else(|place| {
-            bounds.insert(place, (variable, 0, 0));
-            place
-        });
-        let (_, above, below) = &mut bounds[place];
-        *(if coefficient > 0 { above } else { below }) += 1;
+fn cheapest(system: &[Inequality]) -> Option<TermId> {
+    // For each variable whether each row bounds it from above.
+    let known = system.iter().flat_map(|row| &row.form);
+    let mut bounds: Vec<(TermId, bool)> = known.map(|&(term, by)| (term, by > 0)).collect();
+    bounds.sort_unstable();
+    let made = |of: &[(TermId, bool)]| {
+        let above = of.iter().filter(|bound| bound.1).count();
+        (above * (of.len() - above), of[0].0)
+    };
+    bounds.chunk_by(|a, b| a.0 == b.0).map(made).min().map(|(_, variable)| variable)
+}
+
+/// For each of some forms the groups that it is in, by number: forms in no common group take values
+/// that do not depend on each other.
+///
+/// The groups are the fundamental circuits of the linear matroid of the forms (Oxley, "Matroid
+/// Theory", 2011, section 1.2): Gaussian elimination expresses each form that depends on those
+/// before it by some of them, and these are one group. Forms that are independent map the reals
+/// onto all joint values: a chain `x < y`, `y < z` makes no group although its forms share
+/// variables. `None` if a number grows too large.
+///
+/// ```
+/// use tltl_compiler::linear::circuits;
+/// use tltl_compiler::predicate::TermId;
+///
+/// let [x, y, z] = [0, 1, 2].map(TermId);
+/// let [xy, yz, xz] = [(x, y), (y, z), (x, z)].map(|(a, b)| vec![(a, 1), (b, -1)]);
+/// assert_eq!(circuits(&[&xy, &yz]), Some(vec![vec![], vec![]]));
+/// assert_eq!(circuits(&[&xy, &yz, &xz]), Some(vec![vec![2], vec![2], vec![2]]));
+/// ```
+#[must_use]
+pub fn circuits(forms: &[&Form]) -> Option<Vec<Vec<u32>>> {
+    // Each form carries a variable of its own behind all others. What is left of a form that
+    // depends on others says which.
+    let own = forms.iter().flat_map(|form| form.last()).map(|&(term, _)| term.0 + 1).max()?;
+    let mut groups = vec![Vec::new(); forms.len()];
+    let mut pivots: Vec<(TermId, Form)> = Vec::new();
+    for (number, form) in (0..).zip(forms) {
+        let mut row = (*form).clone();
+        row.push((TermId(own + number), 1));
+        loop {
+            let (first, by) = row[0];
+            if first.0 >= own {
+                row.iter().for_each(|(term, _)| groups[(term.0 - own) as usize].push(number));
+                break;
+            }
+            let place = pivots.binary_search_by_key(&first, |pivot| pivot.0);
+            let Ok(place) = place else {
+                pivots.insert(place.unwrap_err(), (first, row));
+                break;
+            };
+            let pivot = &pivots[place].1;
+            let sum = |a: i128, b: i128| {
+                let sum = a.checked_mul(pivot[0].1)?.checked_sub(b.checked_mul(by)?);
+                sum.filter(|value| value.abs() < LARGE)
+            };
+            row = combined(&row, pivot, &sum)?;
+            let divisor = divisor(&row, 0);
+            row.iter_mut().for_each(|(_, coefficient)| *coefficient /= divisor);
+        }
     }
-    bounds.iter().min_by_key(|(_, above, below)| above * below).map(|known| known.0)
+    Some(groups)
 }
 
 /// The coefficient of a variable; 0 if the form does not have it.
@@ -212,7 +277,7 @@ mod tests {
             ),
         ];
         for (system, verdict) in cases {
-            assert_eq!(feasible(system), Some(verdict), "{system:?}");
+            assert_eq!(feasible(system, &mut usize::MAX.clone()), Some(verdict), "{system:?}");
         }
     }
 
@@ -237,7 +302,7 @@ mod tests {
             let all = -9..10;
             let solved =
                 all.clone().any(|x| all.clone().any(|y| all.clone().any(|z| point([x, y, z]))));
-            let verdict = feasible(&system).unwrap();
+            let verdict = feasible(&system, &mut usize::MAX.clone()).unwrap();
             assert!(verdict || !solved, "{system:?}");
         }
     }

@@ -1,21 +1,23 @@
 //! How the propositions of a task are related by the cuts that they compare with.
 //!
-//! One decision diagram holds all: the propositions on top, then the cuts of each form from the
-//! lowest to the highest, then the opaque conditions. Its function is "this valuation of the
-//! propositions is the one that these cuts make, and these cuts are a cell that has a point".
-//! Existential quantification of everything below the propositions gives the possible letters;
-//! since propositions are on top, that is a walk that replaces each node below by ⊤.
+//! One decision diagram has a level for each cut and each opaque condition. Being below a cut
+//! implies being below all higher ones, so the cuts of a form are a
+//! [chain](crate::bdd#chains-of-levels), from the highest down, and an interval is two nodes however
+//! many cuts there are. The cells that have a point are a function of these levels, and so is each
+//! proposition. The letters that can occur are found by asking one proposition after the other: a
+//! node for a proposition leads to the letters of the cells in which it holds, and of those in
+//! which it does not.
 //!
 //! Propositions that share neither a variable nor an opaque condition are related apart, so the
 //! diagram stays small however many predicates a task has.
 
 use crate::arena::{self, Memo};
-use crate::bdd::{Bdd, Diagram, Node};
-use crate::linear::{Form, Inequality, feasible};
-use crate::predicate::{Condition, ConditionId, Module};
+use crate::bdd::{Bdd, Diagram};
+use crate::linear::{Form, Inequality, circuits, feasible};
+use crate::predicate::{Condition, ConditionId, Module, TermId};
 
 use super::form::{Atom, Cut, Range, Rational, atom, bounds, inequalities, linear_terms};
-use super::{CELL_LIMIT, NODE_LIMIT};
+use super::{NODE_LIMIT, WORK_LIMIT};
 
 /// The comparisons of a module as atoms, computed once.
 pub(super) struct Analysis<'a> {
@@ -79,28 +81,39 @@ impl<'a> Analysis<'a> {
     ) -> Option<Bdd> {
         let conditions: Vec<ConditionId> = places.iter().map(|&place| roots[place]).collect();
         let needed = self.module.conditions_of(conditions.clone());
-        let mut relation = Relation::new(self, places.len() as u32, &needed)?;
-        let meaning = relation.meanings(&needed);
-        let mut related = relation.cells();
-        for (level, condition) in (0..places.len() as u32).zip(&conditions).rev() {
-            let holds = meaning.get(*condition).expect("all that is needed has a meaning");
-            let low = relation.diagram.minus(related, holds);
-            let high = relation.diagram.and(related, holds);
-            related = relation.diagram.node(level, low, high);
-            if relation.diagram.is_exhausted() {
-                return None;
-            }
+        let mut relation = Relation::new(self, &needed)?;
+        let meanings = relation.meanings(&needed);
+        let cells = relation.cells();
+        let mut asked = Vec::new();
+        for (&place, condition) in places.iter().zip(conditions) {
+            let holds = meanings.get(condition).expect("all that is needed has a meaning");
+            asked.push(Asked { level: place as u32, holds, last: Vec::new() });
         }
-        Some(relation.project(related, places, result))
+        relation.note_last_uses(&mut asked);
+        relation.letters(cells, &asked, result)
     }
 }
 
-/// A relation under construction: propositions on the upper levels, cuts and opaque conditions
-/// below.
+/// A proposition whose value is asked.
+struct Asked {
+    /// Its level in the diagram of the result.
+    level: u32,
+    /// The cells in which it holds.
+    holds: Bdd,
+    /// The chains and opaque conditions that no later proposition depends on, as ranges of levels.
+    last: Vec<(u32, u32)>,
+}
+
+/// A relation under construction.
 struct Relation<'a> {
     analysis: &'a Analysis<'a>,
+    /// Functions of cuts and opaque conditions.
     diagram: Diagram,
-    propositions: u32,
+    /// How many sets of cells may still be looked at.
+    left: usize,
+    /// The letters of a set of cells, by the propositions asked before; those are in the diagram of
+    /// the result.
+    letters: Memo<(u32, Bdd), Bdd>,
     /// The forms that are compared, rising, with their cuts.
     chains: Vec<Chain>,
     /// The opaque conditions, rising; their levels follow on those of the cuts.
@@ -111,7 +124,7 @@ struct Relation<'a> {
 impl<'a> Relation<'a> {
     /// Gives levels to the cuts and opaque conditions of some conditions; `None` if they are more
     /// than a diagram may have.
-    fn new(analysis: &'a Analysis<'a>, propositions: u32, needed: &[ConditionId]) -> Option<Self> {
+    fn new(analysis: &'a Analysis<'a>, needed: &[ConditionId]) -> Option<Self> {
         let mut chains: Vec<Chain> = Vec::new();
         let mut opaque = Vec::new();
         for &id in needed {
@@ -124,17 +137,28 @@ impl<'a> Relation<'a> {
                 Atom::Constant(_) | Atom::Opaque => {}
             }
         }
-        let mut level = propositions;
-        for chain in &mut chains {
+        // The types of variables relate forms too.
+        let terms: Vec<TermId> =
+            chains.iter().flat_map(|chain| &chain.form).map(|known| known.0).collect();
+        for term in terms {
+            let variable = vec![(term, 1)];
+            if !bounds(analysis.module, &variable).is_empty() {
+                add(&mut chains, &variable, &[]);
+            }
+        }
+        let (mut level, mut ranges) = (0, Vec::new());
+        for chain in chains.iter_mut().filter(|chain| !chain.cuts.is_empty()) {
             chain.level = level;
             level += chain.cuts.len() as u32;
+            ranges.push(chain.range());
         }
         let fits = level as usize + opaque.len() < Diagram::MAX_LEVELS as usize;
         let first_opaque = level;
         fits.then(|| Self {
             analysis,
-            diagram: Diagram::with_limit(NODE_LIMIT),
-            propositions,
+            diagram: Diagram::with_limit(NODE_LIMIT).chained(ranges),
+            left: NODE_LIMIT,
+            letters: Memo::default(),
             chains,
             opaque,
             first_opaque,
@@ -200,7 +224,7 @@ impl<'a> Relation<'a> {
     fn cut(&mut self, form: &Form, cut: Cut) -> Bdd {
         let chain = &self.chains[find(&self.chains, form).expect("a form that is compared")];
         let place = chain.cuts.binary_search(&cut).expect("a cut of the form");
-        self.diagram.variable(chain.level + place as u32)
+        self.diagram.variable(chain.level_of(place))
     }
 
     /// The function that is true iff the form is equal to a number: below the cut after it, and not
@@ -210,39 +234,41 @@ impl<'a> Relation<'a> {
         self.diagram.minus(through, before)
     }
 
-    /// The combinations of cells that have a point. Being below one cut implies being below all
-    /// later ones; a form of integers or of a bounded type has no value in some cells; and forms
-    /// that share variables exclude each other's cells.
+    /// The combinations of cells that have a point: a form of integers or of a bounded type has no
+    /// value in some cells, and forms that depend on each other exclude each other's cells.
     fn cells(&mut self) -> Bdd {
-        let variables = |chain: &Chain| chain.form.iter().map(|(term, _)| term.0).collect();
-        let ties: Vec<Vec<u32>> = self.chains.iter().map(variables).collect();
         let chains = std::mem::take(&mut self.chains);
+        let forms: Vec<&Form> = chains.iter().map(|chain| &chain.form).collect();
+        let ties = circuits(&forms).unwrap_or_else(|| vec![vec![0]; forms.len()]);
         let mut all = Bdd::TRUE;
         for group in arena::groups(&ties) {
-            let module = self.analysis.module;
             let group: Vec<&Chain> = group.iter().map(|&place| &chains[place]).collect();
-            let mut system: Vec<_> =
-                group.iter().flat_map(|chain| bounds(module, &chain.form)).collect();
-            let mut left = CELL_LIMIT;
-            let cells = match self.joint(&group, &mut system, &mut left) {
-                Some(cells) => cells,
-                None => self.apart(&group),
-            };
+            let cells = self.related(&group).unwrap_or_else(|| self.apart(&group));
             all = self.diagram.and(all, cells);
         }
         self.chains = chains;
         all
     }
 
+    /// The combinations of cells of a group of forms that have a common point; `None` if finding
+    /// them takes more than [`WORK_LIMIT`], or if there is only one form.
+    fn related(&mut self, group: &[&Chain]) -> Option<Bdd> {
+        let variables = group.iter().filter(|chain| chain.form.len() == 1);
+        let module = self.analysis.module;
+        let mut system = variables.flat_map(|chain| bounds(module, &chain.form)).collect();
+        let mut work = WORK_LIMIT;
+        (group.len() > 1).then(|| self.joint(group, &mut system, &mut work))?
+    }
+
     /// The combinations of cells of a group of forms that have a common point, given the
-    /// inequalities of `system`; `None` if they are too many (`left` counts down).
+    /// inequalities of `system`; `None` if finding them takes more than `work`.
     ///
     /// Depth-first over the forms: an infeasible prefix of cells prunes all of its continuations.
     fn joint(
         &mut self,
         group: &[&Chain],
         system: &mut Vec<Inequality>,
-        left: &mut usize,
+        work: &mut usize,
     ) -> Option<Bdd> {
         let Some((chain, others)) = group.split_first() else { return Some(Bdd::TRUE) };
         let range = Range::of(self.analysis.module, &chain.form);
@@ -254,12 +280,12 @@ impl<'a> Relation<'a> {
             }
             let known = system.len();
             system.extend(inequalities(&chain.form, after, until));
-            // Counted before the system is decided: deciding is the expensive part.
-            *left = left.checked_sub(1)?;
-            // A form alone is feasible in every cell that its range inhabits.
-            let alone = known == 0 && others.is_empty();
-            if alone || feasible(system) != Some(false) {
-                let rest = self.joint(others, system, left)?;
+            let feasible = feasible(system, work);
+            if *work == 0 {
+                return None;
+            }
+            if feasible != Some(false) {
+                let rest = self.joint(others, system, work)?;
                 let cell = self.cell(chain, k);
                 let cell = self.diagram.and(cell, rest);
                 cells = self.diagram.or(cells, cell);
@@ -287,26 +313,66 @@ impl<'a> Relation<'a> {
         all
     }
 
-    /// Cell `k` of a form: not below the first `k` cuts, below all others.
+    /// Cell `k` of a form: below cut `k`, and not below the one before.
     fn cell(&mut self, chain: &Chain, k: usize) -> Bdd {
-        let mut all = Bdd::TRUE;
-        for i in (0..chain.cuts.len()).rev() {
-            let (low, high) = if i >= k { (Bdd::FALSE, all) } else { (all, Bdd::FALSE) };
-            all = self.diagram.node(chain.level + i as u32, low, high);
+        let low = match k.checked_sub(1) {
+            Some(before) => self.diagram.literal((chain.level_of(before), false)),
+            None => Bdd::TRUE,
+        };
+        match chain.cuts.get(k) {
+            Some(_) => self.diagram.node(chain.level_of(k), Bdd::FALSE, low),
+            None => low,
         }
-        all
     }
 
-    /// Quantifies everything below the propositions away: ⊤ where anything is left. Levels become
-    /// those of the propositions at `places`.
-    fn project(&self, f: Bdd, places: &[usize], result: &mut Diagram) -> Bdd {
-        let order = self.diagram.postorder(&[f]);
-        let mut node = |Node { level, low, high }| match level < self.propositions {
-            true => result.node(places[level as usize] as u32, low, high),
-            // Reduced diagrams have no node that leads to ⊥ only, so any node below is satisfiable.
-            false => Bdd::TRUE,
-        };
-        self.diagram.fold(&order, &Bdd::leaf, &mut node).of(f)
+    /// Finds for each range of levels, a chain's or that of an opaque condition, the last
+    /// proposition that depends on it.
+    fn note_last_uses(&self, asked: &mut [Asked]) {
+        let chains = self.chains.iter().filter(|chain| !chain.cuts.is_empty());
+        let mut ranges: Vec<(u32, u32)> = chains.map(Chain::range).collect();
+        let opaque = self.first_opaque..self.first_opaque + self.opaque.len() as u32;
+        ranges.extend(opaque.map(|level| (level, level)));
+        let mut is_used = vec![false; ranges.len()];
+        for asked in asked.iter_mut().rev() {
+            for id in self.diagram.postorder(&[asked.holds]) {
+                let level = self.diagram.nodes()[id as usize].level;
+                let range = ranges.partition_point(|range| range.1 < level);
+                if !std::mem::replace(&mut is_used[range], true) {
+                    asked.last.push(ranges[range]);
+                }
+            }
+        }
+    }
+
+    /// The letters of some cells: the valuations of the propositions in `asked` that they have, over
+    /// the levels that are given there. `None` if that exceeds a limit. Recurses once a proposition.
+    ///
+    /// What no later proposition depends on is quantified away at once: cells that differ only
+    /// there are then one question.
+    fn letters(&mut self, cells: Bdd, asked: &[Asked], result: &mut Diagram) -> Option<Bdd> {
+        if cells == Bdd::FALSE {
+            return Some(Bdd::FALSE);
+        }
+        let Some((next, others)) = asked.split_first() else { return Some(Bdd::TRUE) };
+        let key = (asked.len() as u32, cells);
+        if let Some(known) = self.letters.get(key) {
+            return Some(known);
+        }
+        self.left = self.left.checked_sub(1)?;
+        let mut sides =
+            [self.diagram.minus(cells, next.holds), self.diagram.and(cells, next.holds)];
+        for side in &mut sides {
+            for &(first, last) in &next.last {
+                *side = self.diagram.exists(*side, first, last);
+            }
+            if self.diagram.is_exhausted() {
+                return None;
+            }
+            *side = self.letters(*side, others, result)?;
+        }
+        let letters = result.node(next.level, sides[0], sides[1]);
+        self.letters.insert(key, letters);
+        Some(letters)
     }
 }
 
@@ -315,11 +381,21 @@ struct Chain {
     form: Form,
     /// The cuts, rising, each once.
     cuts: Vec<Cut>,
-    /// The level of the first cut; those of the others follow.
+    /// The level of the last cut; those of the others follow, the first one is the lowest.
     level: u32,
 }
 
 impl Chain {
+    /// The first and the last level.
+    fn range(&self) -> (u32, u32) {
+        (self.level, self.level + self.cuts.len() as u32 - 1)
+    }
+
+    /// The level of a cut.
+    fn level_of(&self, cut: usize) -> u32 {
+        self.level + (self.cuts.len() - 1 - cut) as u32
+    }
+
     /// The ends of cell `k`, which lies between the cuts k-1 and k; `None` for an end that is
     /// infinite.
     fn ends(&self, k: usize) -> (Option<Cut>, Option<Cut>) {

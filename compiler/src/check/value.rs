@@ -87,7 +87,8 @@ impl Lowering<'_> {
         let text = self.resolved.quote(id);
         let message = format!("`{text}` is not a value of `{}`", known.name);
         let error = Error::new(Kind::UnknownName, message, self.resolved.span(id));
-        let near = name::suggestion(&text, &mut known.variants.iter().map(String::as_str));
+        let near =
+            self.resolved.scope.suggestion(&text, &mut known.variants.iter().map(String::as_str));
         error.help(near.unwrap_or_else(|| format!("its values are {}", listed(&known.variants))))
     }
 

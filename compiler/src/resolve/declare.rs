@@ -5,10 +5,11 @@
 //! constants. A declaration with a mistake is left out, and its name is remembered as broken, so
 //! that its uses are not reported as well.
 
+use std::cell::Cell;
+
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::name::suggestion;
-use super::scope::{Declared, Duration, Scope, Spans};
+use super::scope::{Declared, Duration, SUGGESTION_WORK, Scope, Spans};
 use super::{Decimal, Names, Value};
 use crate::ast::{Ast, Declaration, FieldType, Item, ItemKind, WrittenUnit, quoted};
 use crate::error::{Error, Kind};
@@ -40,6 +41,7 @@ pub(super) fn declare(ast: &Ast, names: Names) -> Scope<'_> {
         fields: FxHashSet::default(),
         variants: FxHashMap::default(),
         known: Vec::new(),
+        letters_left: Cell::new(SUGGESTION_WORK),
         step: None,
         units: Units::default(),
         measured: false,
@@ -298,7 +300,7 @@ impl<'a> Scope<'a> {
         let structs = self.structs.iter().map(|known| known.name.as_str());
         let enums = self.enums.iter().map(|known| known.name.as_str());
         let error = Error::new(Kind::UnknownName, format!("there is no type `{text}`"), span);
-        let near = suggestion(text, &mut scalars.into_iter().chain(structs).chain(enums));
+        let near = self.suggestion(text, &mut scalars.into_iter().chain(structs).chain(enums));
         let types = "the types are f64, f32, i8 to i64, u8 to u64, bool, arrays such as `[f64; 6]`, \
                      enumerations, and structs declared above";
         error.help(near.unwrap_or_else(|| types.to_owned()))

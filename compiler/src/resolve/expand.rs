@@ -10,7 +10,6 @@
 //! The size is the product of the sets of nested quantifiers, so it is bounded by [`MOST_NODES`]
 //! and the nesting by [`DEEPEST`].
 
-use super::name::suggestion;
 use super::order::{self, Use};
 use super::place::Part;
 use super::{Entry, Expression, ExpressionId, Name, Resolved, Value};
@@ -436,7 +435,7 @@ fn not_a_set(resolved: &Resolved<'_>, text: &str, set: Span) -> Option<Error> {
     if resolved.scope.is_broken(text) {
         return None;
     }
-    Some(error.help(suggestion(text, &mut names).unwrap_or_else(|| {
+    Some(error.help(resolved.scope.suggestion(text, &mut names).unwrap_or_else(|| {
         format!(
             "declare it, `enum {text} {{ … }}`, or list the elements: `for all x in {{a, b}}: …`"
         )

@@ -73,7 +73,7 @@ impl Resolved<'_> {
             true => "declare it: `predicate name = …`, or a field of the state",
             false => "declare the state first: `state Name { x: f64 }`",
         };
-        let near = suggestion(name, &mut self.scope.known().chain(parameters));
+        let near = self.scope.suggestion(name, &mut self.scope.known().chain(parameters));
         error.help(near.unwrap_or_else(|| declare.to_owned()))
     }
 
@@ -83,7 +83,7 @@ impl Resolved<'_> {
         let message = format!("there is no function `{text}`");
         let error = Error::new(Kind::UnknownName, message, self.span(callee));
         let names = Function::ALL.map(|(name, ..)| name);
-        let near = suggestion(&text, &mut names.into_iter());
+        let near = self.scope.suggestion(&text, &mut names.into_iter());
         error.help(near.unwrap_or_else(|| format!("the functions are {}", names.join(", "))))
     }
 
@@ -95,19 +95,26 @@ impl Resolved<'_> {
     }
 }
 
-/// The help that offers the candidate nearest to `name`; `None` if none is near.
-pub(crate) fn suggestion(name: &str, candidates: &mut dyn Iterator<Item = &str>) -> Option<String> {
-    nearest(name, candidates).map(|near| format!("did you mean `{near}`?"))
-}
-
 /// The candidate at the least distance, if that is at most a third of the letters of `name`, the
 /// limit that rustc uses. The first of several, so the answer does not depend on anything but the
-/// source.
-fn nearest<'a>(name: &str, candidates: &mut dyn Iterator<Item = &'a str>) -> Option<&'a str> {
-    let limit = (name.chars().count() / 3).max(1);
+/// source. `None` also once `left`, the pairs of letters that may still be compared, runs out.
+pub(super) fn nearest<'a>(
+    name: &str,
+    candidates: &mut dyn Iterator<Item = &'a str>,
+    left: &mut usize,
+) -> Option<&'a str> {
+    let name = letters(name);
+    let limit = (name.len() / 3).max(1);
     let mut nearest = None;
     for candidate in candidates {
-        let distance = distance(name, candidate);
+        *left = left.checked_sub(1)?;
+        // The distance is at least the difference of the lengths.
+        if name.len().abs_diff(candidate.chars().count()) > limit {
+            continue;
+        }
+        let known = letters(candidate);
+        *left = left.checked_sub(name.len() * known.len())?;
+        let distance = distance(&name, &known);
         if distance <= limit && nearest.is_none_or(|(known, _)| distance < known) {
             nearest = Some((distance, candidate));
         }
@@ -115,13 +122,14 @@ fn nearest<'a>(name: &str, candidates: &mut dyn Iterator<Item = &'a str>) -> Opt
     nearest.map(|(_, candidate)| candidate)
 }
 
+/// The letters of a name, case aside.
+fn letters(name: &str) -> Vec<char> {
+    name.to_lowercase().chars().collect()
+}
+
 /// The number of letters to add, drop, change or swap with their neighbour (optimal string
-/// alignment), case aside. Words of very different lengths are far apart without counting.
-fn distance(a: &str, b: &str) -> usize {
-    let [a, b] = [a, b].map(|text| text.to_lowercase().chars().collect::<Vec<_>>());
-    if a.len().abs_diff(b.len()) > 8 || a.len() > 64 {
-        return usize::MAX;
-    }
+/// alignment).
+fn distance(a: &[char], b: &[char]) -> usize {
     let mut rows = vec![(0..=b.len()).collect::<Vec<_>>()];
     for i in 1..=a.len() {
         let mut row = vec![i];

@@ -11,7 +11,6 @@
 
 use std::rc::Rc;
 
-use super::name::suggestion;
 use super::{Expression, ExpressionId, Name, Names, Place, Resolved, Segment};
 use crate::ast::{Node, NodeId};
 use crate::error::{Error, Kind};
@@ -103,11 +102,14 @@ impl Resolved<'_> {
             return Ok(Place { unit: field.unit.clone(), ..place });
         }
         let error = Error::new(Kind::UnknownName, format!("there is no field `{name}`"), span);
+        /// The most fields that the message lists.
+        const MOST: usize = 32;
         let names: Vec<_> = fields.iter().map(|field| field.name.as_str()).collect();
-        let near = suggestion(name, &mut names.iter().copied());
+        let near = self.scope.suggestion(name, &mut names.iter().copied());
         Err(error.help(near.unwrap_or_else(|| match &names[..] {
             [] => "this is not a struct".to_owned(),
-            names => format!("the fields are {}", names.join(", ")),
+            names if names.len() <= MOST => format!("the fields are {}", names.join(", ")),
+            names => format!("the fields are {}, …", names[..MOST].join(", ")),
         })))
     }
 
@@ -154,7 +156,7 @@ impl Resolved<'_> {
         let message =
             format!("`{text}` is not a value of `{}`, which indexes this array", known.name);
         let error = self.type_error(index, message);
-        let near = suggestion(&text, &mut known.variants.iter().map(String::as_str));
+        let near = self.scope.suggestion(&text, &mut known.variants.iter().map(String::as_str));
         let help = "an index is a value of the enumeration, a parameter or a field";
         Err(error.help(near.unwrap_or_else(|| help.to_owned())))
     }

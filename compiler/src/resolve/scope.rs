@@ -4,9 +4,11 @@
 //! listed or iterated is a vector in source order.
 
 use std::borrow::Cow;
+use std::cell::Cell;
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
+use super::name::nearest;
 use super::{Decimal, Names, Value};
 use crate::ast::{Ast, ItemKind};
 use crate::error::{Error, Kind};
@@ -43,6 +45,8 @@ pub(crate) struct Scope<'a> {
     pub(super) variants: FxHashMap<&'a str, Vec<Value>>,
     /// All names that can stand in a formula, for suggestions; in source order within each kind.
     pub(super) known: Vec<&'a str>,
+    /// How many pairs of letters suggestions may still compare, see [`SUGGESTION_WORK`].
+    pub(super) letters_left: Cell<usize>,
     /// How long a step lasts, if the source says so.
     pub(crate) step: Option<Duration>,
     /// The names of all units.
@@ -54,6 +58,11 @@ pub(crate) struct Scope<'a> {
     /// The mistakes in the declarations.
     pub(super) mistakes: Vec<Error>,
 }
+
+/// The pairs of letters that all suggestions of one source may compare. Names of seven letters
+/// compare 49 pairs, so this is enough for a hundred mistakes among a thousand names, and takes an
+/// unoptimized macro a fifth of a second. Mistakes beyond it are reported without a suggestion.
+pub(super) const SUGGESTION_WORK: usize = 5_000_000;
 
 /// Places by the names that stand there, as Rust has them: two names of a source may be one there.
 pub(super) type Spans<'a> = FxHashMap<Cow<'a, str>, Span>;
@@ -149,6 +158,19 @@ impl<'a> Scope<'a> {
             Some(Type::Struct(index)) => &self.structs[*index as usize].fields,
             Some(_) => &[],
         }
+    }
+
+    /// The help that offers the candidate nearest to `name`; `None` if none is near, or if the
+    /// suggestions before have used all of [`SUGGESTION_WORK`].
+    pub(crate) fn suggestion(
+        &self,
+        name: &str,
+        candidates: &mut dyn Iterator<Item = &str>,
+    ) -> Option<String> {
+        let mut left = self.letters_left.get();
+        let near = nearest(name, candidates, &mut left);
+        self.letters_left.set(left);
+        near.map(|near| format!("did you mean `{near}`?"))
     }
 
     /// All names that can stand in a formula.

@@ -12,14 +12,14 @@ use tltl_compiler::predicate::{Module, Task};
 
 /// The predicates of one task that always hold; all that never holds of a formula without a name.
 pub(super) fn predicates(module: &Module, task: &Task, automata: &Automata) -> Vec<Error> {
-    let mut possible = arithmetic::possible(module, task);
+    let possible = arithmetic::possible(module, task);
     let mut warnings = Vec::new();
     if task.name.is_none() {
-        let never = judge::task(module, task, &mut possible, automata);
+        let never = judge::task(module, task, &possible, automata);
         warnings.extend(never.into_iter().map(Error::warning));
     }
-    for (proposition, &id) in (0..).zip(&task.predicates) {
-        if possible.values(proposition) == (true, false) {
+    for (values, &id) in possible.values().into_iter().zip(&task.predicates) {
+        if values == (true, false) {
             let predicate = &module.predicates[id.0 as usize];
             let core =
                 judge::contradiction(module, &[(predicate.condition, false, predicate.span)]);

@@ -49,13 +49,14 @@ pub(super) fn warnings(module: &Module, task: &Task, automata: &Automata) -> Vec
     if count > MOST_OPERATORS || states > MOST_STATES || judged {
         return Vec::new();
     }
-    let mut possible = arithmetic::possible(module, task);
+    let possible = arithmetic::possible(module, task);
+    let values = possible.values();
     let mut warnings = Vec::new();
     let mut within = vec![false; reachable.len()];
     for (id, formula) in spec.formulas().rev().filter(|(id, _)| reachable[id.0 as usize]) {
         let constant = match formula {
             Formula::True | Formula::False => true,
-            Formula::Literal { proposition, .. } => possible.values(proposition) != (true, true),
+            Formula::Literal { proposition, .. } => values[proposition as usize] != (true, true),
             _ => false,
         };
         let matters = constant || within[id.0 as usize] || id == spec.root();
