@@ -102,11 +102,6 @@ impl<K: Key, V: Id> Memo<K, V> {
     pub(crate) fn get_or_insert(&mut self, key: K, fresh: V) -> V {
         V::new(*self.known.entry(key.key()).or_insert(fresh.number()))
     }
-
-    /// The number of keys.
-    pub(crate) fn len(&self) -> usize {
-        self.known.len()
-    }
 }
 
 /// All ids that `roots` are made of, the roots included, rising. `operands` adds those of one id
