@@ -168,6 +168,17 @@ pub enum Node {
 
 /// `for all name in set: body`, or `for some`: a finite conjunction or disjunction that resolving
 /// writes out.
+///
+/// ```
+/// use tltl_compiler::{ast::{ItemKind, Node}, parse, source::Source};
+///
+/// let ast = parse::formula(&Source::new("formula", "for all r in {hall, attic}: F clean(r)"))?;
+/// let ItemKind::Task(_, root) = ast.items()[0].kind else { panic!() };
+/// let Node::Quantified(quantifier) = ast.node(root) else { panic!("it is one") };
+/// assert_eq!((quantifier.all, ast.source().slice(quantifier.name)), (true, "r"));
+/// assert_eq!((ast.arguments(&quantifier.elements).len(), quantifier.range), (2, None));
+/// # Ok::<(), tltl_compiler::error::Errors>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Quantifier {
     /// Whether it is `for all`.
@@ -210,6 +221,17 @@ pub struct End {
 }
 
 /// A node with its places in the source.
+///
+/// ```
+/// use tltl_compiler::{ast::ItemKind, parse, source::Source};
+///
+/// let ast = parse::formula(&Source::new("formula", "F[0,5] (a)"))?;
+/// let ItemKind::Task(_, root) = ast.items()[0].kind else { panic!() };
+/// let entry = ast.entry(root);
+/// assert_eq!(ast.source().slice(entry.operator), "F[0,5]");
+/// assert!(entry.bound.is_some() && ast.entry(ast.operands(root)[0]).is_bracketed());
+/// # Ok::<(), tltl_compiler::error::Errors>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Entry {
     /// The expression.

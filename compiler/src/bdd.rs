@@ -199,6 +199,17 @@ impl Diagram {
 
     /// A diagram without nodes that stops growing soon after `limit` of them: from then on, results
     /// are arbitrary and [`is_exhausted`](Self::is_exhausted) says so. No operation can run away.
+    ///
+    /// ```
+    /// use tltl_compiler::bdd::Diagram;
+    ///
+    /// let mut diagram = Diagram::with_limit(3);
+    /// let [a, b, c] = [0, 1, 2].map(|level| diagram.variable(level));
+    /// assert!(!diagram.is_exhausted());
+    /// let both = diagram.and(a, b);
+    /// let _arbitrary = diagram.or(both, c);
+    /// assert!(diagram.is_exhausted());
+    /// ```
     #[must_use]
     pub fn with_limit(limit: usize) -> Self {
         // A kilobyte: the automata of most tasks have fewer than 128 nodes.
@@ -270,6 +281,16 @@ impl Diagram {
     }
 
     /// The node that `f` is; `None` for a leaf.
+    ///
+    /// ```
+    /// use tltl_compiler::bdd::{Bdd, Diagram, Node};
+    ///
+    /// let mut diagram = Diagram::default();
+    /// let f = diagram.node(4, Bdd::leaf(7), Bdd::leaf(9));
+    /// assert_eq!(diagram.get(f), Some(Node { level: 4, low: Bdd::leaf(7), high: Bdd::leaf(9) }));
+    /// assert_eq!((diagram.get(Bdd::leaf(7)), diagram.level(Bdd::leaf(7))), (None, u32::MAX));
+    /// assert_eq!(diagram.nodes().len(), 1, "leaves are not stored");
+    /// ```
     #[must_use]
     pub fn get(&self, f: Bdd) -> Option<Node> {
         // The number of a leaf is beyond all nodes.
@@ -284,6 +305,16 @@ impl Diagram {
 
     /// The two functions that `f` is where `level` is false, and where it is true. `f` asks no
     /// lower level.
+    ///
+    /// ```
+    /// use tltl_compiler::bdd::{Bdd, Diagram};
+    ///
+    /// let mut diagram = Diagram::default();
+    /// let [a, b] = [0, 1].map(|level| diagram.variable(level));
+    /// let both = diagram.and(a, b);
+    /// assert_eq!(diagram.cofactors(both, 0), (Bdd::FALSE, b));
+    /// assert_eq!(diagram.cofactors(b, 0), (b, b), "it does not ask `a`");
+    /// ```
     #[must_use]
     pub fn cofactors(&self, f: Bdd, level: u32) -> (Bdd, Bdd) {
         match self.get(f) {

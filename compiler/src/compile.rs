@@ -52,6 +52,18 @@ pub struct Compiled {
 /// A conjunction whose parts run side by side, each with an automaton of its own.
 ///
 /// n unordered goals are 2n states in n parts, and 2^n in one automaton.
+///
+/// ```
+/// use tltl_compiler::{compile, source::Source, translate::Budget};
+///
+/// let text = "state S { a: bool, b: bool }\n#[factored] task tour = F a && F b\n";
+/// let compiled = compile::file(&Source::new("tour.tltl", text), Budget::EMITTED)?;
+/// assert!(compiled.module.tasks.is_empty() && compiled.automata.is_empty());
+/// let tour = &compiled.factored[0];
+/// let sizes: Vec<usize> = tour.parts.iter().map(|part| part.automata.dfa.len()).collect();
+/// assert_eq!((sizes, &tour.parts[1].propositions[..], tour.joint), (vec![2, 2], &[1][..], true));
+/// # Ok::<(), tltl_compiler::error::Errors>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Factored {
     /// The task as a whole.

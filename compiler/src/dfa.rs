@@ -69,6 +69,18 @@ pub struct Dfa {
 }
 
 /// The two automata of a task. They are the same where arithmetic does not tie its predicates.
+///
+/// ```
+/// use tltl_compiler::{compile, source::Source, translate::Budget};
+///
+/// // Two propositions to other tools. To arithmetic, no number is both.
+/// let source = Source::new("formula", "F (x < 1 && x > 3) || F (x < 1)");
+/// let automata = &compile::formula(&source, Budget::EMITTED)?.automata[0];
+/// assert!(automata.propositional.possible.is_none());
+/// let possible = automata.dfa.possible.expect("not every letter can occur");
+/// assert_eq!(automata.dfa.diagram.evaluate(possible, &|_| true), 0);
+/// # Ok::<(), tltl_compiler::error::Errors>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Automata {
     /// Minimal with all predicates taken for free propositions: the automaton that other tools
@@ -80,6 +92,16 @@ pub struct Automata {
 
 /// The size of an automaton, under the usual conventions: parallel edges between two states count
 /// as one.
+///
+/// ```
+/// use tltl_compiler::{compile, source::Source, translate::Budget};
+///
+/// let source = Source::new("formula", "!water U home");
+/// let size = compile::formula(&source, Budget::EMITTED)?.automata[0].dfa.size();
+/// assert_eq!((size.states, size.edges, size.self_loops, size.into_trap), (3, 2, 3, 1));
+/// assert!(size.trap, "2 states and 1 edge are left without it");
+/// # Ok::<(), tltl_compiler::error::Errors>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Size {
     /// States, the trap included.

@@ -115,6 +115,16 @@ impl Kind {
 }
 
 /// Whether compilation can go on.
+///
+/// ```
+/// use tltl_compiler::error::{Error, Kind, Severity};
+/// use tltl_compiler::source::Span;
+///
+/// let error = Error::new(Kind::Unused, "the predicate `far` is not used", Span::new(0, 3));
+/// let warning = error.clone().warning();
+/// assert_eq!((error.severity(), warning.severity()), (Severity::Error, Severity::Warning));
+/// assert_eq!((warning.is_warning(), warning.message()), (true, error.message()));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Severity {
     /// It cannot.
@@ -182,6 +192,16 @@ impl Error {
     }
 
     /// Adds a line that says what to do.
+    ///
+    /// ```
+    /// use tltl_compiler::error::{Error, Kind};
+    /// use tltl_compiler::source::Span;
+    ///
+    /// let error = Error::new(Kind::UnknownName, "nothing here is called `hme`", Span::new(14, 17))
+    ///     .help("did you mean `home`?");
+    /// assert_eq!(error.helps(), ["did you mean `home`?"]);
+    /// assert_eq!(error.to_string(), "nothing here is called `hme`\nhelp: did you mean `home`?");
+    /// ```
     #[must_use]
     pub fn help(mut self, help: impl Into<String>) -> Self {
         self.help.push(bounded(help.into()));

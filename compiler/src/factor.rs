@@ -36,6 +36,17 @@ use crate::translate::{Budget, Exceeded, translate};
 pub const PART: Budget = Budget { states: 256, nodes: 1 << 16, ..Budget::EMITTED };
 
 /// One part: its formula, over its own propositions.
+///
+/// ```
+/// use tltl_compiler::{check, factor::factors, source::Source, translate::Budget};
+///
+/// let module = check::formula(&Source::new("formula", "F a && (F b) && (!c U b)"))?;
+/// let factors = factors(&module.tasks[0].spec, Budget::EMITTED).unwrap();
+/// // The second part is about `b` and `c`, which are its own propositions 0 and 1.
+/// let part = &factors.parts[1];
+/// assert_eq!((part.spec.propositions().len(), &part.propositions[..]), (2, &[1, 2][..]));
+/// # Ok::<(), tltl_compiler::error::Errors>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Factor {
     /// The formula of the part.

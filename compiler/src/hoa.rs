@@ -75,6 +75,15 @@ pub struct Automaton {
 
 /// Reads one automaton.
 ///
+/// ```
+/// use tltl_compiler::{hoa, source::Source};
+///
+/// // `G a` accepts as long as it waits: no finite trajectory ever establishes it.
+/// let text = "HOA: v1 Start: 0 AP: 1 \"a\" Acceptance: 1 Inf(0) --BODY-- State: 0 {0} [0] 0 --END--";
+/// let error = hoa::read(&Source::new("always.hoa", text)).unwrap_err();
+/// assert_eq!(error.kind().name(), "automaton");
+/// ```
+///
 /// # Errors
 /// If the text is not HOA, or the automaton is not one that a formula could have: not
 /// deterministic, alternating, of another acceptance, or with an accepting state that can be left.

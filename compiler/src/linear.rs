@@ -31,6 +31,19 @@ const LARGE: i128 = 1 << 62;
 pub type Form = Vec<(TermId, i128)>;
 
 /// Σ coefficient × variable ≤ bound, or < bound.
+///
+/// ```
+/// use tltl_compiler::linear::{Inequality, feasible};
+/// use tltl_compiler::predicate::TermId;
+///
+/// // x ≤ 2 and -x ≤ -2 meet in one point, which strictness takes away.
+/// let at_most = Inequality { form: vec![(TermId(0), 1)], bound: 2, strict: false };
+/// let at_least = Inequality { form: vec![(TermId(0), -1)], bound: -2, strict: false };
+/// let below = Inequality { strict: true, ..at_most.clone() };
+/// let mut work = 100;
+/// assert_eq!(feasible(&[at_most, at_least.clone()], &mut work), Some(true));
+/// assert_eq!(feasible(&[below, at_least], &mut work), Some(false));
+/// ```
 #[derive(Clone, Debug)]
 pub struct Inequality {
     /// The sum that is bounded.

@@ -75,6 +75,15 @@ pub fn file(source: &Source) -> Result<Ast, Errors> {
 
 /// Parses the input of `tltl!{ … }`: a formula, a header `|s: &S|` and a formula, or items.
 ///
+/// ```
+/// use tltl_compiler::{ast::ItemKind, parse, source::Source};
+///
+/// let ast = parse::fragment(&Source::new("macro", "|s: &Robot| F s.docked"))?;
+/// let kinds = ast.items().iter().map(|item| &item.kind);
+/// assert!(matches!(kinds.collect::<Vec<_>>()[..], [ItemKind::Host(_), ItemKind::Task(..)]));
+/// # Ok::<(), tltl_compiler::error::Errors>(())
+/// ```
+///
 /// # Errors
 /// All mistakes of form that it has.
 pub fn fragment(source: &Source) -> Result<Ast, Errors> {
@@ -82,6 +91,13 @@ pub fn fragment(source: &Source) -> Result<Ast, Errors> {
 }
 
 /// Whether a word is an operator or a constant where a formula stands, and no name.
+///
+/// ```
+/// use tltl_compiler::parse::is_keyword;
+///
+/// assert!(is_keyword("U") && is_keyword("true"));
+/// assert!(!is_keyword("Fridge"), "operators are whole words");
+/// ```
 #[must_use]
 pub fn is_keyword(word: &str) -> bool {
     token::keyword(word).is_some()
@@ -97,6 +113,17 @@ pub fn recover_formula(source: &Source) -> (Ast, Vec<Error>) {
 }
 
 /// Parses a task file as far as possible, with its mistakes.
+///
+/// What can be read is kept, so that a formatter or an editor has something to show:
+///
+/// ```
+/// use tltl_compiler::{ast::ItemKind, parse, source::Source};
+///
+/// let text = "task broken = F (\ntask whole = F a\n";
+/// let (ast, mistakes) = parse::recover_file(&Source::new("two.tltl", text));
+/// assert_eq!((ast.items().len(), mistakes[0].kind().name()), (2, "syntax"));
+/// assert!(matches!(ast.items()[0].kind, ItemKind::Broken(_)), "its name is known all the same");
+/// ```
 #[must_use]
 pub fn recover_file(source: &Source) -> (Ast, Vec<Error>) {
     items(source)

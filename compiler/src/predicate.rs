@@ -224,6 +224,16 @@ pub struct Enum {
 }
 
 /// The state that predicates read.
+///
+/// ```
+/// use tltl_compiler::{check, predicate::{State, Type}, source::Source};
+///
+/// let text = "state Arm { joints: [f64; 6] in rad }\ntask up = F joints[2] > 1\n";
+/// let module = check::file(&Source::new("arm.tltl", text))?;
+/// let State::Declared(arm) = &module.state else { panic!("the source declares one") };
+/// assert!(matches!(&arm.fields[0].ty, Type::Array(_, 6)) && arm.fields[0].unit.is_some());
+/// # Ok::<(), tltl_compiler::error::Errors>(())
+/// ```
 #[derive(Clone, Debug)]
 pub enum State {
     /// Nothing is declared: propositions are free.
@@ -373,6 +383,13 @@ impl Function {
     }
 
     /// The number of arguments that it takes; the least one for `min` and `max`.
+    ///
+    /// ```
+    /// use tltl_compiler::predicate::Function;
+    ///
+    /// assert_eq!((Function::Sqrt.arity(), Function::Hypot.arity(), Function::Max.arity()), (1, 2, 2));
+    /// assert!(Function::ALL.iter().all(|(name, function, _)| Function::named(name) == Some(*function)));
+    /// ```
     #[must_use]
     pub fn arity(self) -> usize {
         Self::ALL.into_iter().find(|(_, function, _)| *function == self).map_or(0, |found| found.2)

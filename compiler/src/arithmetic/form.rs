@@ -7,6 +7,18 @@
 //! All numbers are fractions of `i128` with a power of two below: a double is such a fraction
 //! exactly. Whatever grows beyond 62 bits is given up (`None`), and the comparison counts as
 //! opaque.
+//!
+//! ```
+//! use tltl_compiler::{arithmetic, check, source::Source};
+//!
+//! // Whole numbers have none between 1 and 2; real numbers do.
+//! let gap = |ty: &str| {
+//!     let text = format!("state S {{ x: {ty} }}\ntask t = F (x > 1) && F (x < 2)");
+//!     let module = check::file(&Source::new("s.tltl", text)).unwrap();
+//!     arithmetic::possible(&module, &module.tasks[0]).excludes(&[(0, true), (1, true)])
+//! };
+//! assert_eq!((gap("i32"), gap("f64")), (true, false));
+//! ```
 
 use crate::ast::{Arithmetic, Comparison};
 use crate::linear::{Form, Inequality, combined, divisor};

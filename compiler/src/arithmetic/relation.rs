@@ -10,6 +10,17 @@
 //!
 //! Propositions that share neither a variable nor an opaque condition are related apart, so the
 //! diagram stays small however many predicates a task has.
+//!
+//! ```
+//! use tltl_compiler::{arithmetic, check, source::Source};
+//!
+//! let module = check::formula(&Source::new("formula", "F (x < 1) && F (y < 1) && F (x + y > 3)"))?;
+//! let mut possible = arithmetic::possible(&module, &module.tasks[0]);
+//! // No two of the three exclude each other; all three do.
+//! assert!(!possible.excludes(&[(0, true), (1, true)]) && !possible.excludes(&[(0, true), (2, true)]));
+//! assert!(possible.excludes(&[(0, true), (1, true), (2, true)]));
+//! # Ok::<(), tltl_compiler::error::Errors>(())
+//! ```
 
 use crate::arena::{self, Memo};
 use crate::bdd::{Bdd, Diagram};

@@ -56,6 +56,18 @@ impl Diagram {
 
     /// Visits what is below `f` depth-first, low before high. `enter` is asked for each node,
     /// by its place, whether to go below it; `leaf` gets each leaf that is met.
+    ///
+    /// ```
+    /// use tltl_compiler::bdd::{Bdd, Diagram};
+    ///
+    /// let mut diagram = Diagram::default();
+    /// let shared = diagram.node(2, Bdd::leaf(5), Bdd::leaf(6));
+    /// let f = diagram.node(0, shared, Bdd::leaf(6));
+    /// // Entered always, a shared node is met once for each way to it; see [`Diagram::leaves`] for once.
+    /// let mut met = Vec::new();
+    /// diagram.walk(f, &mut |_| true, &mut |leaf| met.push(leaf));
+    /// assert_eq!(met, [5, 6, 6]);
+    /// ```
     pub fn walk(&self, f: Bdd, enter: &mut dyn FnMut(u32) -> bool, leaf: &mut dyn FnMut(u32)) {
         let mut stack = vec![f];
         while let Some(f) = stack.pop() {

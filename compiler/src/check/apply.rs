@@ -4,6 +4,19 @@
 //! of `near` with 2 in it, so arithmetic relates `near(2)` to `x < 1`. The call itself is kept for
 //! emission and for messages. The substituted condition is checked again for what an argument can
 //! break: a division by zero, a number out of range, an element outside an array.
+//!
+//! ```
+//! use tltl_compiler::{check, source::Source};
+//!
+//! let text = "state Robot { x: f64 }
+//! predicate within(d: f64) = 1 / d > x
+//! task come = F within(2)
+//! task never = F within(0)";
+//! let errors = check::file(&Source::new("robot.tltl", text)).unwrap_err();
+//! // The predicate is sound, and so is its first use.
+//! assert_eq!(errors.iter().count(), 1);
+//! assert!(errors.first().span().start > text.find("never").unwrap());
+//! ```
 
 use super::atom::{Atom, Atoms};
 use crate::ast::{Arithmetic, ItemKind, quoted};

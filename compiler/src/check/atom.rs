@@ -3,6 +3,14 @@
 //!
 //! A chain of comparisons `a < b < c` is one leaf with several conditions. Its negation is a
 //! disjunction, so the conditions stay apart until the polarity of the leaf is applied.
+//!
+//! ```
+//! use tltl_compiler::{check, source::Source};
+//!
+//! let module = check::formula(&Source::new("formula", "!(0 < x < 3) U (y > 1)"))?;
+//! assert_eq!(module.tasks[0].spec.to_string(), "(!(x > 0) || !(x < 3)) U (y > 1)");
+//! # Ok::<(), tltl_compiler::error::Errors>(())
+//! ```
 
 use super::lower::Lowering;
 use super::proposition::Propositions;

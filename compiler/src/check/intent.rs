@@ -3,6 +3,14 @@
 //! The logic is co-safe: a finite trajectory must be able to establish a formula for good. A
 //! negated temporal operator is a safety property, which none can. The errors here say so in terms
 //! of the author's own formula, and offer the `U` that is usually meant.
+//!
+//! ```
+//! use tltl_compiler::{check, source::Source};
+//!
+//! let errors = check::formula(&Source::new("formula", "F a && G !b")).unwrap_err();
+//! assert_eq!(errors.first().kind().name(), "unsupported-operator");
+//! assert!(!errors.first().helps().is_empty(), "it says what to write");
+//! ```
 
 use crate::ast::{Ast, Infix, Node, NodeId, Prefix};
 use crate::error::{Error, Kind};

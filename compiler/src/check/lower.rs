@@ -4,6 +4,16 @@
 //! Folding shows mistakes that no run should meet: a division by a constant zero, a constant that
 //! is infinite or not a number. They are refused here, so a term of the module that is constant is
 //! finite.
+//!
+//! ```
+//! use tltl_compiler::{check, source::Source};
+//!
+//! let module = check::formula(&Source::new("formula", "F (x < 2 * 3 - 1)"))?;
+//! assert_eq!(module.tasks[0].spec.propositions(), ["x < 5"]);
+//! let errors = check::formula(&Source::new("formula", "F (x < 1 / 0)")).unwrap_err();
+//! assert_eq!(errors.first().kind().name(), "number");
+//! # Ok::<(), tltl_compiler::error::Errors>(())
+//! ```
 
 use rustc_hash::FxHashMap;
 

@@ -4,6 +4,14 @@
 //! comparison is known in four ways (either side first, negated or not), so `x < 3` and `3 <= x`
 //! are one proposition and its negation: this saves a proposition, and with it up to half of the
 //! automaton's letters.
+//!
+//! ```
+//! use tltl_compiler::{check, source::Source};
+//!
+//! let module = check::formula(&Source::new("formula", "F (x < 3) && F (3 <= x) && F (3 > x)"))?;
+//! assert_eq!(module.tasks[0].spec.propositions(), ["x < 3"]);
+//! # Ok::<(), tltl_compiler::error::Errors>(())
+//! ```
 
 use rustc_hash::FxHashMap;
 

@@ -4,6 +4,17 @@
 //! whole must be. So types need no inference, and a mistake is reported at the operand that does
 //! not fit. The same descent pushes negation inward, which makes the formula's negation normal form
 //! a matter of reading roles.
+//!
+//! ```
+//! use tltl_compiler::{check, source::Source};
+//!
+//! // The operand of `!` is a formula, and that of `-` a number.
+//! let module = check::formula(&Source::new("formula", "!(a && -x < 1)"))?;
+//! assert_eq!(module.tasks[0].spec.to_string(), "!a || !(-x < 1)");
+//! let errors = check::formula(&Source::new("formula", "F (a && x + 1)")).unwrap_err();
+//! assert_eq!(errors.first().kind().name(), "type");
+//! # Ok::<(), tltl_compiler::error::Errors>(())
+//! ```
 
 use super::{bound, intent};
 use crate::ast::{Comparison, Infix, Prefix};

@@ -4,6 +4,17 @@
 //! decision diagrams' levels. Therefore the leaves are all read first, and the formula is built in
 //! a second pass. A task that another one uses is copied into it, its propositions mapped: an
 //! automaton is built for each task as a whole.
+//!
+//! ```
+//! use tltl_compiler::{check, source::Source};
+//!
+//! let text = "state S { a: bool, b: bool, c: bool }
+//! task both = F b && F a
+//! task all = F c && both";
+//! let module = check::file(&Source::new("s.tltl", text))?;
+//! assert_eq!(module.tasks[1].spec.propositions(), ["c", "b", "a"]);
+//! # Ok::<(), tltl_compiler::error::Errors>(())
+//! ```
 
 use super::atom::{Atom, Atoms};
 use super::bound;

@@ -7,6 +7,18 @@
 //!
 //! Terms are shared by their values, which have no units, so this pass goes over the expressions as
 //! they were written.
+//!
+//! ```
+//! use tltl_compiler::{check, source::Source};
+//!
+//! let text = "state Car { x: f64 in m, speed: f64 in m/s }\ntask stop = F x < speed";
+//! let errors = check::file(&Source::new("car.tltl", text)).unwrap_err();
+//! let message = "`x` is in m, but `speed` is in m/s: they cannot be compared";
+//! assert_eq!((errors.first().kind().name(), errors.first().message()), ("unit", message));
+//! // A time makes a distance of a speed.
+//! let gap = text.replace("task", "const gap in s = 2\ntask").replace("< speed", "< speed * gap");
+//! assert!(check::file(&Source::new("car.tltl", gap)).is_ok());
+//! ```
 
 use super::role::{Role, Roles};
 use crate::ast::{Arithmetic, Infix, Prefix, quoted};

@@ -4,6 +4,19 @@
 //! The name of a value does not say its enumeration, because several may share the name. The
 //! neighbour does: the other side of a comparison, the index of a table, the type of a parameter.
 //! Only if none of them does is the name ambiguous.
+//!
+//! ```
+//! use tltl_compiler::{check, source::Source};
+//!
+//! let text = "enum Room { hall, none_of_these }
+//! enum Mood { hall, calm }
+//! state Robot { at: Room, mood: Mood }
+//! task settle = F (at == hall && mood == hall)";
+//! let module = check::file(&Source::new("robot.tltl", text))?;
+//! // One word, two values: the other side says which.
+//! assert_eq!(module.tasks[0].spec.propositions(), ["at == hall", "mood == hall"]);
+//! # Ok::<(), tltl_compiler::error::Errors>(())
+//! ```
 
 use std::rc::Rc;
 

@@ -13,6 +13,16 @@ use super::{Error, Severity};
 use crate::source::{Source, Span, is_hidden, visible};
 
 /// The look of a report.
+///
+/// ```
+/// use tltl_compiler::error::{Error, Kind, Style};
+/// use tltl_compiler::source::{Source, Span};
+///
+/// let source = Source::new("room.tltl", "task home = F hme\n");
+/// let error = Error::new(Kind::UnknownName, "nothing here is called `hme`", Span::new(14, 17));
+/// let [plain, coloured] = [Style::Plain, Style::Coloured].map(|style| error.render(&source, style));
+/// assert!(!plain.contains('\x1b') && coloured.contains("\x1b[1;31merror[unknown-name]\x1b[0m"));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Style {
     /// For files, pipes and compilers.

@@ -3,6 +3,16 @@
 //! A formula of the language is co-safe, so its automaton has absorbing acceptance. An automaton
 //! from elsewhere need not have it: this module finds the accepting states under each acceptance
 //! condition, refuses those that can be left, and then merges them into one.
+//!
+//! ```
+//! use tltl_compiler::{hoa, source::Source};
+//!
+//! // `GF a`: it accepts, and may be left again.
+//! let text = "HOA: v1 Start: 0 AP: 1 \"a\" Acceptance: 1 Inf(0) --BODY--
+//!     State: 0 [0] 1 [!0] 0 State: 1 {0} [0] 1 [!0] 0 --END--";
+//! let error = hoa::read(&Source::new("often.hoa", text)).unwrap_err();
+//! assert_eq!(error.kind().name(), "automaton");
+//! ```
 
 use super::body::{Body, Described};
 use super::header::{Acceptance, Header};

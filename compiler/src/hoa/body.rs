@@ -3,6 +3,16 @@
 //! The transitions of a state start as "everything leads nowhere", and each edge is laid over them
 //! where its label holds. An edge that meets another one is what makes an automaton
 //! nondeterministic, and it is found in that very step.
+//!
+//! ```
+//! use tltl_compiler::{hoa, source::Source};
+//!
+//! // Where both hold, both edges could be taken.
+//! let text = "HOA: v1 Start: 0 AP: 2 \"a\" \"b\" Acceptance: 1 Inf(0) --BODY--
+//!     State: 0 [0] 1 [1] 0 State: 1 {0} [t] 1 --END--";
+//! let error = hoa::read(&Source::new("choice.hoa", text)).unwrap_err();
+//! assert!(error.message().contains("deterministic"), "{error}");
+//! ```
 
 use super::header::Header;
 use super::token::{Token, Tokens};

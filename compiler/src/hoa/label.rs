@@ -1,5 +1,14 @@
 //! Labels: Boolean expressions over propositions by number, and aliases. They become decision
 //! diagrams while they are read.
+//!
+//! ```
+//! use tltl_compiler::{hoa, source::Source};
+//!
+//! let text = "HOA: v1 Start: 0 AP: 2 \"a\" \"b\" Acceptance: 1 Inf(0) Alias: @both 0 & 1 --BODY--
+//!     State: 0 [@both] 1 [!@both] 0 State: 1 {0} [t] 1 --END--";
+//! let automaton = hoa::read(&Source::new("both.hoa", text)).unwrap();
+//! assert_eq!(automaton.dfa.edges()[1].guard, [[(0, true), (1, true)]]);
+//! ```
 
 use rustc_hash::FxHashMap;
 

@@ -4,6 +4,19 @@
 //! structs that use them; then the state, the parameters of predicates and tasks, and the units of
 //! constants. A declaration with a mistake is left out, and its name is remembered as broken, so
 //! that its uses are not reported as well.
+//!
+//! ```
+//! use tltl_compiler::{check, source::Source};
+//!
+//! let text = "enum Room { hall, attic }
+//! struct Pose { x: f64, y: f64 }
+//! state Robot { pose: Pose, at: Room, pose: f64 }
+//! task up = F (at == attic && pose.z > 1)";
+//! let errors = check::file(&Source::new("robot.tltl", text)).unwrap_err();
+//! let kinds: Vec<&str> = errors.iter().map(|error| error.kind().name()).collect();
+//! // The second `pose` is left out, and the first one has no `z`.
+//! assert_eq!(kinds, ["duplicate-name", "unknown-name"]);
+//! ```
 
 use std::cell::Cell;
 

@@ -9,6 +9,17 @@
 //!
 //! The size is the product of the sets of nested quantifiers, so it is bounded by [`MOST_NODES`]
 //! and the nesting by [`DEEPEST`].
+//!
+//! ```
+//! use tltl_compiler::{check, source::Source};
+//!
+//! let text = "enum Room { hall, attic }
+//! state Robot { at: Room }
+//! task tour = for all r in Room: F at == r";
+//! let module = check::file(&Source::new("tour.tltl", text))?;
+//! assert_eq!(module.tasks[0].spec.to_string(), "F (at == hall) && F (at == attic)");
+//! # Ok::<(), tltl_compiler::error::Errors>(())
+//! ```
 
 use super::order::{self, Use};
 use super::place::Part;

@@ -3,6 +3,15 @@
 //! The order of the answers in [`Resolved::name`] is the scoping of the language: parameters,
 //! items, places of the state, values, `none`, functions. Names of the first three kinds cannot
 //! coincide without an error, so their order matters only for what else is reported.
+//!
+//! ```
+//! use tltl_compiler::{check, source::Source};
+//!
+//! let text = "state Robot { battery: f64 }\ntask charge = F batery > 9";
+//! let errors = check::file(&Source::new("robot.tltl", text)).unwrap_err();
+//! assert_eq!(errors.first().message(), "nothing here is called `batery`");
+//! assert_eq!(errors.first().helps(), ["did you mean `battery`?"]);
+//! ```
 
 use std::rc::Rc;
 

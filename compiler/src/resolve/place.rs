@@ -8,6 +8,15 @@
 //!
 //! In the macro, a path is Rust's to read. It is resolved beside that only if a state is declared,
 //! to learn its unit.
+//!
+//! ```
+//! use tltl_compiler::{check, source::Source};
+//!
+//! let text = "state Arm { joints: [f64; 6] }\ntask up = F joints[6] > 1";
+//! let errors = check::file(&Source::new("arm.tltl", text)).unwrap_err();
+//! assert_eq!(errors.first().message(), "index 6 is beyond an array of 6 elements");
+//! assert_eq!(errors.first().helps(), ["the elements are numbered from 0 to 5"]);
+//! ```
 
 use std::rc::Rc;
 
