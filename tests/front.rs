@@ -86,6 +86,23 @@ fn every_diagnostic() {
     insta::assert_snapshot!("diagnostics", gallery);
 }
 
+/// What a message says to write can be written, and a formula among it is one.
+#[test]
+fn what_to_write_can_be_read() {
+    for Case { name, report, .. } in cases() {
+        for advice in report.split("write `").skip(1) {
+            let text = advice.split('`').next().unwrap();
+            let parts = [format!("{text} a"), format!("a {text} b"), format!("{text} task t = a")];
+            let read = |text: &str| {
+                let source = Source::new("<advice>", text);
+                parse::formula(&source).is_ok() || parse::file(&source).is_ok()
+            };
+            let is_read = read(text) || parts.iter().any(|text| read(text));
+            assert!(is_read || text.contains('…'), "{name}: {text}");
+        }
+    }
+}
+
 fn indented(text: &str) -> String {
     text.lines().fold(String::new(), |out, line| out + "    " + line + "\n")
 }

@@ -77,7 +77,14 @@ pub fn formula(source: &Source) -> Result<Module, Errors> {
 /// # Errors
 /// All mistakes that it has, of form and of meaning.
 pub fn file(source: &Source) -> Result<Module, Errors> {
-    finish(parse::recover_file(source), Names::Declared)
+    let (ast, mut mistakes) = parse::recover_file(source);
+    if ast.items().is_empty() && mistakes.is_empty() {
+        let error = Error::new(Kind::Syntax, "this file declares nothing", Span::default());
+        mistakes.push(error.help(
+            "declare the state and a task, such as `state Cell { x: f64 }` and `task go = F (x > 1)`",
+        ));
+    }
+    finish((ast, mistakes), Names::Declared)
 }
 
 /// Parses and checks the input of `tltl!{ … }`; with a state of its own, it is a task file.

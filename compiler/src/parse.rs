@@ -26,7 +26,7 @@ mod expression;
 mod item;
 mod message;
 
-use crate::ast::{Ast, Item, ItemKind};
+use crate::ast::{Ast, Item, ItemKind, quoted};
 use crate::error::{Error, Errors, Kind};
 use crate::grammar::{self, Rule};
 use crate::source::{Source, Span};
@@ -103,8 +103,8 @@ pub fn is_keyword(word: &str) -> bool {
     token::keyword(word).is_some()
 }
 
-/// The error for an operator of another temporal logic.
-pub(crate) use message::unsupported;
+/// Operators of other logics and tools, for the stages that know what a name means.
+pub(crate) use message::{apart, foreign_call, unsupported};
 
 /// Parses a bare formula as far as possible, with its mistakes.
 #[must_use]
@@ -192,6 +192,7 @@ fn items(source: &Source) -> (Ast, Vec<Error>) {
             Err(stopped) => {
                 let mistake = message::sentence(source, at, &stopped);
                 let next = token::next_item(source.text(), at, mistake.span().start);
+                let mistake = lone_formula(source, Span::new(at, next)).unwrap_or(mistake);
                 let readable = &source.text()[at..mistake.span().start];
                 match grammar::parse(Rule::next, readable) {
                     Ok(tree) => tree
@@ -208,6 +209,20 @@ fn items(source: &Source) -> (Ast, Vec<Error>) {
     (ast, mistakes)
 }
 
+/// The error for a formula where an item should stand, as in a file that is only a formula.
+fn lone_formula(source: &Source, span: Span) -> Option<Error> {
+    let text = source.slice(span);
+    grammar::parse(Rule::formula, text).ok()?;
+    let formula = quoted(text.trim());
+    let start = span.start + text.len() - text.trim_start().len();
+    let span = Span::new(start, start + text.trim().len());
+    Some(
+        Error::new(Kind::Syntax, "this is a formula, and a task file is made of items", span)
+            .help(format!("give it a name: `task go = {formula}`"))
+            .help(format!("the command line takes formulas too: `--formula '{formula}'`")),
+    )
+}
+
 /// Reads the docs of the file and returns the byte at which they end.
 fn prologue(ast: &mut Ast, source: &Source) -> usize {
     let Ok(tree) = grammar::parse(Rule::prologue, source.text()) else { return 0 };
@@ -221,11 +236,16 @@ fn prologue(ast: &mut Ast, source: &Source) -> usize {
     end
 }
 
-/// Refuses braces that nest so deep that the grammar would run out of stack.
+/// Refuses braces that nest so deep that the grammar would run out of stack, and what is not text.
 fn shallow(source: &Source) -> Result<(), Error> {
     let mut depth = 0_usize;
     for (at, byte) in source.text().bytes().enumerate() {
         match byte {
+            0 => {
+                let message = "this is not text in UTF-8, for it has a zero byte";
+                return Err(Error::new(Kind::Syntax, message, Span::new(at, at + 1))
+                    .help("if it is UTF-16, save it as UTF-8"));
+            }
             b'{' if depth == BRACES => {
                 let message = format!("braces nest more than {BRACES} deep");
                 return Err(Error::new(Kind::Nesting, message, Span::new(at, at + 1))

@@ -20,9 +20,9 @@ const ITEM_WORDS: [&str; 6] = ["state", "struct", "enum", "const", "predicate", 
 /// the token, so longer ones stand before their beginnings. Other characters are tokens by
 /// themselves. Operators of other logics (`<>`, `[]`, `**`, `=<`) are among them, for a message
 /// must quote them whole.
-const SYMBOLS: [&str; 24] = [
-    "<=>", "<->", "///", "//!", "=>", "->", "&&", "||", "==", "!=", "<=", ">=", "<>", "[]", "::",
-    "**", "=<", "&", "|", "<", ">", "=", "-", "/",
+const SYMBOLS: [&str; 28] = [
+    "<==>", "==>", "/\\", "\\/", "<=>", "<->", "///", "//!", "=>", "->", "&&", "||", "==", "!=",
+    "<=", ">=", "<>", "[]", "::", "**", "=<", "&", "|", "<", ">", "=", "-", "/",
 ];
 
 /// The meaning of a keyword, as messages give it; `None` if `word` is an ordinary name.
@@ -115,6 +115,15 @@ pub(crate) fn compact(text: &str) -> String {
         compact.push_str(word);
     }
     compact
+}
+
+/// The name in quotes, if it can do without them: `"goal"` is `goal`, and `"goal room"` stays.
+pub(crate) fn unquoted(text: &str) -> &str {
+    let name = text.strip_prefix('"').and_then(|text| text.strip_suffix('"')).unwrap_or(text);
+    let is_plain = name.starts_with(is_word_start)
+        && name.chars().all(|c| c.is_alphanumeric() || c == '_')
+        && keyword(name).is_none();
+    if is_plain { name } else { text }
 }
 
 /// The Rust expression `text` with other words in the place of some names. Works on tokens, so `x`

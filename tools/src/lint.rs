@@ -8,22 +8,24 @@
 //! | of | needs | finds |
 //! | --- | --- | --- |
 //! | `order` | the source as it was written | operators that order less than they seem to |
+//! | `pasted` | a bare formula as it was written | names that are operators or constants in other tools |
 //! | `unused` | the source as it was written | predicates and constants that nothing uses |
 //! | `certain` | a task and its automaton | what always holds; in a bare formula also what never does |
 //! | `vacuity` | a task and its automaton | parts that could be left out |
 
 mod certain;
 mod order;
+mod pasted;
 mod unused;
 mod vacuity;
 
-use tltl_compiler::ast::{Ast, ItemKind, NodeId};
+use tltl_compiler::ast::{Ast, Item, ItemKind, NodeId};
 use tltl_compiler::compile::Compiled;
 use tltl_compiler::dfa::Automata;
 use tltl_compiler::error::Error;
 use tltl_compiler::parse;
 use tltl_compiler::predicate::Task;
-use tltl_compiler::source::Source;
+use tltl_compiler::source::{Source, Span};
 
 /// The most warnings of a source: as many as the compiler reports errors.
 const MOST: usize = 100;
@@ -82,6 +84,11 @@ pub fn written((ast, mistakes): &(Ast, Vec<Error>)) -> Vec<Error> {
     let mut warnings: Vec<Error> = nodes(ast).filter_map(|id| order::warning(ast, id)).collect();
     if mistakes.is_empty() {
         warnings.extend(unused::warnings(ast));
+    }
+    let is_bare =
+        |item: &Item| matches!(item.kind, ItemKind::Task(..)) && item.name == Span::default();
+    if ast.items().iter().any(is_bare) {
+        warnings.extend(pasted::warnings(ast));
     }
     warnings
 }
@@ -142,7 +149,7 @@ mod tests {
             (
                 "task t = for all i in 0..2: (F on[i] T x < 1) && F y < 1",
                 &[
-                    "intent: `F on[i] T x < 1` reads `(F on[i]) T x < 1`, which does not order on[i] before x < 1",
+                    "intent: `F on[i] T (x < 1)` reads `(F on[i]) T (x < 1)`, which does not order on[i] before x < 1",
                 ],
             ),
             (
@@ -154,5 +161,60 @@ mod tests {
         ] {
             assert_eq!(told(&format!("{STATE}{text}\n")), expected, "{text}");
         }
+    }
+
+    /// Whether a bare formula has an `intent` warning, and what it says to write.
+    fn asked(text: &str) -> Vec<String> {
+        let warnings = written(&parse::recover_formula(&Source::new("formula", text)));
+        warnings.iter().map(|warning| warning.helps()[0].clone()).collect()
+    }
+
+    #[test]
+    fn pasted_operators_are_asked_about() {
+        for (text, apart) in [
+            ("Fa && b", "F a"),
+            ("GFp0", "G F p0"),
+            ("XXa U b", "X X a"),
+            ("q || Xp1", "X p1"),
+            ("Fgoal && !goal", "F goal"),
+            ("FGsafe", "F G safe"),
+            ("Xdone", "X done"),
+            ("Fgoal && b", "F goal"),
+            ("Fridge && ridge", "F ridge"),
+            ("F (Xa == 3)", "X a"),
+        ] {
+            assert_eq!(asked(text), [format!("for the operators, write `{apart}`")], "{text}");
+        }
+        let words = ["last", "end", "tt", "ff", "TRUE", "True", "FALSE", "False"];
+        for word in words {
+            assert_eq!(asked(&format!("F ({word} && a)")).len(), 1, "{word}");
+        }
+        for name in [
+            "Fridge", "Floor", "Garage", "Xenon", "X1", "FA", "InFridge", "F_a", "fa", "first",
+            "s.Fa", "Frob_1x", "GPS", "r#Fa",
+        ] {
+            assert_eq!(asked(&format!("F ({name} && a)")), [""; 0], "{name}");
+        }
+        assert_eq!(asked("for some Fa in {goal, key}: F Fa"), [""; 0]);
+        let file = "state S { Fa: bool, last: bool }\ntask t = F (Fa && last)\n";
+        assert_eq!(told(file), [""; 0]);
+    }
+
+    #[test]
+    fn suggestions_keep_their_brackets() {
+        for (text, written) in [
+            ("F (lit || door) T (door && key)", "(lit || door) T (door && key)"),
+            ("F (h > 4 && v < 1) T (h <= 0)", "(h > 4 && v < 1) T (h <= 0)"),
+            ("((p && q) T (q || r)) T (p || r)", "(p && q) T ((q || r) T (p || r))"),
+            ("(a T X b) T[<=3] c", "a T ((X b) T[<=3] c)"),
+            ("F[0,2] a T[1,2] (b => c)", "a T[1,2] (b => c)"),
+            ("(a || b) U F (c && d)", "(a || b) U (c && d)"),
+            ("a U[1,2] F x < 3", "a U[1,2] (x < 3)"),
+        ] {
+            let found = asked(text);
+            assert!(found[0].contains(&format!("write `{written}`")), "{text}: {found:?}");
+            assert!(parse::formula(&Source::new("written", written)).is_ok());
+        }
+        assert_eq!(asked("a U F[0,3] b"), [""; 0]);
     }
 }

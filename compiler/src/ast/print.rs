@@ -32,7 +32,18 @@ impl Ast {
 
     /// An expression as text, with the brackets that it needs as an operand of `parent`, on its
     /// left or not.
-    pub(crate) fn within(&self, parent: &Node, id: NodeId, left: bool) -> String {
+    ///
+    /// ```
+    /// use tltl_compiler::{ast::{ItemKind, Node}, parse, source::Source};
+    ///
+    /// let ast = parse::formula(&Source::new("formula", "(a || b) && c"))?;
+    /// let ItemKind::Task(_, root) = ast.items()[0].kind else { panic!() };
+    /// let Node::Infix(_, either, _) = *ast.node(root) else { panic!() };
+    /// assert_eq!(ast.within(ast.node(root), either, true), "(a || b)");
+    /// # Ok::<(), tltl_compiler::error::Errors>(())
+    /// ```
+    #[must_use]
+    pub fn within(&self, parent: &Node, id: NodeId, left: bool) -> String {
         let text = self.display(id);
         if wants_brackets(parent, self, id, left) { format!("({text})") } else { text.to_string() }
     }

@@ -82,7 +82,11 @@ pub(super) fn not_of_a_state(resolved: &Resolved<'_>, id: ExpressionId, by: Expr
 
 /// The error for the temporal operator `id` under the negation `by`.
 pub(super) fn negated(resolved: &Resolved<'_>, id: ExpressionId, by: ExpressionId) -> Error {
-    let (symbol, not, text) = (resolved.symbol(id), resolved.symbol(by), bracketed(resolved, id));
+    let (symbol, not) = (resolved.symbol(id), resolved.symbol(by));
+    let text = match resolved[id].expression {
+        Expression::Prefix(..) => resolved.quote(id),
+        _ => bracketed(resolved, id),
+    };
     let message = match resolved[by].expression {
         Expression::Infix(Infix::Iff, ..) => {
             format!("`{not}` negates both its sides, and `!{text}` is outside the language")

@@ -24,6 +24,7 @@ use crate::error::{Error, Kind};
 use crate::predicate::{Arena, ConditionId, Function, ParameterType, Scalar, Term, TermId};
 use crate::resolve::{Callee, Expression, ExpressionId, Name, Names, Resolved};
 use crate::source::Span;
+use crate::token::{compact, unquoted};
 
 /// The terms of a module under construction.
 pub(super) struct Lowering<'r> {
@@ -214,7 +215,8 @@ impl<'r> Lowering<'r> {
     /// The name of a free proposition or variable. A name must be the same of the two throughout,
     /// and the first use decides.
     pub(super) fn free_name(&mut self, id: ExpressionId, formula: bool) -> Option<String> {
-        let (text, span) = (crate::token::compact(self.resolved.text(id)), self.resolved.span(id));
+        let span = self.resolved.span(id);
+        let text = unquoted(&compact(self.resolved.text(id))).to_owned();
         let (first, place) = *self.free.entry(text.clone()).or_insert((formula, span));
         if first == formula {
             return Some(text);

@@ -323,8 +323,24 @@ impl Descent<'_> {
     fn not_a_formula(&self, id: ExpressionId) -> Error {
         let text = self.resolved.quote(id);
         let message = format!("`{text}` is a number, but a formula is needed here");
-        Error::new(Kind::Type, message, self.resolved[id].outer)
-            .help(format!("compare it with something, such as `{text} < 1`"))
+        let error = Error::new(Kind::Type, message, self.resolved[id].outer);
+        match &self.resolved[id].expression {
+            Expression::Text => {
+                let message = format!("`{text}` is a string, but a formula is needed here");
+                Error::new(Kind::Type, message, self.resolved[id].outer)
+                    .help("only a bare formula outside of the macro has names in quotes")
+            }
+            Expression::Number(0.0) => {
+                error.help("the formula that never holds is written `false`")
+            }
+            Expression::Number(1.0) => {
+                error.help("the formula that always holds is written `true`")
+            }
+            Expression::Number(_) => {
+                error.help(format!("compare something with it, such as `x < {text}`"))
+            }
+            _ => error.help(format!("compare it with something, such as `{text} < 1`")),
+        }
     }
 
     /// The error for a formula where a number must stand.
@@ -392,7 +408,7 @@ mod tests {
             ("x + 1", "xxx", "`x + 1` is a number, but a formula is needed here"),
             ("F (a && b) < 1", "xxxnff", "`a && b` is true or false, but a number is needed here"),
             ("!F a", "f!f", "`!` cannot stand before `F`"),
-            ("!(b || F a)", "!f!!f", "this `!` reaches `F`, and `!(F a)` is outside the language"),
+            ("!(b || F a)", "!f!!f", "this `!` reaches `F`, and `!F a` is outside the language"),
             ("x == true", "xxx", "truth values are not compared"),
         ] {
             let role = Role::FORMULA;

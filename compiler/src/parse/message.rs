@@ -6,7 +6,7 @@
 //! `pow`) have a sentence each; the rest is "expected …, found …".
 
 use crate::error::{Error, Kind};
-use crate::grammar::{Rule, Stopped};
+use crate::grammar::{self, Rule, Stopped};
 use crate::source::{Source, Span};
 use crate::token::{self, Tokens};
 
@@ -64,7 +64,10 @@ impl<'a> Found<'a> {
 pub(super) fn sentence(source: &Source, from: usize, stopped: &Stopped) -> Error {
     let found = Found::new(source.text(), from, from + stopped.at);
     let expected = &stopped.expected[..];
-    if let Some(error) = unsupported_here(&found) {
+    if let Some(error) = open_bound(&found, from).or_else(|| unsupported_here(&found)) {
+        return error;
+    }
+    if let Some(error) = foreign_here(&found) {
         return error;
     }
     if expected.contains(&Rule::truth) || expected.contains(&Rule::expression) {
@@ -79,15 +82,115 @@ pub(super) fn sentence(source: &Source, from: usize, stopped: &Stopped) -> Error
 /// An operator of another logic at the place where parsing stopped, or just before it.
 fn unsupported_here(found: &Found<'_>) -> Option<Error> {
     let (before, here) = (found.word(found.before), found.word(found.here));
-    if is_unsupported(here) && BINARY.contains(&here) && !found.at_end() {
+    let is_binary = |word| BINARY.contains(&letter(word));
+    if is_unsupported(here) && is_binary(here) && !found.at_end() {
         return found.here.map(|span| unsupported(here, here, span));
     }
-    let before_is = is_unsupported(before) && !BINARY.contains(&before);
+    let before_is = is_unsupported(before) && !is_binary(before);
     let goes_on = here.starts_with(token::is_word_start) || matches!(here, "!" | "(" | "◇" | "○");
     let operator = matches!(here, "U" | "T" | "and" | "or");
     (before_is && goes_on && !operator && !found.at_end())
         .then(|| found.before.map(|span| unsupported(before, before, span)))
         .flatten()
+}
+
+/// A word or a sign of another tool at the place where parsing stopped, or just before it.
+fn foreign_here(found: &Found<'_>) -> Option<Error> {
+    let goes_on = !found.at_end() && ours(found.word(found.before)).is_some();
+    let here = found.here.filter(|here| ours(&found.text[here.start..here.end]).is_some());
+    let span = here.or(found.before.filter(|_| goes_on))?;
+    let word = &found.text[span.start..span.end];
+    Some(foreign(word, found.text, span))
+}
+
+/// The error for the word or sign of another tool at `span` of a text.
+fn foreign(word: &str, text: &str, span: Span) -> Error {
+    let ours = ours(word).unwrap_or_default();
+    let message = format!("`{word}` is not an operator of this language: it is written `{ours}`");
+    let error = Error::new(Kind::Syntax, message, span);
+    match rewritten(text) {
+        Some(text) => error.help(format!("write `{text}`")),
+        None => error,
+    }
+}
+
+/// A formula with our operators in the place of those of other tools, if that is one and short
+/// enough to quote.
+fn rewritten(text: &str) -> Option<String> {
+    /// More than a reader takes in.
+    const MOST: usize = 100;
+    let mut rewritten = String::new();
+    let mut end = 0;
+    let wordy = |c: char| c.is_alphanumeric() || c == '_';
+    for token in Tokens::new(text.get(..text.len().min(MOST + 1))?, 0) {
+        rewritten.push_str(&text[end..token.start]);
+        let word = &text[token.start..token.end];
+        let word = ours(word).unwrap_or(word);
+        if rewritten.ends_with(wordy) && word.starts_with(wordy) {
+            rewritten.push(' ');
+        }
+        rewritten.push_str(word);
+        end = token.end;
+    }
+    let is_one = text.len() <= MOST && grammar::parse(Rule::formula, &rewritten).is_ok();
+    is_one.then(|| rewritten.trim().to_owned())
+}
+
+/// Our operator for a word or a sign that other tools, and papers, have for it.
+fn ours(word: &str) -> Option<&'static str> {
+    Some(match word {
+        "eventually" | "finally" | "sometime" | "⋄" | "♢" | "◊" => "F",
+        "next" => "X",
+        "until" => "U",
+        "implies" | "==>" | "⟹" => "=>",
+        "iff" | "<==>" | "⟺" => "<=>",
+        "/\\" => "&&",
+        "\\/" => "||",
+        _ => return None,
+    })
+}
+
+/// The error for a call of an operator that other tools write as a word, `always(p)`, at `span` of a
+/// text.
+pub(crate) fn foreign_call(word: &str, text: &str, span: Span) -> Option<Error> {
+    if is_unsupported(word) {
+        return Some(unsupported(word, word, span));
+    }
+    ours(word).map(|_| foreign(word, text, span))
+}
+
+/// A mistake in the brackets after an operator, which hold its bound.
+fn open_bound(found: &Found<'_>, from: usize) -> Option<Error> {
+    let at = found.here_or_end().start;
+    let (mut before, mut open) = ("", None);
+    for token in Tokens::new(found.text, from).take_while(|token| token.start < at) {
+        let word = &found.text[token.start..token.end];
+        match word {
+            "[" if takes_bound(before) => open = Some((before, token)),
+            "]" => open = None,
+            _ => {}
+        }
+        before = word;
+    }
+    let (operator, bracket) = open?;
+    let span = bracket.to(found.here_or_end());
+    let here = found.word(found.here);
+    Some(if here == "!" {
+        let message =
+            format!("`{operator}[!]` is strong elsewhere, and `{operator}` is always strong here");
+        Error::new(Kind::Syntax, message, span)
+            .help(format!("write `{operator}` without the brackets"))
+    } else {
+        let message = format!("this is not a bound of `{operator}`");
+        Error::new(Kind::Syntax, message, span).help(format!(
+            "a bound is written `{operator}[1,5]`, `{operator}[<=5]`, or with times `{operator}[0.1 s, 0.5 s]`"
+        ))
+    })
+}
+
+/// Whether `word` is an operator that can have a bound.
+fn takes_bound(word: &str) -> bool {
+    matches!(word, "F" | "X" | "G" | "U" | "T" | "R" | "W" | "M" | "◇" | "<>" | "○" | "□" | "[]")
 }
 
 /// The error where an operand should start.
@@ -112,6 +215,10 @@ fn operand_missing(found: &Found<'_>) -> Error {
         _ if is_infix(here) && (before.is_empty() || matches!(before, "(" | "=" | "|")) => {
             let error = syntax(format!("`{here}` has nothing on its left"), found.here_or_end());
             rust_in_braces(word_as_name(error, here), here)
+        }
+        _ if takes_bound(before) && matches!(here, "<=" | "≤" | "<" | "{") => {
+            syntax(format!("the bound of `{before}` stands in brackets"), found.here_or_end())
+                .help(format!("such as `{before}[<=5]` or `{before}[1,5]`"))
         }
         _ if is_infix(before) || is_prefix(before) => after_operator(found),
         ("=", _) => {
@@ -165,9 +272,10 @@ fn operator_missing(found: &Found<'_>) -> Error {
     match here {
         "=" => equals(found),
         "=<" => syntax("\"at most\" is written `<=`, not `=<`".into()),
-        "^" | "**" => {
-            syntax(format!("`{here}` is not an operator")).help("for powers, write `pow(x, 2)`")
-        }
+        "^" | "xor" | "⊕" => syntax(format!("`{here}` is not an operator"))
+            .help("for powers, write `pow(x, 2)`")
+            .help("for one of two conditions and not both, write `!(p <=> q)`, or `p != q` for truth values of the state"),
+        "**" => syntax(format!("`{here}` is not an operator")).help("for powers, write `pow(x, 2)`"),
         "%" => syntax("`%` is not an operator".into()),
         "!" | "F" | "X" | "¬" | "◇" | "○" | "not" => {
             between(found).help(format!("`{here}` stands before a formula, not after one"))
@@ -183,10 +291,40 @@ fn operator_missing(found: &Found<'_>) -> Error {
 /// The error for two operands with no operator between them.
 fn between(found: &Found<'_>) -> Error {
     let (before, here) = (found.word(found.before), found.word(found.here));
+    if let Some(error) = braced_bound(found) {
+        return error;
+    }
     let message = format!("an operator is missing between `{before}` and `{here}`");
     Error::new(Kind::Syntax, message, found.here_or_end())
         .related(found.gap(), "this is complete")
-        .help("such as `&&`, `||`, `=>`, `U` (until) or `T` (then)")
+        .help(match apart(before) {
+            Some(operators) => format!("for the operators, write `{operators} {here}`"),
+            None => "such as `&&`, `||`, `=>`, `U` (until) or `T` (then)".to_owned(),
+        })
+}
+
+/// Operators that are written without a blank between them, with one: `FX` is a name.
+pub(crate) fn apart(word: &str) -> Option<String> {
+    let operators: Vec<String> = word.chars().map(String::from).collect();
+    let glued =
+        operators.len() > 1 && operators.iter().all(|one| matches!(&one[..], "F" | "X" | "G"));
+    glued.then(|| operators.join(" "))
+}
+
+/// The error for `F{1,5} a`: other tools write bounds in braces.
+fn braced_bound(found: &Found<'_>) -> Option<Error> {
+    let end = found.before.filter(|_| found.word(found.before) == "}")?.start;
+    let start = found.text[..end].rfind('{')?;
+    let bound = found.text[start + 1..end].trim();
+    let is_bound = bound.chars().all(|c| c.is_ascii_digit() || ", ".contains(c));
+    let operator = Tokens::new(found.text, 0).take_while(|token| token.end <= start).last()?;
+    let operator = &found.text[operator.start..operator.end];
+    (is_bound && takes_bound(operator)).then(|| {
+        let at_most = if operator == "T" && !bound.contains(',') { "<=" } else { "" };
+        let message = format!("the bound of `{operator}` stands in square brackets");
+        Error::new(Kind::Syntax, message, Span::new(start, end + 1))
+            .help(format!("write `{operator}[{at_most}{bound}]`"))
+    })
 }
 
 /// The error for `=` in an expression.
@@ -217,7 +355,7 @@ fn other(found: &Found<'_>, expected: &[Rule]) -> Error {
     let mut names: Vec<_> = expected.iter().filter_map(|rule| rule_name(*rule)).collect();
     names.dedup();
     let expected = match names.split_last() {
-        None => "something else".to_owned(),
+        None => "an item such as `task go = F done`".to_owned(),
         Some((last, [])) => (*last).to_owned(),
         Some((last, rest)) => format!("{} or {last}", rest.join(", ")),
     };
@@ -282,7 +420,22 @@ fn is_infix(word: &str) -> bool {
 }
 
 /// Those operators of other logics that stand between two operands.
-const BINARY: [&str; 5] = ["R", "V", "W", "M", "S"];
+const BINARY: [&str; 4] = ["R", "W", "M", "S"];
+
+/// The letter of an operator of other logics, for which some tools have a word.
+fn letter(word: &str) -> &str {
+    match word {
+        "[]" | "□" | "always" | "globally" | "henceforth" => "G",
+        "V" | "release" | "releases" => "R",
+        "unless" => "W",
+        "WX" => "N",
+        "yesterday" | "previous" => "Y",
+        "once" => "O",
+        "historically" => "H",
+        "since" => "S",
+        other => other,
+    }
+}
 
 /// Whether `word` is an operator of another temporal logic.
 pub(super) fn is_unsupported(word: &str) -> bool {
@@ -295,9 +448,14 @@ fn unsupported_reason(word: &str) -> Option<(&'static str, &'static str, &'stati
         "no finite trajectory can ever establish it, for the next state may break it";
     const PAST: &str = "it looks back, and the automaton reads the trajectory forwards";
     const AVOID: &str = "to stay out of `b` until `a`, write `!b U a`";
-    Some(match word {
-        "G" | "[]" | "□" => ("always", NEVER, AVOID),
-        "R" | "V" => (
+    Some(match letter(word) {
+        "G" => ("always", NEVER, AVOID),
+        "N" => (
+            "weak next",
+            "it would hold at the end of a trajectory, and no prefix knows that it is the whole",
+            "`X` is strong: it asks for a next state",
+        ),
+        "R" => (
             "release",
             NEVER,
             "if `b` must hold up to and including an `a` that comes, write `b U (a && b)`",

@@ -23,7 +23,7 @@
 
 use super::order::{self, Use};
 use super::place::Part;
-use super::{Entry, Expression, ExpressionId, Name, Resolved, Value};
+use super::{Entry, Expression, ExpressionId, Name, Names, Resolved, Value};
 use crate::ast::{
     Ast, Comparison, Infix, Item, ItemKind, Node, NodeId, Prefix, Quantifier, quoted,
 };
@@ -255,6 +255,8 @@ impl Expansion<'_, '_> {
         match *resolved.ast.node(node) {
             Node::Truth(value) => Expression::Truth(value),
             Node::Number(value) => Expression::Number(value),
+            // Names of other tools stand in quotes; a file declares its names, and has none.
+            Node::Text if resolved.names == Names::Free => Expression::Name(Name::Free),
             Node::Text => Expression::Text,
             Node::Prefix(op, a) => Expression::Prefix(op, of(a)),
             Node::Infix(Infix::Compare(Comparison::Equal | Comparison::Unequal), a, b)

@@ -18,6 +18,7 @@ use std::rc::Rc;
 use super::{Callee, Expression, ExpressionId, Name, Names, Resolved};
 use crate::ast::{Node, NodeId, quoted};
 use crate::error::{Error, Kind};
+use crate::parse;
 use crate::predicate::Function;
 use crate::source::Span;
 
@@ -89,8 +90,15 @@ impl Resolved<'_> {
     /// The error for a call of something that is not a function.
     pub(super) fn unknown_function(&self, callee: ExpressionId) -> Error {
         let text = self.quote(callee);
+        if let Some(error) = parse::foreign_call(&text, self.ast.source().text(), self.span(callee))
+        {
+            return error;
+        }
         let message = format!("there is no function `{text}`");
         let error = Error::new(Kind::UnknownName, message, self.span(callee));
+        if let Some(operators) = parse::apart(&text) {
+            return error.help(format!("for the operators, write `{operators} (…)`"));
+        }
         let names = Function::ALL.map(|(name, ..)| name);
         let near = self.scope.suggestion(&text, &mut names.into_iter());
         error.help(near.unwrap_or_else(|| format!("the functions are {}", names.join(", "))))

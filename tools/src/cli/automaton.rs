@@ -46,14 +46,16 @@ fn single(arguments: &Automaton, formula: &str, streams: &mut Streams<'_>) -> Ou
     }
 }
 
-/// A list of formulas, one a line. A bad one is reported in its place and the rest goes on, so that
-/// line n of the output belongs to line n of the list in JSON.
+/// A list of formulas, one a line, without its empty lines and comments (`#`, `//`). A bad one is
+/// reported in its place and the rest goes on, so that in JSON there is a line for each formula.
 fn formulas(arguments: &Automaton, list: &str, streams: &mut Streams<'_>) -> Outcome {
     if !matches!(arguments.format, Format::Json | Format::Text) {
         return Err("a list of formulas is shown with `--format json` or `--format text`".into());
     }
     let mut all_well = true;
-    for formula in list.lines() {
+    let is_formula =
+        |line: &&str| !line.trim().is_empty() && !line.trim_start().starts_with(['#', '/']);
+    for formula in list.lines().filter(is_formula) {
         let shown = one_of_many(arguments, formula);
         all_well &= shown.is_ok();
         streams.print(&shown.unwrap_or_else(|failure| failure))?;

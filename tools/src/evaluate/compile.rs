@@ -56,7 +56,7 @@ impl Inputs {
         for id in conditions {
             match module.arena.condition(id) {
                 Condition::Free(name) => {
-                    let place = found.place(plain(name.clone(), InputKind::Proposition));
+                    let place = found.place(plain(name, InputKind::Proposition));
                     found.of_conditions.insert(id, place);
                 }
                 Condition::Value { text, .. } => return Err(Unreadable::Rust(text.clone())),
@@ -91,15 +91,18 @@ fn term_input(module: &Module, id: TermId) -> Result<Option<Input>, Unreadable> 
             let unit = unit(module, steps).map(|unit| module.units.text(unit));
             Ok(Some(Input { name, kind: InputKind::Place(*scalar), unit, values }))
         }
-        Term::Variable(name) => Ok(Some(plain(name.clone(), InputKind::Variable))),
+        Term::Variable(name) => Ok(Some(plain(name, InputKind::Variable))),
         Term::Host { text, .. } => Err(Unreadable::Rust(text.clone())),
         Term::Parameter { name, .. } => Err(Unreadable::Parameter(name.clone())),
         _ => Ok(None),
     }
 }
 
-/// An input of a bare formula: it has no unit and no named values.
-fn plain(name: String, kind: InputKind) -> Input {
+/// An input of a bare formula: it has no unit and no named values. A name in quotes is a column
+/// without them.
+fn plain(name: &str, kind: InputKind) -> Input {
+    let quoted = name.strip_prefix('"').and_then(|name| name.strip_suffix('"'));
+    let name = quoted.unwrap_or(name).to_owned();
     Input { name, kind, unit: None, values: Vec::new() }
 }
 

@@ -6,19 +6,10 @@
 use tltl_compiler::ast::{Ast, Infix, Node, NodeId, Prefix};
 use tltl_compiler::error::{Error, Kind};
 
-/// The text of an expression, in brackets if it has an operator.
-fn bracketed(ast: &Ast, id: NodeId) -> String {
-    let text = ast.quote(id);
-    match ast.node(id) {
-        Node::Prefix(..) | Node::Infix(..) | Node::Quantified(_) => format!("({text})"),
-        _ => text,
-    }
-}
-
 /// A warning if the operator `id` orders less than its author seems to think.
 pub(super) fn warning(ast: &Ast, id: NodeId) -> Option<Error> {
     match *ast.node(id) {
-        Node::Infix(Infix::Until, left, right) => idle_until(ast, left, right),
+        Node::Infix(Infix::Until, left, right) => idle_until(ast, id, left, right),
         Node::Infix(Infix::Then, left, right) => early_then(ast, id, left, right),
         _ => None,
     }
@@ -26,35 +17,60 @@ pub(super) fn warning(ast: &Ast, id: NodeId) -> Option<Error> {
 
 /// A warning for `F a T b` without brackets, and for `(a T b) T c`.
 fn early_then(ast: &Ast, id: NodeId, left: NodeId, right: NodeId) -> Option<Error> {
-    let right = ast.quote(right);
+    let then = ast.node(id);
+    let bound = bound(ast, id);
+    let second = short(ast.within(then, right, false), "ψ");
     match *ast.node(left) {
         Node::Prefix(Prefix::Eventually, a) if !ast.entry(left).is_bracketed() => {
-            let a = ast.quote(a);
             let f = ast.source().slice(ast.entry(left).operator);
-            let message = format!(
-                "`{f} {a} T {right}` reads `({f} {a}) T {right}`, which does not order {a} before {right}"
+            let (under, first) = (ast.within(ast.node(left), a, false), ast.within(then, a, true));
+            let [under, first] = [under, first].map(|text| short(text, "φ"));
+            let (message, plain) = (
+                format!("`{f} {under} T{bound} {second}` reads `({f} {under}) T{bound} {second}`"),
+                [a, right].map(|id| ast.quote(id)),
             );
-            Some(Error::new(Kind::Intent, message, ast.span(left))
-                .warning()
-                .related(ast.entry(id).operator, "\"then\" waits only for \"eventually\" to be certain")
-                .help(format!("for {a} and later {right}, write `{a} T {right}`; to keep this meaning, write the brackets")))
+            let message =
+                format!("{message}, which does not order {} before {}", plain[0], plain[1]);
+            let error = Error::new(Kind::Intent, message, ast.span(left)).warning().related(
+                ast.entry(id).operator,
+                "\"then\" waits only for \"eventually\" to be certain",
+            );
+            let [a, b] = plain;
+            Some(error.help(format!("for {a} and later {b}, write `{first} T{bound} {second}`; to keep this meaning, write the brackets")))
         }
         Node::Infix(Infix::Then, a, b) => {
-            let (a, b) = (ast.quote(a), ast.quote(b));
-            let message = format!("`({a} T {b}) T {right}` does not order {b} before {right}");
+            let parent = Node::Infix(Infix::Then, a, b);
+            let first = short(ast.within(&parent, a, true), "φ");
+            let (between, middle) = (ast.within(&parent, b, false), ast.within(then, b, true));
+            let [between, middle] = [between, middle].map(|text| short(text, "χ"));
+            let inner = self::bound(ast, left);
+            let [plain, last] = [b, right].map(|id| ast.quote(id));
+            let message = format!(
+                "`({first} T{inner} {between}) T{bound} {second}` does not order {plain} before {last}"
+            );
             Some(
                 Error::new(Kind::Intent, message, ast.entry(left).outer)
                     .warning()
-                    .label(format!("this holds from the start, before {b} has come"))
-                    .help(format!("for the three in this order, write `{a} T ({b} T {right})`")),
+                    .label(format!("this holds from the start, before {plain} has come"))
+                    .help(format!("for the three in this order, write `{first} T{inner} ({middle} T{bound} {second})`")),
             )
         }
         _ => None,
     }
 }
 
+/// The text of an operand, or a letter for one that nobody would read to its end.
+fn short(text: String, letter: &str) -> String {
+    if text.len() > 60 { letter.to_owned() } else { text }
+}
+
+/// The bound of an operator, as it was written.
+fn bound(ast: &Ast, id: NodeId) -> &str {
+    ast.entry(id).bound.as_ref().map_or("", |bound| ast.source().slice(bound.span))
+}
+
 /// A warning for `a U F b`, which says no more than `F b`.
-fn idle_until(ast: &Ast, left: NodeId, right: NodeId) -> Option<Error> {
+fn idle_until(ast: &Ast, id: NodeId, left: NodeId, right: NodeId) -> Option<Error> {
     let goal = match *ast.node(right) {
         // Within a bound, it has to come at the right time.
         Node::Prefix(Prefix::Eventually, _) if ast.entry(right).bound.is_some() => return None,
@@ -62,11 +78,8 @@ fn idle_until(ast: &Ast, left: NodeId, right: NodeId) -> Option<Error> {
         _ => return None,
     };
     let (kept, text) = (ast.quote(left), ast.quote(right));
-    let operand = |id| match ast.node(id) {
-        Node::Prefix(..) => ast.quote(id),
-        _ => bracketed(ast, id),
-    };
-    let (keep, goal) = (operand(left), operand(goal));
+    let until = ast.node(id);
+    let (keep, goal) = (ast.within(until, left, true), ast.within(until, goal, false));
     let message = format!(
         "`{kept}` does not matter: `{text}` already looks ahead, so `U` need not wait for it"
     );
@@ -77,6 +90,9 @@ fn idle_until(ast: &Ast, left: NodeId, right: NodeId) -> Option<Error> {
                 ast.entry(right).operator,
                 "this is asked at the first state, not when it comes true",
             )
-            .help(format!("to keep to {keep} until {goal} comes, write `{keep} U {goal}`")),
+            .help(format!(
+                "to keep to {keep} until {goal} comes, write `{keep} U{} {goal}`",
+                bound(ast, id)
+            )),
     )
 }

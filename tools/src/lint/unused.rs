@@ -18,7 +18,7 @@ pub(super) fn warnings(ast: &Ast) -> Vec<Error> {
     });
     let tasks: Vec<_> = tasks.collect();
     if tasks.is_empty() {
-        return Vec::new();
+        return taskless(ast).into_iter().collect();
     }
     let is_number = |known: &Declaration| {
         matches!(Scalar::named(ast.source().slice(known.ty.name)), Some(Scalar::Number(_)))
@@ -40,4 +40,16 @@ pub(super) fn warnings(ast: &Ast) -> Vec<Error> {
         }
     }
     warnings
+}
+
+/// A warning for a file without tasks and predicates, of which nothing can be made.
+fn taskless(ast: &Ast) -> Option<Error> {
+    let last = ast.items().last()?;
+    let is_predicate = |kind: &ItemKind| matches!(kind, ItemKind::Predicate(..));
+    if ast.items().iter().any(|item| is_predicate(&item.kind)) {
+        return None;
+    }
+    let message = "this file declares no task, so there is nothing to do";
+    let warning = Error::new(Kind::Unused, message, last.name).warning();
+    Some(warning.help("declare one, such as `task go = F done`"))
 }
