@@ -118,6 +118,56 @@ proptest! {
         }
     }
 
+    /// An automaton on infinite words: a word `u v v v …` is accepted iff the run comes to the
+    /// accepting state.
+    #[test]
+    fn decided_acceptance_is_that_of_infinite_words(
+        (propositions, table) in tables(),
+        (bits, inside) in (any::<u64>(), any::<bool>()),
+        words in prop::collection::vec(prop::collection::vec(0..8_u32, 1..4), 20),
+    ) {
+        // Few marks outside the last state, and all or none there: else hardly one is terminal.
+        let last = table.len() - 1;
+        let marked = |q: usize, letter: usize| match q == last {
+            true => inside,
+            false => (bits >> ((q * 8 + letter) % 64) & 1 == 1) != inside && bits % 3 == 0,
+        };
+        let mut states = String::new();
+        for (q, row) in table.iter().enumerate() {
+            states += &format!("State: {q} ");
+            for (letter, to) in row.iter().enumerate() {
+                let bit = |p: usize| if letter >> p & 1 == 1 { format!("{p}") } else { format!("!{p}") };
+                let label: Vec<_> = std::iter::once("t".to_owned()).chain((0..propositions).map(bit)).collect();
+                let mark = if marked(q, letter) { " {0}" } else { "" };
+                states += &format!("[{}] {to}{mark} ", label.join("&"));
+            }
+        }
+        let names: String = (0..propositions).map(|i| format!(" \"p{i}\"")).collect();
+        let acceptance = if inside { "Inf(0)" } else { "Fin(0)" };
+        let text = format!(
+            "HOA: v1 Start: 0 AP: {propositions}{names} Acceptance: 1 {acceptance} properties: terminal \
+             --BODY-- {states} --END--"
+        );
+        let source = source(&text);
+        let Ok(automaton) = read(&source) else { return Ok(()) };
+        for word in words.chunks(2) {
+            let letters = word[0].iter().chain(word[1].iter().cycle());
+            let (mut slow, mut fast, mut seen) = (0, 0, Vec::new());
+            // After as many turns as there are states, every turn is one of the cycle.
+            let turns = word[0].len() + table.len() * word[1].len();
+            for (t, letter) in letters.take(turns + table.len() * word[1].len()).enumerate() {
+                let letter = *letter as usize & ((1 << propositions) - 1);
+                if t >= turns {
+                    seen.push(marked(slow, letter));
+                }
+                slow = table[slow][letter];
+                fast = automaton.dfa.next(fast, |p| letter >> p & 1 == 1);
+            }
+            let accepted = seen.contains(&true) == inside;
+            prop_assert_eq!(automaton.dfa.accepting == Some(fast), accepted, "{} {:?}", text, word);
+        }
+    }
+
     #[test]
     fn broken_texts_are_errors_and_never_worse(cut in 0..400_usize, at in 0..400_usize, with in "[0-9a-z@!&|()\\[\\]{}\"\\-:* \n]{0,3}") {
         let mut text = written(&automaton("(!d U a) && F b"));
@@ -165,6 +215,36 @@ fn the_same_task_in_many_spellings() {
 }
 
 #[test]
+fn acceptance_that_is_decided_is_read_wherever_its_marks_stand() {
+    let promised = |text: String| text.replace("AP:", "properties: deterministic terminal AP:");
+    let new = |text: String| text.replace("HOA: v1", "HOA: v1.1 some.tool: 0 [1] \"x\"");
+    for (formula, text) in [
+        ("b U a", body("1 Inf(0)", "State: 0 [!0&1] 0 [0] 1 State: 1 [t] 1 {0}")),
+        ("b U a", body("1 Fin(0)", "State: 0 [!0&1] 0 {0} [0] 1 {0} State: 1 [t] 1")),
+        ("F a", body("1 Inf(0)", "State: 0 [!0] 0 [0] 1 State: 1 [t] 2 State: 2 [t] 1 {0}")),
+        (
+            "F a && true || F b && false",
+            body("1 Inf(0)", "State: 0 [!0] 0 [0] 1 {0} State: 1 [t] 1 {0}"),
+        ),
+        ("a && X b", body("0 t", "State: 0 [0] 1 State: 1 [1] 2 State: 2 [t] 2")),
+        (
+            "a && X b",
+            promised(body("1 Inf(0)", "State: 0 {0} [0] 1 State: 1 [1] 2 State: 2 {0} [t] 2")),
+        ),
+        ("F a", promised(new(body("1 Inf(0)", "State: 0 [!0] 0 [0] 1 State: 1 {0} [t] 1")))),
+        (
+            "F a",
+            new(body("1 Inf(0)", "State: 0 [!0] 0 [0] 1 State: 1 {0} [t] 1"))
+                .replace("AP:", "properties: !terminal !weak AP:"),
+        ),
+    ] {
+        let names = ["a", "b"].map(|name| format!("({name} || !{name})")).join(" && ");
+        let expected = automaton(&format!("({names}) && ({formula})"));
+        assert_eq!(written(&parse(&text)), written(&expected), "{text}");
+    }
+}
+
+#[test]
 fn what_no_formula_is_gets_refused() {
     let refused = [
         ("nondeterministic", body("1 Inf(0)", "State: 0 [0] 0 [0|1] 1 State: 1 {0} [t] 1")),
@@ -172,7 +252,9 @@ fn what_no_formula_is_gets_refused() {
         ("generalized", body("2 Inf(0)&Inf(1)", "State: 0 {0 1} [t] 0")),
         ("left", body("1 Inf(0)", "State: 0 [t] 1 State: 1 {0} [0] 1 [!0] 0")),
         ("left_for_nowhere", body("1 Inf(0)", "State: 0 [t] 1 State: 1 {0} [0] 1")),
-        ("edge_marks", body("1 Inf(0)", "State: 0 [!0] 0 [0] 1 State: 1 [t] 1 {0}")),
+        ("edge_marks", body("1 Inf(0)", "State: 0 [!0] 0 [0] 0 {0}")),
+        ("left_for_good", body("1 Inf(0)", "State: 0 [0] 1 State: 1 {0} [t] 2 State: 2 [t] 2")),
+        ("no_good_end", body("0 t", "State: 0 [0] 0")),
         ("several_starts", body("1 Inf(0)", "State: 0 [t] 0").replace("AP:", "Start: 1 AP:")),
         ("unknown_header", body("1 Inf(0)", "State: 0 [t] 0").replace("AP:", "Fancy: 1 AP:")),
     ];

@@ -1,5 +1,5 @@
-//! Reads automata in the Hanoi Omega-Automata format, version 1, as Spot, Owl and others write it
-//! (Babiak and others, "The Hanoi Omega-Automata Format", 2015).
+//! Reads automata in the Hanoi Omega-Automata format, versions 1 and 1.1, as Spot, Owl and others
+//! write it (Babiak and others, "The Hanoi Omega-Automata Format", 2015).
 //!
 //! # What is read
 //!
@@ -11,8 +11,10 @@
 //!
 //! Letters without a transition lead to a trap. Acceptance marks may stand on states, or on edges
 //! where both readings agree: the edges into and among the accepting states carry them, and no
-//! others. Everything else is refused with the reason, and often with the option of Spot that
-//! helps.
+//! others. Where the marks do not say it so, but the automaton accepts infinite words and is
+//! *terminal*, a trace is accepted once it has entered the closed accepting set; marks on states
+//! alone are taken so only if the `properties:` have `terminal`. Everything else is refused with the
+//! reason, and often with the option of Spot that helps.
 //!
 //! The result is minimal and canonical, so it equals the automaton of the formula byte for byte.
 //!
@@ -50,6 +52,7 @@ mod accept;
 mod body;
 mod header;
 mod label;
+mod terminal;
 mod token;
 
 use crate::dfa::Dfa;

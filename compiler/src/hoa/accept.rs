@@ -14,9 +14,9 @@
 //! assert_eq!(error.kind().name(), "automaton");
 //! ```
 
-use super::body::{Body, Described};
+use super::body::{Body, Described, Edge};
 use super::header::{Acceptance, Header};
-use super::refused;
+use super::{refused, terminal};
 use crate::bdd::Bdd;
 use crate::dfa::{Dfa, State};
 use crate::error::Error;
@@ -35,9 +35,39 @@ pub(super) fn finish(header: &mut Header, body: Body) -> Result<Dfa, Error> {
         trap: None,
         possible: None,
     };
-    let accepting = accepting(header.acceptance, &dfa, &states)?;
-    check(&dfa, &states, &accepting)?;
+    let marked = accepting(header.acceptance, &dfa, &states);
+    let accepting = match marked.and_then(|marked| check(&dfa, &states, marked)) {
+        Ok(accepting) => accepting,
+        Err(error) => decided(header, &dfa, &states).ok_or(error)?,
+    };
     Ok(merge(dfa, &accepting))
+}
+
+/// The accepting states of an automaton on infinite words that is [terminal]. Marks on states could
+/// also mean that traces which end there are accepted, so it must say then that it is terminal.
+fn decided(header: &Header, dfa: &Dfa, states: &[Described]) -> Option<Vec<bool>> {
+    let is_infinite = header.acceptance == Acceptance::All || has_marked_edges(states);
+    if !header.is_terminal && !is_infinite {
+        return None;
+    }
+    let accepting = terminal::accepting(header.acceptance, dfa, states)?;
+    (header.is_terminal || accepting.contains(&true)).then_some(accepting)
+}
+
+fn has_marked_edges(states: &[Described]) -> bool {
+    states.iter().any(|state| state.edges.iter().any(|edge| !edge.marks.is_empty()))
+}
+
+/// Whether acceptance wants an edge to be taken: it has the mark, on itself or on its state, that
+/// `Inf` asks for, or not the one that `Fin` forbids.
+pub(super) fn is_good(acceptance: Acceptance, state: &Described, edge: &Edge) -> bool {
+    let has = |set| edge.marks.contains(&set) || state.marks.contains(&set);
+    match acceptance {
+        Acceptance::All => true,
+        Acceptance::None => false,
+        Acceptance::In(set) => has(set),
+        Acceptance::Outside(set) => !has(set),
+    }
 }
 
 /// For each state whether a trace that ends in it is accepted.
@@ -53,17 +83,15 @@ fn accepting(acceptance: Acceptance, dfa: &Dfa, states: &[Described]) -> Result<
         Acceptance::In(set) => (set, true),
         Acceptance::Outside(set) => (set, false),
     };
-    if states.iter().all(|state| state.edges.iter().all(|edge| edge.marks.is_empty())) {
+    if !has_marked_edges(states) {
         return Ok(states.iter().map(|state| state.marks.contains(&set) == inside).collect());
     }
-    let good = |state: &Described, marks: &[u32]| {
-        (marks.contains(&set) || state.marks.contains(&set)) == inside
-    };
-    let accepting =
-        closed(dfa, states, &|state| state.edges.iter().all(|edge| good(state, &edge.marks)));
+    let good = |state: &Described, edge: &Edge| is_good(acceptance, state, edge);
+    let all_good = |state: &Described| state.edges.iter().all(|edge| good(state, edge));
+    let accepting = closed(dfa, states, states.iter().map(all_good).collect());
     for (state, here) in states.iter().zip(&accepting) {
         for edge in &state.edges {
-            if good(state, &edge.marks) != accepting[edge.to as usize] && !here {
+            if good(state, edge) != accepting[edge.to as usize] && !here {
                 return Err(ambiguous(edge.span));
             }
         }
@@ -71,10 +99,9 @@ fn accepting(acceptance: Acceptance, dfa: &Dfa, states: &[Described]) -> Result<
     Ok(accepting)
 }
 
-/// The largest set of states that satisfy `good` and lead only to each other: a greatest fixed
-/// point, computed backwards from the states that fall out of it.
-fn closed(dfa: &Dfa, states: &[Described], good: &dyn Fn(&Described) -> bool) -> Vec<bool> {
-    let mut kept: Vec<bool> = states.iter().map(good).collect();
+/// The largest set of states among `kept` that lead only to each other: a greatest fixed point,
+/// computed backwards from the states that fall out of it.
+pub(super) fn closed(dfa: &Dfa, states: &[Described], mut kept: Vec<bool>) -> Vec<bool> {
     let mut before = vec![Vec::new(); states.len()];
     let mut lost = Vec::new();
     for (q, state) in (0..).zip(states) {
@@ -106,8 +133,8 @@ fn ambiguous(span: crate::source::Span) -> Error {
 }
 
 /// Refuses an accepting state that can be left.
-fn check(dfa: &Dfa, states: &[Described], accepting: &[bool]) -> Result<(), Error> {
-    for (state, _) in states.iter().zip(accepting).filter(|(_, accepts)| **accepts) {
+fn check(dfa: &Dfa, states: &[Described], accepting: Vec<bool>) -> Result<Vec<bool>, Error> {
+    for (state, _) in states.iter().zip(&accepting).filter(|(_, accepts)| **accepts) {
         for to in dfa.diagram.leaves(state.transitions) {
             let message = match states.get(to as usize) {
                 Some(_) if accepting[to as usize] => continue,
@@ -128,7 +155,7 @@ fn check(dfa: &Dfa, states: &[Described], accepting: &[bool]) -> Result<(), Erro
             ));
         }
     }
-    Ok(())
+    Ok(accepting)
 }
 
 /// Merges all accepting states into one and lets missing transitions lead to the trap. The initial

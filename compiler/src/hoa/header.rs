@@ -36,6 +36,8 @@ pub(super) struct Header {
     pub(super) propositions: Vec<Proposition>,
     /// The acceptance condition.
     pub(super) acceptance: Acceptance,
+    /// Whether the properties promise that acceptance is decided at some instant.
+    pub(super) is_terminal: bool,
     /// The aliases, and the diagram for all labels.
     pub(super) labels: Labels,
 }
@@ -48,6 +50,7 @@ struct Draft {
     start: Option<(u32, Span)>,
     propositions: Option<Vec<Proposition>>,
     acceptance: Option<Acceptance>,
+    is_terminal: bool,
     labels: Labels,
 }
 
@@ -70,15 +73,15 @@ pub(super) fn read(tokens: &mut Tokens) -> Result<Header, Error> {
     draft.finish(body)
 }
 
-/// Reads `HOA: v1`.
+/// Reads `HOA: v1` or `HOA: v1.1`.
 fn version(tokens: &mut Tokens) -> Result<(), Error> {
     if *tokens.peek() != Token::Header("HOA") {
         return Err(tokens.unexpected("`HOA: v1`"));
     }
     tokens.next()?;
     match tokens.peek() {
-        Token::Word("v1") => tokens.next().map(|_| ()),
-        _ => Err(tokens.unexpected("version `v1`")),
+        Token::Word("v1" | "v1.1") => tokens.next().map(|_| ()),
+        _ => Err(tokens.unexpected("version `v1` or `v1.1`")),
     }
 }
 
@@ -108,6 +111,10 @@ impl Draft {
                 once(&mut self.acceptance, acceptance, "Acceptance", span)
             }
             "Alias" => self.alias(tokens, span),
+            "properties" => {
+                self.is_terminal |= promises(tokens, "terminal")?;
+                Ok(())
+            }
             "States" => tokens.number("the number of states").map(|_| ()),
             "name" => {
                 if let Token::Text(text) = tokens.peek() {
@@ -153,6 +160,7 @@ impl Draft {
             start: self.start.ok_or_else(|| missing("Start"))?,
             propositions,
             acceptance: self.acceptance.ok_or_else(|| missing("Acceptance"))?,
+            is_terminal: self.is_terminal,
             labels: self.labels,
         })
     }
@@ -172,6 +180,18 @@ fn skip(tokens: &mut Tokens) -> Result<(), Error> {
         tokens.next()?;
     }
     Ok(())
+}
+
+/// Reads the properties of one line, and returns whether `property` is among them. Version 1.1 also
+/// has negated ones.
+fn promises(tokens: &mut Tokens, property: &str) -> Result<bool, Error> {
+    let mut found = false;
+    loop {
+        let negated = tokens.eat('!')?;
+        let Token::Word(word) = *tokens.peek() else { return skip(tokens).map(|()| found) };
+        found |= word == property && !negated;
+        tokens.next()?;
+    }
 }
 
 /// Reads the initial state. A conjunction of several makes the automaton alternating.

@@ -211,10 +211,10 @@ impl<'a> Tokens<'a> {
         Err(syntax("expected `--BODY--` or `--END--`", span))
     }
 
-    /// Scans a word; it may have hyphens in it, as in `acc-name`.
+    /// Scans a word; it may have hyphens in it, as in `acc-name`, and dots, as in `spot.highlight`.
     fn word(&mut self) -> &'a str {
         let rest = self.rest();
-        let other = |c: char| !(c.is_ascii_alphanumeric() || c == '_' || c == '-');
+        let other = |c: char| !(c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '.'));
         let word = &rest[..rest.find(other).unwrap_or(rest.len())];
         self.at += word.len();
         word
