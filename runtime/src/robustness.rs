@@ -441,25 +441,57 @@ pub fn best_run<E>(
     now.fill(f64::NEG_INFINITY);
     now[Automaton::INITIAL as usize] = f64::INFINITY;
     for t in 0..length {
-        next.fill(f64::NEG_INFINITY);
-        for edge in automaton.edges() {
-            let mut error = None;
-            let taken = guard(edge.guard, |i| {
-                rho(i, t).unwrap_or_else(|e| {
-                    error = Some(e);
-                    f64::NEG_INFINITY
-                })
-            });
-            if let Some(error) = error {
-                return Err(error);
-            }
-            let to = &mut next[edge.to as usize];
-            *to = max(*to, min(now[edge.from as usize], taken));
-        }
+        advance_runs(automaton, now, next, |i| rho(i, t))?;
         now.copy_from_slice(next);
     }
     let accepting = automaton.accepting().filter(|_| length > 0);
     Ok(accepting.map_or(f64::NEG_INFINITY, |q| now[q as usize]))
+}
+
+/// One state of [`best_run`]: `now` has the robustness of the best run into each automaton state,
+/// and `next` gets that after one more state of the world, in which proposition `i` has robustness
+/// `rho(i)`. Before the first, it is ∞ in the initial state and -∞ elsewhere.
+///
+/// # Errors
+/// The first error of `rho`; `next` is then not to be used.
+///
+/// # Panics
+/// If a slice has no entry for a state.
+///
+/// ```
+/// # #[cfg(feature = "macros")] {
+/// use core::convert::Infallible;
+/// use tltl::robustness::advance_runs;
+///
+/// let task = tltl::tltl! { |s: &[f64; 1]| F (s[0] > 0) };
+/// let (before, mut after) = ([f64::INFINITY, f64::NEG_INFINITY], [0.0; 2]);
+/// let rho = |_: usize| Ok::<f64, Infallible>(2.0);
+/// assert_eq!(advance_runs(task.automaton(), &before, &mut after, rho), Ok(()));
+/// assert_eq!(after, [-2.0, 2.0]);
+/// # }
+/// ```
+pub fn advance_runs<E>(
+    automaton: &Automaton,
+    now: &[f64],
+    next: &mut [f64],
+    mut rho: impl FnMut(usize) -> Result<f64, E>,
+) -> Result<(), E> {
+    next.fill(f64::NEG_INFINITY);
+    for edge in automaton.edges() {
+        let mut error = None;
+        let taken = guard(edge.guard, |i| {
+            rho(i).unwrap_or_else(|e| {
+                error = Some(e);
+                f64::NEG_INFINITY
+            })
+        });
+        if let Some(error) = error {
+            return Err(error);
+        }
+        let to = &mut next[edge.to as usize];
+        *to = max(*to, min(now[edge.from as usize], taken));
+    }
+    Ok(())
 }
 
 // Not `f64::max` and `f64::min`, which cost 2.2 to 2.9 times as much in these loops: their rule for

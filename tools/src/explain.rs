@@ -97,12 +97,28 @@ pub const MOST_STATES: usize = 64;
 /// ```
 #[must_use]
 pub fn explain(spec: &Spec, dfa: &Dfa) -> Explanation {
+    Explanation { words: words::retell(spec), ..explain_automaton(dfa) }
+}
+
+/// Explains an automaton that came without a formula: all but the words.
+///
+/// ```
+/// use tltl_compiler::{hoa, source::Source};
+/// use tltlc::explain::explain_automaton;
+///
+/// let text = "HOA: v1 Start: 0 AP: 1 \"a\" Acceptance: 1 Inf(0)
+///     --BODY-- State: 0 [0] 1 State: 1 {0} [t] 1 --END--";
+/// let told = explain_automaton(&hoa::read(&Source::new("now.hoa", text)).unwrap().dfa);
+/// assert_eq!(told.states[0].avoid.as_deref(), Some("!a"));
+/// ```
+#[must_use]
+pub fn explain_automaton(dfa: &Dfa) -> Explanation {
     let edges = dfa.edges();
     let accepts = |q: State| dfa.accepting == Some(q);
     let distances = dfa.distances();
     let falls = edges.iter().filter(|edge| dfa.trap == Some(edge.to) && !edge.is_loop());
     Explanation {
-        words: words::retell(spec),
+        words: Vec::new(),
         size: dfa.size(),
         satisfying: shortest(dfa, 0, &accepts),
         losing: dfa.trap.and_then(|trap| shortest(dfa, 0, &|q| q == trap)),

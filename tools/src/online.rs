@@ -15,8 +15,11 @@
 //! so it needs all of them, and starts anew with every state that arrives.
 
 use std::cell::Cell;
+use std::convert::Infallible;
 use std::sync::Arc;
 
+use tltl::Automaton;
+use tltl::robustness::advance_runs;
 use tltl_compiler::dfa::{Dfa, State};
 use tltl_compiler::minimize::minimize;
 use tltl_compiler::proposition::Proposition;
@@ -50,6 +53,9 @@ enum Way {
     /// The automaton over literals, 2p for p and 2p + 1 for ¬p. Each threshold is the highest at
     /// which its state is reached, the first one +∞; they fall, and neighbouring states differ.
     Thresholds { dfa: Arc<Dfa>, states: Vec<(f64, State)> },
+    /// For an automaton without a formula: the robustness of the best run into each state, before
+    /// and after a state is read.
+    Runs { automaton: Arc<Automaton>, now: Vec<f64>, next: Vec<f64>, is_begun: bool },
     /// For a formula whose automaton over literals is larger than the budget allows: all that was
     /// read, row after row.
     All { spec: Arc<Spec>, rho: Vec<f64>, rows: usize },
@@ -69,10 +75,36 @@ impl Online {
         })
     }
 
+    /// An automaton without a formula before any state is read. Its robustness is that of the
+    /// [best run](tltl::robustness::best_run), and each state costs a pass over all guards.
+    ///
+    /// ```
+    /// use tltl_compiler::translate::Budget;
+    /// use tltlc::{online::Online, task};
+    ///
+    /// let task = task::compile("!wet U home", Budget::default())?;
+    /// let mut online = Online::of_automaton(task.automaton());
+    /// online.step(&[-0.5, 1.5]);
+    /// assert_eq!(online.robustness(), 1.5);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn of_automaton(automaton: &Automaton) -> Self {
+        let next = vec![f64::NEG_INFINITY; automaton.tables().states as usize];
+        let mut now = next.clone();
+        now[Automaton::INITIAL as usize] = f64::INFINITY;
+        Self(Way::Runs { automaton: Arc::new(automaton.clone()), now, next, is_begun: false })
+    }
+
     /// Reads one state: the robustness of each proposition of the formula in it, none of them NaN.
     pub fn step(&mut self, rho: &[f64]) {
         match &mut self.0 {
             Way::Thresholds { dfa, states } => *states = moved(dfa, states, rho),
+            Way::Runs { automaton, now, next, is_begun } => {
+                *is_begun = true;
+                let Ok(()) = advance_runs(automaton, now, next, |i| Ok::<_, Infallible>(rho[i]));
+                std::mem::swap(now, next);
+            }
             Way::All { rho: all, rows, .. } => {
                 all.extend_from_slice(rho);
                 *rows += 1;
@@ -87,6 +119,10 @@ impl Online {
             Way::Thresholds { dfa, states } => {
                 let accepted = states.iter().find(|(_, q)| dfa.accepting == Some(*q));
                 accepted.map_or(f64::NEG_INFINITY, |(threshold, _)| *threshold)
+            }
+            Way::Runs { automaton, now, is_begun, .. } => {
+                let accepting = automaton.accepting().filter(|_| *is_begun);
+                accepting.map_or(f64::NEG_INFINITY, |q| now[q as usize])
             }
             Way::All { spec, rho, rows } => {
                 let width = spec.propositions().len();

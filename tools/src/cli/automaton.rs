@@ -8,7 +8,8 @@ use tltl_compiler::translate::Budget;
 use crate::emit::{dot, hoa, json, mermaid, rust, svg, text};
 use crate::task::{Entry, TaskFile};
 
-use super::{Automaton, Exit, Format, Outcome, Report, Streams, input, subject};
+use super::input::{self, File, Foreign};
+use super::{Automaton, Exit, Format, Outcome, Report, Streams, subject};
 
 /// Shows the automaton that the arguments name, in the form that they ask for.
 pub(super) fn run(arguments: &Automaton, streams: &mut Streams<'_>) -> Outcome {
@@ -22,12 +23,21 @@ pub(super) fn run(arguments: &Automaton, streams: &mut Streams<'_>) -> Outcome {
     let Some(path) = &arguments.file else { return Err("there is no formula and no file".into()) };
     match input::file(path, streams)? {
         // Rust is of the file as a whole.
-        Some(file) if arguments.format == Format::Rust => {
+        Some(File::Tasks(file)) if arguments.format == Format::Rust => {
             streams.print(&rust::file(file.compiled()))
         }
-        Some(file) => {
+        Some(File::Tasks(file)) => {
             let entry = subject::choose(&file, arguments.task.as_deref())?;
             streams.print(&shown(arguments, &entry)?)
+        }
+        Some(File::Automaton(_)) if arguments.task.is_some() => {
+            Err(format!("{} is an automaton: it has no tasks with names", path.display()))
+        }
+        Some(File::Automaton(automaton)) => {
+            let Foreign { name, dfa } = *automaton;
+            let text = || text::automaton(&name, &dfa);
+            let rust = || rust::foreign(&name, &dfa);
+            streams.print(&formatted(arguments, [&name, &name], &dfa, [&text, &rust])?)
         }
         None => Ok(Exit::Mistaken),
     }
@@ -93,19 +103,31 @@ fn selected<'a>(arguments: &Automaton, automata: &'a Automata) -> &'a Dfa {
 /// A task in the form that the arguments ask for.
 fn shown(arguments: &Automaton, entry: &Entry) -> Result<String, String> {
     let (task, automata) = (entry.task(), subject::automata(entry)?);
-    let dfa = selected(arguments, automata);
     let title = task.name.as_deref().unwrap_or(&task.text);
+    let text = || sizes(arguments, &task.text, automata);
+    let rust = || rust::file(entry.file().compiled());
+    formatted(arguments, [title, &task.text], selected(arguments, automata), [&text, &rust])
+}
+
+/// An automaton in the form that the arguments ask for; the table of text and the Rust are made by
+/// the functions.
+fn formatted(
+    arguments: &Automaton,
+    [title, formula]: [&str; 2],
+    dfa: &Dfa,
+    [text, rust]: [&dyn Fn() -> String; 2],
+) -> Result<String, String> {
     Ok(match arguments.format {
-        Format::Text => sizes(arguments, &task.text, automata),
+        Format::Text => text(),
         Format::Json if arguments.explicit => {
-            json::explicit(&task.text, dfa).map_err(|error| error.to_string())?
+            json::explicit(formula, dfa).map_err(|error| error.to_string())?
         }
-        Format::Json => json::automaton(&task.text, dfa),
+        Format::Json => json::automaton(formula, dfa),
         Format::Dot => dot::automaton(title, dfa),
         Format::Svg => svg::automaton(title, dfa),
         Format::Mermaid => mermaid::automaton(title, dfa),
         Format::Hoa => hoa::automaton(title, dfa),
-        Format::Rust => rust::file(entry.file().compiled()),
+        Format::Rust => rust(),
     })
 }
 

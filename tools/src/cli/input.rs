@@ -4,7 +4,9 @@
 
 use std::path::{Path, PathBuf};
 
+use tltl_compiler::dfa::Dfa;
 use tltl_compiler::error::{Error, Errors};
+use tltl_compiler::hoa;
 use tltl_compiler::source::Source;
 use tltl_compiler::translate::Budget;
 
@@ -13,10 +15,25 @@ use crate::task::{CompileError, TaskFile};
 
 use super::{Exit, Outcome, Report, Streams};
 
-/// Compiles a task file and reports its mistakes and warnings; `None` if there are mistakes.
-pub(super) fn file(path: &Path, streams: &mut Streams<'_>) -> Result<Option<TaskFile>, String> {
+/// A file without mistakes.
+pub(super) enum File {
+    /// A task file.
+    Tasks(TaskFile),
+    /// An automaton of another tool, in HOA.
+    Automaton(Box<Foreign>),
+}
+
+/// An automaton that came without a formula.
+pub(super) struct Foreign {
+    /// What it is called: by its own name, or by the name of its file.
+    pub(super) name: String,
+    pub(super) dfa: Dfa,
+}
+
+/// Reads a file and reports its mistakes and warnings; `None` if there are mistakes.
+pub(super) fn file(path: &Path, streams: &mut Streams<'_>) -> Result<Option<File>, String> {
     let source = Source::new(path.display().to_string(), streams.read(path)?);
-    reported(TaskFile::new(source, Budget::default()), Report::Human, streams)
+    compiled(path, source, Report::Human, streams)
 }
 
 /// Checks each file; the exit code says whether all are free of mistakes. Warnings are reported and
@@ -25,10 +42,29 @@ pub(super) fn check(paths: &[PathBuf], report: Report, streams: &mut Streams<'_>
     let mut all_well = true;
     for path in paths {
         let source = Source::new(path.display().to_string(), streams.read(path)?);
-        let result = TaskFile::new(source, Budget::default());
-        all_well &= reported(result, report, streams)?.is_some();
+        all_well &= compiled(path, source, report, streams)?.is_some();
     }
     Ok(Exit::of(all_well))
+}
+
+/// Compiles a file. One that begins with `HOA:`, or is called so, is an automaton.
+fn compiled(
+    path: &Path,
+    source: Source,
+    report: Report,
+    streams: &mut Streams<'_>,
+) -> Result<Option<File>, String> {
+    let start = source.text().trim_start_matches('\u{feff}').trim_start();
+    if start.starts_with("HOA:") || path.extension().is_some_and(|extension| extension == "hoa") {
+        let read = hoa::read(&source).map_err(Errors::from);
+        let read = judged(&source, read, report, streams)?;
+        let stem = || path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let named =
+            |read: hoa::Automaton| Foreign { name: read.name.unwrap_or_else(stem), dfa: read.dfa };
+        return Ok(read.map(named).map(Box::new).map(File::Automaton));
+    }
+    let tasks = reported(TaskFile::new(source, Budget::default()), report, streams)?;
+    Ok(tasks.map(File::Tasks))
 }
 
 /// Reports mistakes, or warnings if there are none; `None` if there are mistakes.

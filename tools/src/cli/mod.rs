@@ -81,9 +81,9 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Checks task files: reports every mistake and warning, writes nothing.
+    /// Checks task files and automata in HOA: reports every mistake and warning, writes nothing.
     Check {
-        /// The task files; `-` is the standard input.
+        /// The files; `-` is the standard input.
         #[arg(required = true)]
         files: Vec<PathBuf>,
         /// How to report.
@@ -92,7 +92,7 @@ enum Command {
     },
     /// Tells in plain English what a task asks for, and what each automaton state still does.
     Explain {
-        /// A formula, a task file, or FILE:TASK.
+        /// A formula, a task file, FILE:TASK, or an automaton in HOA.
         #[arg(value_name = "FORMULA|FILE")]
         subject: String,
         /// The task of the file; may be left out if there is only one.
@@ -146,7 +146,7 @@ enum Report {
 
 #[derive(Args)]
 struct Automaton {
-    /// The task file; `-` is the standard input.
+    /// The task file, or an automaton in HOA; `-` is the standard input.
     #[arg(required_unless_present_any = ["formula", "formulas"])]
     file: Option<PathBuf>,
     /// The task of the file; may be left out if there is only one.
@@ -171,7 +171,7 @@ struct Automaton {
 
 #[derive(Args)]
 struct Run {
-    /// A task file or FILE:TASK; or a formula, whose propositions are read as robustness.
+    /// A task file or FILE:TASK; or a formula or an automaton in HOA, whose propositions are read as robustness.
     #[arg(value_name = "FILE|FORMULA")]
     subject: String,
     /// The trajectories, one state a row; `-` is the standard input. CSV, JSON Lines, a JSON array

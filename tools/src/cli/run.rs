@@ -5,20 +5,23 @@
 //!
 //! A recording is read, evaluated and written block by block, so memory does not grow with it.
 
+mod reading;
 mod written;
 
 use rustc_hash::FxHashMap;
 use tltl_compiler::translate::Budget;
 
-use crate::evaluate::{Columns, Evaluator, Input, Scratch};
+use crate::evaluate::{Input, Scratch};
 use crate::online::Online;
-use crate::task::{Bound, Running, Task};
+use crate::task::{Bound, Running};
 
+use super::input::Foreign;
 use super::record::{At, Place, Record};
 use super::streams::open;
 use super::subject::{self, Subject};
 use super::{Exit, Outcome, Run, Streams, arguments};
 
+use reading::{Read, Reading};
 use written::Writer;
 
 /// The rows of a block: as many as the evaluator has in one of its own, several times.
@@ -34,14 +37,14 @@ struct Followed<'a> {
 
 /// Runs the trajectories that the arguments name, and shows the results.
 pub(super) fn run(run: &Run, streams: &mut Streams<'_>) -> Outcome {
-    let Some(task) = bound(run, streams)? else { return Ok(Exit::Mistaken) };
+    let Some(reading) = reading(run, streams)? else { return Ok(Exit::Mistaken) };
     let map = map(run, streams)?;
-    let places = places(run, &task, &map)?;
-    let mut writer = Writer::new(run, &task);
+    let places = places(run, &reading.inputs, &map)?;
+    let mut writer = Writer::new(run, &reading.title);
     for path in &run.traces {
         let name = path.display().to_string();
         let record = Record::new(&name, open(streams.input, path)?, &places)?;
-        let mut following = Following::new(&task, &name, run.episode.as_deref());
+        let mut following = Following::new(&reading, &name, run.episode.as_deref());
         following.read(record, &mut |text| streams.out.print(text), &mut writer)?;
         if following.followed.is_empty() {
             return Err(format!("{name}: a trajectory has at least one state, and this has none"));
@@ -52,8 +55,9 @@ pub(super) fn run(run: &Run, streams: &mut Streams<'_>) -> Outcome {
     Ok(Exit::of(writer.all_satisfied()))
 }
 
-/// The task that the arguments name, with its own arguments; `None` if its source has mistakes.
-fn bound(run: &Run, streams: &mut Streams<'_>) -> Result<Option<Task>, String> {
+/// The task that the arguments name, with its own arguments, or the automaton; `None` if its source
+/// has mistakes.
+fn reading(run: &Run, streams: &mut Streams<'_>) -> Result<Option<Reading>, String> {
     let (subject, task) = subject::split(&run.subject);
     let (name, given) = match task.or(run.task.as_deref()) {
         Some(task) => arguments::split(task).map(|(name, given)| (Some(name), given))?,
@@ -63,14 +67,14 @@ fn bound(run: &Run, streams: &mut Streams<'_>) -> Result<Option<Task>, String> {
     let entry = match subject::read(subject, name, Budget::EMITTED, streams)? {
         None => return Ok(None),
         Some(Subject::Task(entry)) => entry,
-        Some(Subject::Automaton(_)) => {
-            return Err("an automaton does not say how its propositions read a state".into());
+        Some(Subject::Automaton(automaton)) => {
+            return Reading::of_automaton(*automaton).map(Some);
         }
     };
     subject::automata(&entry)?;
     let named = arguments::named(&entry, given.as_deref().unwrap_or_default())?;
     match entry.bind(&named).map_err(|error| error.to_string())? {
-        Bound::Plain(task) => Ok(Some(task)),
+        Bound::Plain(task) => Ok(Some(Reading::of_task(&task))),
         Bound::Factored(_) => unreachable!("a task with automata of its own is not factored"),
     }
 }
@@ -90,10 +94,9 @@ fn map(run: &Run, streams: &mut Streams<'_>) -> Result<Vec<(String, String)>, St
 /// The columns to look for: one for each input of the task, and that of the episode.
 fn places<'a>(
     run: &'a Run,
-    task: &'a Task,
+    inputs: &'a [Input],
     map: &'a [(String, String)],
 ) -> Result<Vec<Place<'a>>, String> {
-    let inputs = task.inputs();
     for (field, _) in map {
         if !inputs.iter().any(|input| input.name == *field) {
             let names: Vec<_> = inputs.iter().map(|input| &*input.name).collect();
@@ -112,13 +115,12 @@ fn places<'a>(
 
 /// The trajectories of one file: as many as it has episodes.
 struct Following<'a> {
-    task: &'a Task,
+    reading: &'a Reading,
     file: &'a str,
     episode: Option<&'a str>,
     followed: Vec<Followed<'a>>,
     /// The index of each episode among them, by its name in the file.
     known: FxHashMap<String, usize>,
-    fresh: Online,
 }
 
 /// Rows that were read and not yet evaluated.
@@ -130,9 +132,8 @@ struct Block {
 }
 
 impl<'a> Following<'a> {
-    fn new(task: &'a Task, file: &'a str, episode: Option<&'a str>) -> Self {
-        let fresh = Online::new(&task.entry().task().spec, Budget::EMITTED);
-        Self { task, file, episode, followed: Vec::new(), known: FxHashMap::default(), fresh }
+    fn new(reading: &'a Reading, file: &'a str, episode: Option<&'a str>) -> Self {
+        Self { reading, file, episode, followed: Vec::new(), known: FxHashMap::default() }
     }
 
     /// Reads a record to its end, and prints the rows as `writer` writes them.
@@ -173,7 +174,8 @@ impl<'a> Following<'a> {
             Some(column) => format!("{}: {column} {episode}", self.file),
             None => self.file.to_owned(),
         };
-        let (running, online) = (Running::new(self.task.automaton()), self.fresh.clone());
+        let running = Running::new(&self.reading.automaton);
+        let online = self.reading.online.clone();
         self.followed.push(Followed { name, running, online });
         self.known.insert(episode.to_owned(), self.followed.len() - 1);
         self.followed.len() - 1
@@ -186,9 +188,12 @@ impl<'a> Following<'a> {
         scratch: &mut Scratch,
         writer: &mut Writer<'_>,
     ) -> Result<(), String> {
-        let evaluator = self.task.evaluator();
-        let (labels, rho) = self.evaluated(evaluator, block, scratch)?;
-        let width = evaluator.propositions();
+        let read = self.reading.read(&block.values, block.rows.len(), scratch).map_err(|nan| {
+            let predicate = &self.reading.automaton.propositions()[nan.predicate as usize];
+            let (file, at) = (self.file, block.rows[nan.row].0);
+            format!("{file}{at}: the predicate `{predicate}` is not a number (NaN) there")
+        })?;
+        let Read { labels, rho, width } = read;
         for (row, &(_, trajectory)) in block.rows.iter().enumerate() {
             let (from, to) = (row * width, (row + 1) * width);
             let followed = &mut self.followed[trajectory];
@@ -197,25 +202,5 @@ impl<'a> Following<'a> {
             writer.row(followed, progress);
         }
         Ok(())
-    }
-
-    /// The labels of a block and the robustness of its predicates, row after row.
-    fn evaluated(
-        &self,
-        evaluator: &Evaluator,
-        block: &Block,
-        scratch: &mut Scratch,
-    ) -> Result<(Vec<bool>, Vec<f64>), String> {
-        let (rows, width) = (block.rows.len(), evaluator.propositions());
-        let columns = Columns::of_rows(rows, evaluator.inputs().len(), &block.values)
-            .map_err(|error| error.to_string())?;
-        let (mut labels, mut rho) = (vec![false; rows * width], vec![0.0; rows * width]);
-        let read = evaluator.labels(&columns, scratch, &mut labels);
-        read.and_then(|()| evaluator.rho(&columns, scratch, &mut rho)).map_err(|nan| {
-            let predicate = &self.task.automaton().propositions()[nan.predicate as usize];
-            let (file, at) = (self.file, block.rows[nan.row].0);
-            format!("{file}{at}: the predicate `{predicate}` is not a number (NaN) there")
-        })?;
-        Ok((labels, rho))
     }
 }

@@ -6,21 +6,19 @@
 use std::path::Path;
 
 use tltl_compiler::dfa::Automata;
-use tltl_compiler::error::Errors;
-use tltl_compiler::hoa;
-use tltl_compiler::source::Source;
 use tltl_compiler::translate::Budget;
 
 use crate::task::{Entry, NoSuchTask, TaskFile};
 
-use super::{Report, Streams, input};
+use super::input::{self, File, Foreign};
+use super::{Report, Streams};
 
 /// A subject that was read.
 pub(super) enum Subject {
     /// A task of a file, or a formula.
     Task(Entry),
     /// An automaton in HOA.
-    Automaton(Box<hoa::Automaton>),
+    Automaton(Box<Foreign>),
 }
 
 /// Reads `FILE`, `FILE:TASK` or a formula, and reports its mistakes; `None` if it has any. The
@@ -62,20 +60,20 @@ fn looks_like_file(path: &str) -> bool {
     exists(path) || path.ends_with(".tltl") || path.ends_with(".hoa")
 }
 
-/// Reads a file. One that begins with `HOA:` is an automaton, whatever its name.
+/// Reads a file, and finds the task in it.
 fn file(
     path: &str,
     name: Option<&str>,
     streams: &mut Streams<'_>,
 ) -> Result<Option<Subject>, String> {
-    let source = Source::new(path, streams.read(Path::new(path))?);
-    if source.text().trim_start().starts_with("HOA:") {
-        let read = hoa::read(&source).map_err(Errors::from);
-        let read = input::judged(&source, read, Report::Human, streams)?;
-        return Ok(read.map(|automaton| Subject::Automaton(Box::new(automaton))));
-    }
-    let file = input::reported(TaskFile::new(source, Budget::default()), Report::Human, streams)?;
-    file.map(|file| choose(&file, name).map(Subject::Task)).transpose()
+    Ok(match input::file(Path::new(path), streams)? {
+        None => None,
+        Some(File::Tasks(file)) => Some(Subject::Task(choose(&file, name)?)),
+        Some(File::Automaton(_)) if name.is_some() => {
+            return Err(format!("{path} is an automaton: it has no tasks with names"));
+        }
+        Some(File::Automaton(automaton)) => Some(Subject::Automaton(automaton)),
+    })
 }
 
 /// The task of that name, or the only one if no name is given. The message names the option that

@@ -5,7 +5,7 @@ use tltl_compiler::error::Style;
 use tltl_compiler::translate::Budget;
 
 use crate::diff::{Difference, diff};
-use crate::explain::explain as explanation;
+use crate::explain::{Explanation, explain as explanation, explain_automaton};
 
 use super::streams::shown;
 use super::subject::{self, Subject};
@@ -15,8 +15,9 @@ use super::{Exit, Outcome, Streams};
 pub(super) fn explain(text: &str, task: Option<&str>, streams: &mut Streams<'_>) -> Outcome {
     match subject::read(text, task, Budget::SHOWN, streams)? {
         None => Ok(Exit::Mistaken),
-        Some(Subject::Automaton(_)) => {
-            Err(format!("{text} is an automaton: it has no formula to explain"))
+        Some(Subject::Automaton(automaton)) => {
+            let told = explain_automaton(&automaton.dfa);
+            told_under(&automaton.name, &told, streams)
         }
         Some(Subject::Task(entry)) => {
             let (task, automata) = (entry.task(), subject::automata(&entry)?);
@@ -24,12 +25,15 @@ pub(super) fn explain(text: &str, task: Option<&str>, streams: &mut Streams<'_>)
                 Some(name) => format!("{name} = {}", task.text),
                 None => task.text.clone(),
             };
-            let told = explanation(&task.spec, &automata.dfa);
-            let told = format!("{title}\n\n{told}");
-            let style = streams.out.style;
-            streams.out.print_raw(&headed(&shown(&told), style))
+            told_under(&title, &explanation(&task.spec, &automata.dfa), streams)
         }
     }
+}
+
+/// Prints an explanation under its title.
+fn told_under(title: &str, told: &Explanation, streams: &mut Streams<'_>) -> Outcome {
+    let (told, style) = (format!("{title}\n\n{told}"), streams.out.style);
+    streams.out.print_raw(&headed(&shown(&told), style))
 }
 
 /// Compares two subjects, and shows a shortest trajectory on which they differ.

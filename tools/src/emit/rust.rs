@@ -6,6 +6,8 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 use tltl_compiler::compile::Compiled;
+use tltl_compiler::dfa::Dfa;
+use tltl_compiler::emit::foreign as emit_foreign;
 use tltl_compiler::emit::rust::{Options, Place, code, is_bare, sizes};
 use tltl_compiler::emit::tables as emit;
 use tltl_compiler::source::visible;
@@ -31,7 +33,25 @@ pub fn file(compiled: &Compiled) -> String {
     let host = |_| TokenStream::new();
     let options =
         Options { runtime: quote! { ::tltl }, state: None, host: &host, place: Place::File };
-    let tokens = if is_bare(compiled) { statics(compiled) } else { code(compiled, &options) };
+    laid_out(if is_bare(compiled) { statics(compiled) } else { code(compiled, &options) })
+}
+
+/// An automaton that came without a formula as a Rust file: what `include_tltl!` makes of it.
+///
+/// ```
+/// use tltl_compiler::translate::Budget;
+///
+/// let task = tltlc::task::compile("a T b", Budget::default())?;
+/// let rust = tltlc::emit::rust::foreign("order", task.dfa());
+/// assert!(rust.contains("pub fn task<P0, P1>(p0: P0, p1: P1)"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+pub fn foreign(name: &str, dfa: &Dfa) -> String {
+    laid_out(emit_foreign::automaton(name, dfa, &quote! { ::tltl }, Place::File))
+}
+
+fn laid_out(tokens: TokenStream) -> String {
     match syn::parse2(tokens.clone()) {
         Ok(file) => prettyplease::unparse(&file),
         Err(_) => tokens.to_string(),

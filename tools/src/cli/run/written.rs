@@ -6,13 +6,13 @@ use serde::Serialize;
 
 use crate::cli::{RowFormat, Run};
 use crate::emit::json;
-use crate::task::{Task, Verdict};
+use crate::task::Verdict;
 
 use super::Followed;
 
 /// Text that waits to be printed, and the verdicts so far.
 pub(super) struct Writer<'a> {
-    task: &'a Task,
+    title: &'a str,
     format: RowFormat,
     /// Whether trajectories are named: there are several, or there may be.
     many: bool,
@@ -47,10 +47,10 @@ struct JsonEnd<'a> {
 }
 
 impl<'a> Writer<'a> {
-    pub(super) fn new(run: &Run, task: &'a Task) -> Self {
+    pub(super) fn new(run: &Run, title: &'a str) -> Self {
         let many = run.traces.len() > 1 || run.episode.is_some();
         let mut writer = Self {
-            task,
+            title,
             format: run.format,
             many,
             text: String::new(),
@@ -65,7 +65,7 @@ impl<'a> Writer<'a> {
     fn start(&mut self) {
         match self.format {
             RowFormat::Text => {
-                self.title();
+                let _ = writeln!(self.text, "{}\n", self.title);
                 if !self.many {
                     let _ = writeln!(self.text, "{:>6}  {:>5}  {:>12}", "row", "state", "progress");
                 }
@@ -76,19 +76,6 @@ impl<'a> Writer<'a> {
             }
             RowFormat::Json => {}
         }
-    }
-
-    /// The task, with its arguments.
-    fn title(&mut self) {
-        let formula = &self.task.entry().task().text;
-        let name = self.task.entry().name().map(|name| format!("{name} = ")).unwrap_or_default();
-        let _ = writeln!(self.text, "{name}{formula}");
-        let arguments = self.task.arguments();
-        if !arguments.is_empty() {
-            let with = arguments.iter().map(|(name, value)| format!("{name} = {value}"));
-            let _ = writeln!(self.text, "with {}", with.collect::<Vec<_>>().join(", "));
-        }
-        self.text.push('\n');
     }
 
     /// Writes the row that a trajectory has read last. Zero has no sign here.
