@@ -12,7 +12,7 @@
 
 use std::marker::PhantomData;
 
-use rustc_hash::{FxHashMap, FxHashSet};
+use crate::intern::{Index, hash_of_word};
 
 /// A type that is a number: an index into an arena.
 pub(crate) trait Id: Copy {
@@ -68,39 +68,66 @@ impl<A: Id, B: Id> Key for (A, B) {
 
 /// A map from ids, or pairs of them, to ids.
 ///
-/// One type of hash table is behind every such map, whatever the types of its ids are: each further
-/// one would be compiled by every user of the macros. `PhantomData<fn(K) -> V>` keeps the map
-/// `Send` and `Sync` for all ids.
-///
-/// It is never iterated, so the order of the table is never visible: the same input gives the same
-/// output.
+/// Different keys have different hashes, so there is nothing to compare. `PhantomData<fn(K) -> V>`
+/// keeps the map `Send` and `Sync` for all ids.
 #[derive(Clone, Debug)]
 pub(crate) struct Memo<K, V> {
-    known: FxHashMap<u64, u32>,
+    keys: Index,
+    values: Vec<u32>,
     kinds: PhantomData<fn(K) -> V>,
 }
 
 impl<K, V> Default for Memo<K, V> {
     fn default() -> Self {
-        Self { known: FxHashMap::default(), kinds: PhantomData }
+        Self { keys: Index::default(), values: Vec::new(), kinds: PhantomData }
     }
 }
 
 impl<K: Key, V: Id> Memo<K, V> {
     /// The value of `key`.
     pub(crate) fn get(&self, key: K) -> Option<V> {
-        self.known.get(&key.key()).map(|&number| V::new(number))
+        let place = self.keys.find(hash_of_word(key.key()), |_| true)?;
+        Some(V::new(self.values[place as usize]))
     }
 
     /// Sets the value of `key`; an old one is replaced.
     pub(crate) fn insert(&mut self, key: K, value: V) {
-        self.known.insert(key.key(), value.number());
+        let place = self.place(key, value);
+        self.values[place] = value.number();
     }
 
     /// The value of `key`; it becomes `fresh` if there is none. A caller that passes the next free
     /// number sees from the result whether the key was new.
     pub(crate) fn get_or_insert(&mut self, key: K, fresh: V) -> V {
-        V::new(*self.known.entry(key.key()).or_insert(fresh.number()))
+        let place = self.place(key, fresh);
+        V::new(self.values[place])
+    }
+
+    /// The place of `key`, which is added with the value `fresh` if there is none.
+    fn place(&mut self, key: K, fresh: V) -> usize {
+        let hash = hash_of_word(key.key());
+        let known = self.keys.find(hash, |_| true);
+        let place = known.unwrap_or_else(|| {
+            self.values.push(fresh.number());
+            self.keys.add(hash)
+        });
+        place as usize
+    }
+}
+
+/// Ids that have been met.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Seen(Index);
+
+impl Seen {
+    /// Notes an id. Returns whether it is new.
+    pub(crate) fn insert(&mut self, id: impl Id) -> bool {
+        let hash = hash_of_word(id.number().into());
+        let is_new = self.0.find(hash, |_| true).is_none();
+        if is_new {
+            self.0.add(hash);
+        }
+        is_new
     }
 }
 
@@ -109,14 +136,14 @@ impl<K: Key, V: Id> Memo<K, V> {
 ///
 /// Operands stand first in every arena, so the result is in the order in which a pass can go.
 pub(crate) fn needed(roots: Vec<u32>, operands: &mut dyn FnMut(u32, &mut Vec<u32>)) -> Vec<u32> {
-    let mut seen = FxHashSet::default();
+    let (mut seen, mut needed) = (Seen::default(), Vec::new());
     let mut open = roots;
     while let Some(id) = open.pop() {
         if seen.insert(id) {
+            needed.push(id);
             operands(id, &mut open);
         }
     }
-    let mut needed: Vec<u32> = seen.into_iter().collect();
     needed.sort_unstable();
     needed
 }

@@ -61,6 +61,7 @@ pub mod factor;
 mod grammar;
 #[cfg(feature = "hoa")]
 pub mod hoa;
+mod intern;
 pub mod judge;
 pub mod linear;
 pub mod minimize;

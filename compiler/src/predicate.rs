@@ -24,12 +24,11 @@
 mod build;
 mod print;
 
-use rustc_hash::FxHashMap;
-
 pub use print::Printed;
 
 use crate::arena;
 use crate::ast::{Arithmetic, Comparison};
+use crate::intern::{Index, Interner, hash_of};
 use crate::source::Span;
 use crate::spec::Spec;
 use crate::unit::{Unit, Units};
@@ -556,21 +555,19 @@ pub enum Condition {
 ///
 /// Invariants: operands stand before the entries that use them; equal entries have equal ids. A
 /// Rust expression is equal to another of the same text, wherever the two stand, so its place is
-/// not part of its identity (`hosts`).
+/// not part of its identity.
 #[derive(Clone, Debug, Default)]
 pub struct Arena {
-    conditions: Vec<Condition>,
+    conditions: Interner<Condition>,
     terms: Vec<Term>,
-    known_conditions: FxHashMap<Condition, ConditionId>,
-    known_terms: FxHashMap<Term, TermId>,
-    hosts: FxHashMap<(String, Vec<Binding>, bool), TermId>,
+    known: Index,
 }
 
 impl Arena {
     /// One condition.
     #[must_use]
     pub fn condition(&self, id: ConditionId) -> &Condition {
-        &self.conditions[id.0 as usize]
+        &self.conditions.things()[id.0 as usize]
     }
 
     /// One term.
@@ -582,7 +579,7 @@ impl Arena {
     /// All conditions, operands first.
     #[must_use]
     pub fn conditions(&self) -> &[Condition] {
-        &self.conditions
+        self.conditions.things()
     }
 
     /// All terms, operands first.
@@ -603,13 +600,7 @@ impl Arena {
     /// Adds a condition as it is, and returns its id; an equal one has the same id.
     /// [`not`](Self::not), [`and`](Self::and) and [`or`](Self::or) simplify first.
     pub fn add_condition(&mut self, condition: Condition) -> ConditionId {
-        if let Some(id) = self.known_conditions.get(&condition) {
-            return *id;
-        }
-        let id = ConditionId(index(self.conditions.len()));
-        self.conditions.push(condition.clone());
-        self.known_conditions.insert(condition, id);
-        id
+        ConditionId(self.conditions.intern(condition))
     }
 
     /// Adds a term as it is, and returns its id; an equal one has the same id.
@@ -623,32 +614,30 @@ impl Arena {
     /// assert_eq!(arena.terms().len(), 1);
     /// ```
     pub fn add_term(&mut self, term: Term) -> TermId {
-        if let Some(id) = self.find_term(&term) {
-            return id;
-        }
-        let id = TermId(index(self.terms.len()));
-        if let Term::Host { text, bindings, value, .. } = &term {
-            self.hosts.insert((text.clone(), bindings.clone(), *value), id);
-        }
-        self.terms.push(term.clone());
-        self.known_terms.insert(term, id);
-        id
-    }
-
-    /// The id of an equal term.
-    fn find_term(&self, term: &Term) -> Option<TermId> {
-        match term {
-            Term::Host { text, bindings, value, .. } => {
-                self.hosts.get(&(text.clone(), bindings.clone(), *value)).copied()
-            }
-            _ => self.known_terms.get(term).copied(),
-        }
+        let hash = match term.host() {
+            Some(host) => hash_of(&host),
+            None => hash_of(&term),
+        };
+        let same = |known: &Term| match term.host() {
+            Some(host) => known.host() == Some(host),
+            None => *known == term,
+        };
+        let known = self.known.find(hash, |id| same(&self.terms[id as usize]));
+        TermId(known.unwrap_or_else(|| {
+            self.terms.push(term);
+            self.known.add(hash)
+        }))
     }
 }
 
-/// A length as an index.
-fn index(length: usize) -> u32 {
-    u32::try_from(length).expect("fewer than 2^32 of a kind")
+impl Term {
+    /// What a Rust expression is known by: all but its place.
+    fn host(&self) -> Option<(&str, &[Binding], bool)> {
+        match self {
+            Self::Host { text, bindings, value, .. } => Some((text, bindings, *value)),
+            _ => None,
+        }
+    }
 }
 
 /// A predicate over one state.

@@ -36,11 +36,10 @@
 mod bounded;
 mod print;
 
-use rustc_hash::FxHashMap;
-
 pub use print::Printed;
 
 use crate::arena;
+use crate::intern::Interner;
 use crate::proposition::Proposition;
 use crate::source::Span;
 
@@ -146,14 +145,12 @@ impl Formula {
 
 /// A formula over propositions: hash-consed, in negation normal form, co-safe.
 ///
-/// Invariants: operands stand before the operators that use them; `known` holds the id of every
-/// operator; `spans` has one entry for each.
+/// Invariants: operands stand before the operators that use them; `spans` has one entry for each.
 #[derive(Clone, Debug)]
 pub struct Spec {
     propositions: Vec<Proposition>,
-    formulas: Vec<Formula>,
+    formulas: Interner<Formula>,
     spans: Vec<Span>,
-    known: FxHashMap<Formula, FormulaId>,
     root: FormulaId,
 }
 
@@ -164,9 +161,8 @@ impl Spec {
     pub fn new(propositions: Vec<Proposition>) -> Self {
         let mut spec = Self {
             propositions,
-            formulas: Vec::new(),
+            formulas: Interner::default(),
             spans: Vec::new(),
-            known: FxHashMap::default(),
             root: FormulaId(0),
         };
         spec.root = spec.intern(Formula::True, Span::default());
@@ -194,14 +190,18 @@ impl Spec {
     /// The operator of `id`.
     #[must_use]
     pub fn formula(&self, id: FormulaId) -> Formula {
-        self.formulas[id.0 as usize]
+        self.formulas.things()[id.0 as usize]
     }
 
     /// All operators, operands first. Some may not be reachable from the root.
     pub fn formulas(
         &self,
     ) -> impl ExactSizeIterator<Item = (FormulaId, Formula)> + DoubleEndedIterator {
-        self.formulas.iter().enumerate().map(|(i, &formula)| (FormulaId(i as u32), formula))
+        self.formulas
+            .things()
+            .iter()
+            .enumerate()
+            .map(|(i, &formula)| (FormulaId(i as u32), formula))
     }
 
     /// The place of `id` in the source; the first one, for equal formulas are one.
@@ -225,7 +225,7 @@ impl Spec {
     /// ```
     #[must_use]
     pub fn reachable(&self) -> Vec<bool> {
-        let mut reachable = vec![false; self.formulas.len()];
+        let mut reachable = vec![false; self.spans.len()];
         reachable[self.root.0 as usize] = true;
         for (id, formula) in self.formulas().rev() {
             if reachable[id.0 as usize] {
@@ -408,12 +408,10 @@ impl Spec {
 
     /// The id of an operator, which is added if it is new; the first span stays.
     fn intern(&mut self, formula: Formula, span: Span) -> FormulaId {
-        let fresh =
-            FormulaId(u32::try_from(self.formulas.len()).expect("fewer than 2^32 operators"));
-        *self.known.entry(formula).or_insert_with(|| {
-            self.formulas.push(formula);
+        let id = self.formulas.intern(formula);
+        if id as usize == self.spans.len() {
             self.spans.push(span);
-            fresh
-        })
+        }
+        FormulaId(id)
     }
 }

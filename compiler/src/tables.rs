@@ -26,10 +26,9 @@
 //! # Ok::<(), tltl_compiler::error::Errors>(())
 //! ```
 
-use rustc_hash::FxHashMap;
-
 use crate::bdd::{Bdd, Cube};
 use crate::dfa::{Dfa, Guards, State};
+use crate::intern::Interner;
 use crate::spec::{Formula, Spec};
 
 /// A dense table has up to this many entries; a larger automaton keeps its decision diagram. 4,096
@@ -249,22 +248,18 @@ fn dense(dfa: &Dfa) -> Option<Transitions> {
     if count > DENSE_PROPOSITIONS {
         return None;
     }
-    let mut columns: FxHashMap<Vec<State>, u16> = FxHashMap::default();
-    let mut order = Vec::new();
+    let mut columns = Interner::default();
     let mut class = Vec::with_capacity(1 << count);
     for letter in 0..1_usize << count {
         let column: Vec<State> =
             dfa.states().map(|q| dfa.next(q, |i| letter >> i & 1 == 1)).collect();
-        let fresh = columns.len() as u16;
-        class.push(*columns.entry(column).or_insert_with_key(|column| {
-            order.push(column.clone());
-            fresh
-        }));
+        class.push(columns.intern(column) as u16);
         // Given up early: a large automaton would compute 2^10 columns for nothing.
-        if class.len().max(order.len() * dfa.len()) > DENSE_LIMIT {
+        if class.len().max(columns.things().len() * dfa.len()) > DENSE_LIMIT {
             return None;
         }
     }
+    let order = columns.into_things();
     let next = dfa.states().flat_map(|q| order.iter().map(move |column| column[q as usize]));
     Some(Transitions::Table { class, width: order.len() as u32, next: next.collect() })
 }

@@ -72,9 +72,7 @@ mod obligation;
 
 use std::fmt;
 
-use rustc_hash::FxHashSet;
-
-use crate::arena::Memo;
+use crate::arena::{Memo, Seen};
 use crate::bdd::{Bdd, Diagram, Node};
 use crate::dfa::{Dfa, State};
 use crate::spec::{Formula, FormulaId, Spec};
@@ -300,11 +298,11 @@ impl<'a> Translation<'a> {
     fn chain(&self, root: FormulaId) -> Vec<FormulaId> {
         let conjunction = |id| matches!(self.spec.formula(id), Formula::And(..));
         let disjunction = |id| matches!(self.spec.formula(id), Formula::Or(..));
-        let mut seen = FxHashSet::default();
+        let mut seen = Seen::default();
         let mut operands = Vec::new();
         let mut stack = vec![root];
         while let Some(id) = stack.pop() {
-            if !seen.insert(id.0) {
+            if !seen.insert(id) {
                 continue;
             }
             let same = if conjunction(root) { conjunction(id) } else { disjunction(id) };

@@ -24,9 +24,8 @@
 //! assert_eq!(speed.root(), None);
 //! ```
 
-use rustc_hash::FxHashMap;
-
 use crate::ast::quoted;
+use crate::intern::Interner;
 
 /// The greatest power of a name; its negative is the least. Physics needs about 4; the bound keeps
 /// a product of two powers far from overflow, and makes `pow(pow(x, 50), 50)` an error rather than
@@ -138,36 +137,25 @@ impl Unit {
 }
 
 /// The names of the units of a source, numbered in order of first appearance.
-///
-/// Invariant: `known` holds the index of every name in `names`.
 #[derive(Clone, Debug, Default)]
-pub struct Units {
-    names: Vec<String>,
-    known: FxHashMap<String, u32>,
-}
+pub struct Units(Interner<String>);
 
 impl Units {
     /// The number of a name, which is added if it is new.
     pub fn name(&mut self, text: &str) -> u32 {
-        if let Some(known) = self.known.get(text) {
-            return *known;
-        }
-        let fresh = u32::try_from(self.names.len()).expect("fewer than 2^32 names");
-        self.names.push(text.to_owned());
-        self.known.insert(text.to_owned(), fresh);
-        fresh
+        self.0.intern(text.to_owned())
     }
 
     /// The number of a name; `None` if no unit of the source mentions it.
     #[must_use]
     pub fn find(&self, text: &str) -> Option<u32> {
-        self.known.get(text).copied()
+        self.0.find(text)
     }
 
     /// The text of a name as messages quote it: not too long.
     #[must_use]
     pub fn text_of(&self, name: u32) -> String {
-        quoted(&self.names[name as usize])
+        quoted(&self.0.things()[name as usize])
     }
 
     /// A unit as a source writes it: `N*m`, `kg*m/s^2`, `1/s`; `1` for a plain number. Names stand
@@ -175,7 +163,7 @@ impl Units {
     #[must_use]
     pub fn text(&self, unit: &Unit) -> String {
         let mut powers = unit.0.clone();
-        powers.sort_unstable_by_key(|(name, _)| &self.names[*name as usize]);
+        powers.sort_unstable_by_key(|(name, _)| &self.0.things()[*name as usize]);
         let one = |(name, power): &(u32, i32)| match power.unsigned_abs() {
             1 => self.text_of(*name),
             power => format!("{}^{power}", self.text_of(*name)),

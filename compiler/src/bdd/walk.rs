@@ -4,9 +4,8 @@
 //! do not recurse. Their order is that of a depth-first walk, low before high: it depends on the
 //! functions alone, and with it everything that is numbered along the way.
 
-use rustc_hash::FxHashSet;
-
 use super::{Bdd, Diagram, Node};
+use crate::arena::Seen;
 
 /// The images of functions under a [fold](Diagram::fold).
 ///
@@ -43,8 +42,7 @@ impl Diagram {
     /// ```
     #[must_use]
     pub fn leaves(&self, f: Bdd) -> Vec<u32> {
-        let mut nodes = FxHashSet::default();
-        let mut leaves = FxHashSet::default();
+        let (mut nodes, mut leaves) = (Seen::default(), Seen::default());
         let mut found = Vec::new();
         self.walk(f, &mut |node| nodes.insert(node), &mut |leaf| {
             if leaves.insert(leaf) {

@@ -100,7 +100,7 @@ impl Atoms<'_, '_> {
             let term = Term::Host { text, span, bindings, value: false };
             return Some(Condition::Bool(self.lowering.arena.add_term(term)));
         }
-        let (_, span) = *self.lowering.free.entry(text.clone()).or_insert((true, span));
+        let (_, span) = *self.lowering.free.get_or_insert(text.clone(), (true, span));
         Some(Condition::Value { text, span, bindings })
     }
 

@@ -15,12 +15,11 @@
 //! # Ok::<(), tltl_compiler::error::Errors>(())
 //! ```
 
-use rustc_hash::FxHashMap;
-
 use super::apply::miscounted;
 use super::role::{Role, Roles};
 use crate::ast::{Arithmetic, Infix, ItemKind};
 use crate::error::{Error, Kind};
+use crate::intern::Map;
 use crate::predicate::{Arena, ConditionId, Function, ParameterType, Scalar, Term, TermId};
 use crate::resolve::{Callee, Expression, ExpressionId, Name, Names, Resolved};
 use crate::source::Span;
@@ -39,7 +38,7 @@ pub(super) struct Lowering<'r> {
     pub(super) mistakes: Vec<Error>,
     /// For each name that is declared outside of the source, whether its first use is a formula,
     /// and the place of that use.
-    pub(super) free: FxHashMap<String, (bool, Span)>,
+    pub(super) free: Map<String, (bool, Span)>,
 }
 
 impl<'r> Lowering<'r> {
@@ -51,7 +50,7 @@ impl<'r> Lowering<'r> {
             arena: Arena::default(),
             places: Vec::new(),
             mistakes: Vec::new(),
-            free: FxHashMap::default(),
+            free: Map::default(),
         }
     }
 
@@ -217,7 +216,7 @@ impl<'r> Lowering<'r> {
     pub(super) fn free_name(&mut self, id: ExpressionId, formula: bool) -> Option<String> {
         let span = self.resolved.span(id);
         let text = unquoted(&compact(self.resolved.text(id))).to_owned();
-        let (first, place) = *self.free.entry(text.clone()).or_insert((formula, span));
+        let (first, place) = *self.free.get_or_insert(text.clone(), (formula, span));
         if first == formula {
             return Some(text);
         }

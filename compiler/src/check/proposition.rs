@@ -13,10 +13,9 @@
 //! # Ok::<(), tltl_compiler::error::Errors>(())
 //! ```
 
-use rustc_hash::FxHashMap;
-
 use super::lower::Lowering;
 use crate::error::{Error, Kind};
+use crate::intern::Map;
 use crate::predicate::{Arena, Arguments, Condition, ConditionId, Predicate, PredicateId, Task};
 use crate::proposition::{Proposition, Shape};
 use crate::resolve::{ExpressionId, MOST_NODES};
@@ -28,9 +27,9 @@ pub(super) struct Propositions {
     /// The predicate that each item declares, if it does.
     pub(super) declared: Vec<Option<PredicateId>>,
     /// The literals of conditions that have been met.
-    known: FxHashMap<ConditionId, Literal>,
+    known: Map<ConditionId, Literal>,
     /// The conditions that have been instantiated, so that equal uses are one.
-    instances: FxHashMap<(ConditionId, Arguments), ConditionId>,
+    instances: Map<(ConditionId, Arguments), ConditionId>,
     /// The number of operators and operands that further instances may have, written out; `None`
     /// once it is exceeded.
     room: Option<usize>,
@@ -51,8 +50,8 @@ impl Propositions {
         Self {
             predicates: Vec::new(),
             declared: vec![None; items],
-            known: FxHashMap::default(),
-            instances: FxHashMap::default(),
+            known: Map::default(),
+            instances: Map::default(),
             room: Some(MOST_NODES),
         }
     }
@@ -113,14 +112,14 @@ impl Propositions {
 
     /// Notes all the ways to write the predicate `id` and its negation.
     fn remember(&mut self, lowering: &mut Lowering<'_>, condition: ConditionId, id: PredicateId) {
-        self.known.insert(condition, Literal::Proposition(id, false));
+        self.known.get_or_insert(condition, Literal::Proposition(id, false));
         let Condition::Compare(op, left, right) = *lowering.arena.condition(condition) else {
             return;
         };
         for (op, left, right) in [(op, left, right), (op.mirrored(), right, left)] {
             for (op, negated) in [(op, false), (op.negated(), true)] {
                 let same = lowering.arena.add_condition(Condition::Compare(op, left, right));
-                self.known.insert(same, Literal::Proposition(id, negated));
+                self.known.get_or_insert(same, Literal::Proposition(id, negated));
             }
         }
     }
@@ -151,7 +150,7 @@ impl Propositions {
                     .help("each use of a predicate is written out with its arguments, so a chain of definitions that use one another twice doubles at each step"),
             );
         }
-        self.instances.insert(key, condition);
+        self.instances.get_or_insert(key, condition);
         Some(condition)
     }
 

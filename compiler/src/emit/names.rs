@@ -8,10 +8,10 @@
 
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
-use rustc_hash::FxHashSet;
 use unicode_ident::{is_xid_continue, is_xid_start};
 
 use crate::compile::Compiled;
+use crate::intern::Interner;
 use crate::reserved::{is_constructor, is_keyword, rust_name};
 
 /// The place in which generated code stands. It decides how locals are named and which lints are
@@ -71,9 +71,9 @@ pub(super) struct Names {
     /// the author's stands beside them.
     prefix: String,
     /// The names of the source's parameters and predicates.
-    taken: FxHashSet<String>,
+    taken: Interner<String>,
     /// The names of its values, which rustc takes for a slip where they are bound.
-    values: FxHashSet<String>,
+    values: Interner<String>,
 }
 
 impl Names {
@@ -87,25 +87,29 @@ impl Names {
         let predicates = module.predicates.iter().filter(|known| known.declared);
         let names = names.chain(predicates.map(|known| &known.name));
         let values = module.enums.iter().flat_map(|known| &known.variants);
-        let set = |names: &mut dyn Iterator<Item = &String>| {
-            names.map(|name| rust_name(name).into_owned()).collect()
-        };
-        Self::beside(set(&mut names.into_iter()), set(&mut values.into_iter()), place)
+        let (mut taken, mut known) = (Interner::default(), Interner::default());
+        for name in names {
+            taken.intern(rust_name(name).into_owned());
+        }
+        for name in values {
+            known.intern(rust_name(name).into_owned());
+        }
+        Self::beside(taken, known, place)
     }
 
     /// The names in code without a source.
     #[cfg(feature = "hoa")]
     pub(super) fn of_ours(place: Place) -> Self {
-        Self::beside(FxHashSet::default(), FxHashSet::default(), place)
+        Self::beside(Interner::default(), Interner::default(), place)
     }
 
     /// The names beside those of a source. The prefix is made longer until none of `taken` begins
     /// with it.
-    fn beside(taken: FxHashSet<String>, values: FxHashSet<String>, place: Place) -> Self {
+    fn beside(taken: Interner<String>, values: Interner<String>, place: Place) -> Self {
         let mut prefix = String::new();
         if place == Place::Scope {
             prefix.push_str("__tltl_");
-            while taken.iter().any(|name| name.starts_with(&prefix)) {
+            while taken.things().iter().any(|name| name.starts_with(&prefix)) {
                 prefix.push('_');
             }
         }
@@ -124,7 +128,7 @@ impl Names {
         if !self.prefix.is_empty() {
             return format_ident!("{}{}", self.prefix, known, span = Span::mixed_site());
         }
-        if is_constructor(&known) || self.values.contains(&*known) {
+        if is_constructor(&known) || self.values.find(&*known).is_some() {
             return format_ident!("{}", self.free(known.into_owned()));
         }
         ident(name)
@@ -132,7 +136,7 @@ impl Names {
 
     /// The name, with as many `_` after it as make it different from all names of the source.
     fn free(&self, mut name: String) -> String {
-        while self.taken.contains(&name) || self.values.contains(&name) {
+        while [&self.taken, &self.values].iter().any(|names| names.find(&name).is_some()) {
             name.push('_');
         }
         name

@@ -12,11 +12,11 @@
 
 use proc_macro2::{Delimiter, Group, Ident, Literal, Span as TokenSpan, TokenStream, TokenTree};
 use quote::{quote, quote_spanned};
-use rustc_hash::FxHashMap;
 
 use crate::arena;
 use crate::ast::{Arithmetic, Comparison};
 use crate::emit::names::{Names, ident};
+use crate::intern::Map;
 use crate::predicate::{
     Binding, Condition, ConditionId, Module, Number, Numeric, ParameterType, PredicateId, Scalar,
     State, Step, Term, TermId,
@@ -105,7 +105,7 @@ impl<'a> Scope<'a> {
             reading,
             needed,
             conditions: Vec::new(),
-            terms: FxHashMap::default(),
+            terms: Map::default(),
             lets: TokenStream::new(),
         };
         let result = writer.written();
@@ -138,7 +138,7 @@ struct Writer<'a> {
     /// The code of the conditions so far, by place in `needed`.
     conditions: Vec<Written>,
     /// The code of the terms so far.
-    terms: FxHashMap<TermId, Written>,
+    terms: Map<TermId, Written>,
     /// The statements before the expression.
     lets: TokenStream,
 }
@@ -389,7 +389,7 @@ impl Writer<'_> {
             }
         });
         for id in needed.into_iter().map(TermId) {
-            if !self.terms.contains_key(&id) {
+            if self.terms.get(&id).is_none() {
                 let (code, depth) = self.one_term(id);
                 let name = self.scope.names.local(&format!("t{}", id.0));
                 let written = if depth > DEPTH {
@@ -398,10 +398,15 @@ impl Writer<'_> {
                 } else {
                     (code, depth)
                 };
-                self.terms.insert(id, written);
+                self.terms.get_or_insert(id, written);
             }
         }
-        self.terms[&root].clone()
+        self.known_term(root)
+    }
+
+    /// The code of a term that has been written before.
+    fn known_term(&self, id: TermId) -> Written {
+        self.terms.get(&id).expect("operands stand first").clone()
     }
 
     /// The code of one term, as an `f64` if it is a number, from that of its operands.
@@ -431,11 +436,11 @@ impl Writer<'_> {
             // Only a bare formula has free variables, and it is never written as Rust.
             Term::Variable(_) => (number(f64::NAN), 0),
             Term::Negate(a) => {
-                let (a, depth) = self.terms[a].clone();
+                let (a, depth) = self.known_term(*a);
                 (quote! { (-#a) }, depth + 1)
             }
             Term::Calculate(operator, a, b) => {
-                let ((a, deep_a), (b, deep_b)) = (self.terms[a].clone(), self.terms[b].clone());
+                let ((a, deep_a), (b, deep_b)) = (self.known_term(*a), self.known_term(*b));
                 let operator = match operator {
                     Arithmetic::Add => quote! { + },
                     Arithmetic::Subtract => quote! { - },
@@ -445,9 +450,9 @@ impl Writer<'_> {
                 (quote! { (#a #operator #b) }, deep_a.max(deep_b) + 1)
             }
             Term::Call(function, a, b) => {
-                let (a, deep_a) = self.terms[a].clone();
+                let (a, deep_a) = self.known_term(*a);
                 let name = ident(function.name());
-                let b = b.map(|b| self.terms[&b].clone());
+                let b = b.map(|b| self.known_term(b));
                 let deep_b = b.as_ref().map_or(0, |b| b.1);
                 let b = b.map(|(b, _)| quote! { , #b });
                 (quote! { #runtime::private::#name(#a #b) }, deep_a.max(deep_b) + 1)

@@ -10,12 +10,11 @@
 //! assert_eq!(automaton.dfa.edges()[1].guard, [[(0, true), (1, true)]]);
 //! ```
 
-use rustc_hash::FxHashMap;
-
 use super::token::{Token, Tokens};
 use super::{MOST_NODES, refused, syntax};
 use crate::bdd::{Bdd, Diagram};
 use crate::error::Error;
+use crate::intern::Map;
 use crate::source::Span;
 
 /// The diagram of all labels, and the aliases.
@@ -24,7 +23,7 @@ pub(super) struct Labels {
     /// The diagram, which becomes that of the automaton.
     pub(super) diagram: Diagram,
     /// The function of each alias.
-    aliases: FxHashMap<String, Bdd>,
+    aliases: Map<String, Bdd>,
     /// The highest proposition that a label names, and its place.
     pub(super) highest: Option<(u32, Span)>,
 }
@@ -45,7 +44,9 @@ enum Pending {
 impl Labels {
     /// Gives a function a name. Returns whether the name is new.
     pub(super) fn name(&mut self, name: &str, guard: Bdd) -> bool {
-        self.aliases.insert(name.to_owned(), guard).is_none()
+        let is_new = self.aliases.get(name).is_none();
+        self.aliases.get_or_insert(name.to_owned(), guard);
+        is_new
     }
 
     /// Reads `[label]`.

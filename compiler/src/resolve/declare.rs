@@ -20,12 +20,11 @@
 
 use std::cell::Cell;
 
-use rustc_hash::{FxHashMap, FxHashSet};
-
 use super::scope::{Declared, Duration, SUGGESTION_WORK, Scope, Spans};
 use super::{Decimal, Names, Value};
 use crate::ast::{Ast, Declaration, FieldType, Item, ItemKind, WrittenUnit, quoted};
 use crate::error::{Error, Kind};
+use crate::intern::{Interner, Map};
 use crate::predicate::{
     Enum, Field, Numeric, Parameter, ParameterType, Scalar, Struct, TaskId, Type,
 };
@@ -43,7 +42,7 @@ pub(super) fn declare(ast: &Ast, names: Names) -> Scope<'_> {
     let mut scope = Scope {
         ast,
         names,
-        items: FxHashMap::default(),
+        items: Map::default(),
         declared: vec![Declared::default(); ast.items().len()],
         tasks: 0,
         structs: Vec::new(),
@@ -51,8 +50,8 @@ pub(super) fn declare(ast: &Ast, names: Names) -> Scope<'_> {
         enums: Vec::new(),
         state: None,
         first: Spans::default(),
-        fields: FxHashSet::default(),
-        variants: FxHashMap::default(),
+        fields: Interner::default(),
+        variants: Map::default(),
         known: Vec::new(),
         letters_left: Cell::new(SUGGESTION_WORK),
         step: None,
@@ -86,12 +85,12 @@ impl<'a> Scope<'a> {
                 continue;
             }
             if matches!(item.kind, ItemKind::Host(_)) {
-                self.first.insert(rust_name(text), item.name);
+                self.first.get_or_insert(rust_name(text), item.name);
                 self.mistakes.extend(self.unmentionable(item.name));
             }
             if is_value(&item.kind) {
-                self.first.insert(rust_name(text), item.name);
-                self.items.insert(text, index);
+                self.first.get_or_insert(rust_name(text), item.name);
+                self.items.get_or_insert(text, index);
                 self.known.push(text);
             }
         }
@@ -132,7 +131,7 @@ impl<'a> Scope<'a> {
         for (number, span) in (0..).zip(names) {
             let name = self.text(*span);
             self.is_new(&mut first, *span);
-            self.variants.entry(name).or_default().push(Value { of, number });
+            self.variants.get_or_insert(name, Vec::new()).push(Value { of, number });
             self.known.push(name);
         }
     }
@@ -155,14 +154,14 @@ impl<'a> Scope<'a> {
             let ItemKind::State(fields) = &item.kind else { continue };
             for field in fields {
                 let name = self.text(field.name);
-                self.fields.insert(name);
+                self.fields.intern(name);
                 self.known.push(name);
                 if let Some(other) = self.first.get(&rust_name(name)) {
                     self.mistakes.push(self.duplicate(*other, field.name));
                 }
             }
             for field in fields {
-                self.first.entry(rust_name(self.text(field.name))).or_insert(field.name);
+                self.first.get_or_insert(rust_name(self.text(field.name)), field.name);
             }
             self.state = Some(self.declare_struct(item, fields));
         }
@@ -190,7 +189,7 @@ impl<'a> Scope<'a> {
     /// Whether the name at `span` is new among `names`, to which it is added; reports it if it is
     /// not.
     fn is_new(&mut self, names: &mut Spans<'a>, span: Span) -> bool {
-        let first = *names.entry(rust_name(self.text(span))).or_insert(span);
+        let first = *names.get_or_insert(rust_name(self.text(span)), span);
         let is_new = first == span;
         if !is_new {
             self.mistakes.push(self.duplicate(span, first));

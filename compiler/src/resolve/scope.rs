@@ -6,12 +6,11 @@
 use std::borrow::Cow;
 use std::cell::Cell;
 
-use rustc_hash::{FxHashMap, FxHashSet};
-
 use super::name::nearest;
 use super::{Decimal, Names, Value};
 use crate::ast::{Ast, ItemKind};
 use crate::error::{Error, Kind};
+use crate::intern::{Interner, Map};
 use crate::predicate::{Enum, Field, Parameter, State, Struct, TaskId, Type};
 use crate::reserved::{is_taken, rust_name};
 use crate::source::Span;
@@ -23,7 +22,7 @@ pub(crate) struct Scope<'a> {
     /// The meaning of undeclared names.
     pub(super) names: Names,
     /// The position of each item that can stand in an expression, by its name.
-    pub(super) items: FxHashMap<&'a str, usize>,
+    pub(super) items: Map<&'a str, usize>,
     /// The declaration of each item.
     pub(super) declared: Vec<Declared>,
     /// The number of tasks.
@@ -40,9 +39,9 @@ pub(crate) struct Scope<'a> {
     /// the state, the state itself.
     pub(super) first: Spans<'a>,
     /// The names of the state's fields, broken ones included.
-    pub(super) fields: FxHashSet<&'a str>,
+    pub(super) fields: Interner<&'a str>,
     /// The values with each name; several enumerations may share one.
-    pub(super) variants: FxHashMap<&'a str, Vec<Value>>,
+    pub(super) variants: Map<&'a str, Vec<Value>>,
     /// All names that can stand in a formula, for suggestions; in source order within each kind.
     pub(super) known: Vec<&'a str>,
     /// How many pairs of letters suggestions may still compare, see [`SUGGESTION_WORK`].
@@ -65,7 +64,7 @@ pub(crate) struct Scope<'a> {
 pub(super) const SUGGESTION_WORK: usize = 5_000_000;
 
 /// Places by the names that stand there, as Rust has them: two names of a source may be one there.
-pub(super) type Spans<'a> = FxHashMap<Cow<'a, str>, Span>;
+pub(super) type Spans<'a> = Map<Cow<'a, str>, Span>;
 
 /// The declaration of one item.
 #[derive(Clone, Default)]
@@ -143,7 +142,7 @@ impl<'a> Scope<'a> {
 
     /// Whether `name` is unknown only because its declaration has a mistake.
     pub(crate) fn is_broken(&self, name: &str) -> bool {
-        self.incomplete || self.fields.contains(name)
+        self.incomplete || self.fields.find(name).is_some()
     }
 
     /// Whether the source declares the fields of the state.

@@ -37,8 +37,6 @@
 
 use std::ops::RangeInclusive;
 
-use rustc_hash::FxHashSet;
-
 use super::{Formula, FormulaId, Spec};
 use crate::arena::{self, Memo};
 use crate::source::Span;
@@ -251,15 +249,15 @@ impl Spec {
             open.extend(self.formula(FormulaId(id)).operands().map(|operand| operand.0));
         });
         let mut images: Memo<FormulaId, FormulaId> = Memo::default();
-        let mut temporal = FxHashSet::default();
+        let mut temporal: Memo<FormulaId, FormulaId> = Memo::default();
         for id in parts.into_iter().map(FormulaId) {
             let formula = self.formula(id);
             let is_state = !formula.is_temporal()
-                && formula.operands().all(|operand| !temporal.contains(&operand));
+                && formula.operands().all(|operand| temporal.get(operand).is_none());
             let image = if is_state {
                 self.and(id, p, span)
             } else {
-                temporal.insert(id);
+                temporal.insert(id, id);
                 let image = |a| images.get(a).expect("operands stand first");
                 self.ensured(formula.over(image), p, span)
             };

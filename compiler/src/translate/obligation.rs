@@ -10,8 +10,7 @@
 //! [chain](crate::bdd) in the diagram, weakest first: F[0,k] φ implies F[0,k+1] φ, and G[0,k+1] φ
 //! implies G[0,k] φ. Those of X[k] do not.
 
-use rustc_hash::FxHashMap;
-
+use crate::intern::Interner;
 use crate::spec::{Formula, FormulaId, Spec};
 
 /// The obligations of a formula: for each formula that can be due at the next state a range of
@@ -57,13 +56,13 @@ impl Obligations {
     /// obligations that it has already met. `None` if there are more than there are levels.
     pub(super) fn new(spec: &Spec) -> Option<Self> {
         let mut ranges: Vec<Range> = Vec::new();
-        let mut known = FxHashMap::default();
+        let mut known = Interner::default();
         let mut places = vec![u32::MAX; spec.formulas().len()];
         let due = due(spec);
         for (id, formula) in spec.formulas().filter(|(id, _)| due[id.0 as usize]) {
-            let place = *known.entry(formula.with_bound(0)).or_insert(ranges.len());
-            places[id.0 as usize] = place as u32;
-            match ranges.get_mut(place) {
+            let place = known.intern(formula.with_bound(0));
+            places[id.0 as usize] = place;
+            match ranges.get_mut(place as usize) {
                 Some(range) if range.formula.bound() < formula.bound() => range.formula = formula,
                 Some(_) => {}
                 None => ranges.push(Range { formula, id, first: 0 }),
