@@ -1,9 +1,14 @@
 //! The deep learner against exact values.
 #![cfg(feature = "deep")]
 
+use core::fmt::Debug;
+
 use tltl::OutOfRange;
 use tltl::compose::{self, Compose};
-use tltl::deep::{AsGiven, Checkpoint, Composition, Device, Error, Learner, Settings, Skill};
+use tltl::deep::{
+    AsGiven, Checkpoint, Composition, Device, Error, Joint, Learned, Learner, Replay, Settings,
+    Skill,
+};
 use tltl::learn::{Schedule, Updates};
 use tltl::network::Features;
 use tltl::prelude::{
@@ -234,6 +239,15 @@ fn a_composition_reaches_the_optimum_without_a_step() {
         assert!(own.into_iter().all(right), "{own:?} of {row:?} at {s}");
     }
     assert_eq!(env.steps(), steps, "no step in the world");
+}
+
+#[test]
+fn values_are_printed_sent_and_shared() {
+    fn is_shared<T: Debug + Send + Sync>() {}
+    type Task<'a> = &'a (dyn Monitor<i32> + Sync);
+    is_shared::<Learner<i32, Task<'_>, OneHot, AsGiven>>();
+    is_shared::<(Checkpoint<i32>, Replay<i32>, Settings, Error)>();
+    is_shared::<(Learned<'_, i32>, Joint<'_, i32>, Composition<'_, i32, AsGiven>)>();
 }
 
 /// A world whose reward or state breaks at some step.

@@ -42,9 +42,9 @@ pub struct Learned<'a, S> {
     /// Its values; the heads are the task's live states in order.
     pub network: Network,
     /// What the network sees.
-    pub features: &'a dyn Features<S>,
+    pub features: &'a (dyn Features<S> + Sync),
     /// Its task.
-    pub task: &'a dyn Monitor<S>,
+    pub task: &'a (dyn Monitor<S> + Sync),
     /// What was seen when it was learned.
     pub experience: &'a Replay<S>,
 }
@@ -83,7 +83,7 @@ impl<S> core::fmt::Debug for Learned<'_, S> {
 /// both.write(&2.0, &mut inputs, &mut []);
 /// assert_eq!(inputs, [1.0, -2.0]);
 /// ```
-pub struct Joint<'a, S>(pub Vec<&'a dyn Features<S>>);
+pub struct Joint<'a, S>(pub Vec<&'a (dyn Features<S> + Sync)>);
 
 impl<S> core::fmt::Debug for Joint<'_, S> {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
@@ -118,8 +118,8 @@ impl<S> Features<S> for Joint<'_, S> {
 ///
 /// Its network lies on the device, and what it is scaled by is known.
 struct Ready<'a, S> {
-    features: &'a dyn Features<S>,
-    task: &'a dyn Monitor<S>,
+    features: &'a (dyn Features<S> + Sync),
+    task: &'a (dyn Monitor<S> + Sync),
     model: Model,
     heads: Heads,
     moves: Moves,

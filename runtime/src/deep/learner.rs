@@ -328,7 +328,11 @@ where
     ///
     /// # Errors
     /// As [`Self::network`].
-    pub fn learned(&self) -> Result<Learned<'_, S>, NetworkError> {
+    pub fn learned(&self) -> Result<Learned<'_, S>, NetworkError>
+    where
+        M: Sync,
+        F: Sync,
+    {
         let Skill { task, features, .. } = &self.skill;
         Ok(Learned { network: self.network()?, features, task, experience: &self.core.replay })
     }

@@ -75,7 +75,8 @@ pub(crate) struct Experiment {
     pub(crate) budget: Budget,
 }
 
-type DeepLearner<'a> = Learner<Known, &'a dyn Monitor<Known>, View, FeasibleGoals>;
+type Task<'a> = &'a (dyn Monitor<Known> + Sync);
+type DeepLearner<'a> = Learner<Known, Task<'a>, View, FeasibleGoals>;
 pub(crate) type Failure = Box<dyn Error + Send + Sync>;
 
 impl Experiment {
@@ -155,11 +156,7 @@ impl Experiment {
         Ok(Outcome { curves: vec![curve], shown: Vec::new() })
     }
 
-    fn skill<'m>(
-        &self,
-        task: usize,
-        monitor: &'m dyn Monitor<Known>,
-    ) -> Skill<&'m dyn Monitor<Known>, View, FeasibleGoals> {
+    fn skill<'m>(&self, task: usize, monitor: Task<'m>) -> Skill<Task<'m>, View, FeasibleGoals> {
         let view = match task {
             0 => View::of(self.layout.clone(), self.apple),
             _ => View::new(self.layout.clone()),
@@ -169,7 +166,7 @@ impl Experiment {
 
     fn train<'m>(
         &self,
-        skill: Skill<&'m dyn Monitor<Known>, View, FeasibleGoals>,
+        skill: Skill<Task<'m>, View, FeasibleGoals>,
         monitor: &dyn Monitor<Known>,
         (task, j, starred): (usize, usize, bool),
         seed: u64,
