@@ -3,6 +3,15 @@
 //!
 //! Parsing the text gives the same expression (a property that is tested over random formulas). A
 //! stack of pieces takes the place of recursion, so any depth prints.
+//!
+//! ```
+//! use tltl_compiler::{ast::ItemKind, parse, source::Source};
+//!
+//! let ast = parse::formula(&Source::new("formula", "◇(a∧¬b)  U  x<3"))?;
+//! let ItemKind::Task(_, root) = ast.items()[0].kind else { panic!() };
+//! assert_eq!(ast.display(root).to_string(), "(F (a && !b)) U (x < 3)");
+//! # Ok::<(), tltl_compiler::error::Errors>(())
+//! ```
 
 use std::fmt;
 

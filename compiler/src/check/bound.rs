@@ -4,6 +4,17 @@
 //! is known when the source is compiled. An end in the unit of `step` is a time, and the instants
 //! whose time lies in the interval count. Times are exact decimals and never doubles: with
 //! `step 0.1 s`, `0.3 s` is three steps, though 0.3 / 0.1 is 2.9999999999999996 in doubles.
+//!
+//! ```
+//! use tltl_compiler::{check, source::Source};
+//!
+//! let text = "step 0.1 s\nstate S { a: bool }\ntask soon = F[0.3 s, 0.5 s] a";
+//! let module = check::file(&Source::new("s.tltl", text))?;
+//! assert_eq!(module.tasks[0].spec.to_string(), "F[3,5] a");
+//! let errors = check::formula(&Source::new("formula", "F[3,1] a")).unwrap_err();
+//! assert_eq!(errors.first().kind().name(), "bound");
+//! # Ok::<(), tltl_compiler::error::Errors>(())
+//! ```
 
 use std::ops::RangeInclusive;
 

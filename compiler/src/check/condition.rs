@@ -1,5 +1,14 @@
 //! Predicates: an expression as a condition of one state. Conditions have no negation normal form:
 //! `!` stays where robustness negates exactly, and a comparison absorbs it.
+//!
+//! ```
+//! use tltl_compiler::{check, source::Source};
+//!
+//! let text = "state S { x: f64, a: bool }\npredicate p = !(x < 3 && a)\ntask t = F p";
+//! let module = check::file(&Source::new("s.tltl", text))?;
+//! assert_eq!(module.display(module.predicates[0].condition).to_string(), "!(x < 3 && a)");
+//! # Ok::<(), tltl_compiler::error::Errors>(())
+//! ```
 
 use super::atom::{Atom, Atoms};
 use super::role::Role;

@@ -4,6 +4,24 @@
 //! All of them are `Copy` and plain: public fields, no constructor, so that a program makes a state
 //! as it makes any struct of its own. Documentation is the author's, followed by what the source
 //! knows beyond the type (the unit of a field, the size of an automaton).
+//!
+//! ```
+//! use quote::quote;
+//! use tltl_compiler::emit::rust::{Options, Place, code};
+//! use tltl_compiler::{compile, source::Source, translate::Budget};
+//!
+//! let text = "enum Room { hall, attic }
+//! /// A robot.
+//! state Robot { at: Room, speed: f64 in m/s }
+//! task up = F at == attic";
+//! let compiled = compile::file(&Source::new("robot.tltl", text), Budget::EMITTED)?;
+//! let options =
+//!     Options { runtime: quote! { ::tltl }, state: None, host: &|_| quote! {}, place: Place::File };
+//! let rust = code(&compiled, &options).to_string();
+//! assert!(rust.contains("pub enum Room") && rust.contains("pub struct Robot"));
+//! assert!(rust.contains("in m/s"), "the unit is in the docs of the field");
+//! # Ok::<(), tltl_compiler::error::Errors>(())
+//! ```
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;

@@ -3,6 +3,16 @@
 //! By the format, a header that begins with a lower-case letter may be ignored, and one that begins
 //! with a capital may change the meaning: unknown ones of the second kind are refused. `States:` is
 //! read and not used, because the body says which states there are.
+//!
+//! ```
+//! use tltl_compiler::{hoa, source::Source};
+//!
+//! // `Controllable:` could change the meaning, `tool:` cannot.
+//! let text = "HOA: v1 tool: \"mine\" Controllable: 0 Start: 0 AP: 1 \"a\" Acceptance: 1 Inf(0)
+//!     --BODY-- State: 0 {0} [t] 0 --END--";
+//! let error = hoa::read(&Source::new("game.hoa", text)).unwrap_err();
+//! assert_eq!(error.message(), "the header `Controllable:` is not known, and it may matter");
+//! ```
 
 use super::label::{Labels, no_proposition};
 use super::token::{Token, Tokens};

@@ -2,6 +2,14 @@
 //!
 //! Written by hand: HOA has nine kinds of tokens and no recursion among them, except for comments,
 //! which nest and are counted.
+//!
+//! ```
+//! use tltl_compiler::{hoa, source::Source};
+//!
+//! let text = "HOA: v1 /* a /* nested */ comment */ Start: 0 AP: 0 Acceptance: 0 t
+//!     --BODY-- State: 0 [t] 0 --END--";
+//! assert_eq!(hoa::read(&Source::new("all.hoa", text)).unwrap().dfa.accepting, Some(0));
+//! ```
 
 use super::syntax;
 use crate::error::Error;

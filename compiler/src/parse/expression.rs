@@ -4,6 +4,19 @@
 //! Dijkstra's shunting yard (1961) with two stacks, so that depth costs heap and never stack.
 //! Brackets, calls and indices are entries of the operator stack. Time is linear in the number of
 //! tokens. Operands are pushed before their operators, which is the order that the arena requires.
+//!
+//! ```
+//! use tltl_compiler::{ast::ItemKind, parse, source::Source};
+//!
+//! let shown = |formula: &str| {
+//!     let ast = parse::formula(&Source::new("formula", formula)).unwrap();
+//!     let ItemKind::Task(_, root) = ast.items()[0].kind else { panic!() };
+//!     ast.display(root).to_string()
+//! };
+//! // `F` is tighter than `U`; `U` and `T` are one level and associate to the right.
+//! assert_eq!(shown("F a U b T c"), "(F a) U (b T c)");
+//! assert_eq!(shown("(((a))) && ((b U c))"), "a && b U c");
+//! ```
 
 use super::item::place;
 use super::message;

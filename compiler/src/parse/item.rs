@@ -3,6 +3,19 @@
 //! Everything keeps its span, and nothing is looked up: a type is the span of its name. An item
 //! that the grammar accepts in part becomes [`ItemKind::Broken`], so that uses of its name are not
 //! reported.
+//!
+//! ```
+//! use tltl_compiler::{ast::ItemKind, parse, source::Source};
+//!
+//! let text = "/// Far away.\npredicate far(d: f64 in m) = x > d";
+//! let ast = parse::file(&Source::new("far.tltl", text))?;
+//! let item = &ast.items()[0];
+//! let ItemKind::Predicate(parameters, _) = &item.kind else { panic!("it is a predicate") };
+//! let source = ast.source();
+//! assert_eq!((&item.docs[..], source.slice(item.name)), (&["Far away.".to_owned()][..], "far"));
+//! assert_eq!(source.slice(parameters[0].unit.as_ref().unwrap().span), "m");
+//! # Ok::<(), tltl_compiler::error::Errors>(())
+//! ```
 
 use super::expression;
 use crate::ast::{Ast, Attribute, Declaration, FieldType, Item, ItemKind, UnitFactor, WrittenUnit};

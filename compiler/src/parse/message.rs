@@ -4,6 +4,17 @@
 //! author, so this module looks at the words around the place instead: the word before, the word at
 //! the place, the word after. Common mistakes (an operator of another logic, `=` for `==`, `^` for
 //! `pow`) have a sentence each; the rest is "expected …, found …".
+//!
+//! ```
+//! use tltl_compiler::{parse, source::Source};
+//!
+//! let message = |formula: &str| {
+//!     let errors = parse::formula(&Source::new("formula", formula)).unwrap_err();
+//!     errors.first().message().to_owned()
+//! };
+//! assert!(message("F (a").contains('('), "{}", message("F (a"));
+//! assert_ne!(message("a = b"), message("a b"), "a common slip has a sentence of its own");
+//! ```
 
 use crate::error::{Error, Kind};
 use crate::grammar::{self, Rule, Stopped};

@@ -3,6 +3,14 @@
 //!
 //! Brackets are as few as Rust's precedence allows; numbers are printed so that they read as the
 //! same number.
+//!
+//! ```
+//! use tltl_compiler::{check, source::Source};
+//!
+//! let module = check::formula(&Source::new("formula", "F (2*(x+1) < min(y, 3) )"))?;
+//! assert_eq!(module.tasks[0].spec.propositions(), ["2 * (x + 1) < min(y, 3)"]);
+//! # Ok::<(), tltl_compiler::error::Errors>(())
+//! ```
 
 use std::fmt;
 

@@ -4,6 +4,15 @@
 //! The text parses to a formula with the same meaning. It is written with a stack of pieces rather
 //! than by recursion, so any depth prints. Shared operators are written out wherever they are used,
 //! which can be exponentially long: [`Spec::text`] bounds it.
+//!
+//! ```
+//! use tltl_compiler::{check, source::Source};
+//!
+//! // What is meant, and not what was written.
+//! let module = check::formula(&Source::new("formula", "!(a => b) U c"))?;
+//! assert_eq!(module.tasks[0].spec.to_string(), "(a && !b) U c");
+//! # Ok::<(), tltl_compiler::error::Errors>(())
+//! ```
 
 use std::borrow::Cow;
 use std::fmt;
