@@ -58,6 +58,17 @@ pub const WORK_LIMIT: usize = 1 << 20;
 ///
 /// Invariant: at least one letter can occur, since every component of related predicates has a
 /// state.
+///
+/// ```
+/// use tltl_compiler::{arithmetic, check, source::Source};
+///
+/// let module = check::formula(&Source::new("formula", "F (x < 1 && x < 3)"))?;
+/// let possible = arithmetic::possible(&module, &module.tasks[0]);
+/// // Below 1 and not below 3: no number is. Of the four letters three are left.
+/// assert!(possible.excludes(&[(0, true), (1, false)]) && !possible.all());
+/// assert!(!possible.excludes(&[(0, false), (1, true)]));
+/// # Ok::<(), tltl_compiler::error::Errors>(())
+/// ```
 pub struct Possible {
     propositions: usize,
     diagram: Diagram,

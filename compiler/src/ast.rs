@@ -197,6 +197,17 @@ pub struct Quantifier {
 }
 
 /// The bound of a temporal operator, as written.
+///
+/// ```
+/// use tltl_compiler::{ast::ItemKind, parse, source::Source};
+///
+/// let ast = parse::formula(&Source::new("formula", "a U[<=0.5 s] b"))?;
+/// let ItemKind::Task(_, root) = ast.items()[0].kind else { panic!() };
+/// let bound = ast.entry(root).bound.as_ref().unwrap();
+/// assert_eq!((bound.at_most, bound.ends.len()), (true, 1));
+/// assert_eq!(ast.source().slice(bound.ends[0].unit.unwrap()), "s");
+/// # Ok::<(), tltl_compiler::error::Errors>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Bound {
     /// Its ends: two of `[a,b]`, one of `[<=b]` and of `[b]`.
@@ -256,6 +267,18 @@ impl Entry {
 }
 
 /// The type of a field, as written: a name within array brackets.
+///
+/// ```
+/// use tltl_compiler::{ast::ItemKind, parse, source::Source};
+///
+/// let ast = parse::file(&Source::new("s.tltl", "state S { seen: [[Object?; Room]; 4] }"))?;
+/// let ItemKind::State(fields) = &ast.items()[0].kind else { panic!() };
+/// let ty = &fields[0].ty;
+/// let lengths: Vec<_> = ty.lengths.iter().map(|length| ast.source().slice(*length)).collect();
+/// assert!(ast.source().slice(ty.name) == "Object" && ty.optional);
+/// assert_eq!(lengths, ["Room", "4"]);
+/// # Ok::<(), tltl_compiler::error::Errors>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct FieldType {
     /// The name of the element type.
@@ -333,6 +356,18 @@ pub enum ItemKind {
 }
 
 /// An attribute before a task or a formula: `#[name(setting = number, …)]`.
+///
+/// ```
+/// use tltl_compiler::{parse, source::Source};
+///
+/// let text = "#[budget(states = 9)] task t = F a";
+/// let ast = parse::file(&Source::new("t.tltl", text))?;
+/// let attribute = &ast.items()[0].attributes[0];
+/// let (name, number) = attribute.settings[0];
+/// let texts = [attribute.name, name, number].map(|span| ast.source().slice(span));
+/// assert_eq!(texts, ["budget", "states", "9"]);
+/// # Ok::<(), tltl_compiler::error::Errors>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Attribute {
     /// Its name.

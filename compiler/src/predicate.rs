@@ -459,6 +459,19 @@ impl std::hash::Hash for Number {
 }
 
 /// A number or a value of an enumeration, as a function of one state.
+///
+/// ```
+/// use tltl_compiler::{check, predicate::{Step, Term}, source::Source};
+///
+/// let text = "state Arm { joints: [f64; 6] }\ntask up = F joints[2] > 1";
+/// let module = check::file(&Source::new("arm.tltl", text))?;
+/// let place = module.arena.terms().iter().find_map(|term| match term {
+///     Term::Place { steps, .. } => Some(steps.clone()),
+///     _ => None,
+/// });
+/// assert_eq!(place, Some(vec![Step::Field("joints".into()), Step::Index(2)]));
+/// # Ok::<(), tltl_compiler::error::Errors>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Term {
     /// A constant, finite.
@@ -512,6 +525,19 @@ pub enum Term {
 }
 
 /// True or false, as a function of one state.
+///
+/// ```
+/// use tltl_compiler::{check, predicate::Condition, source::Source};
+///
+/// let text = "state S { x: f64 }\npredicate near(d: f64) = x < d\ntask come = F near(2)";
+/// let module = check::file(&Source::new("s.tltl", text))?;
+/// let come = &module.predicates[module.tasks[0].predicates[0].0 as usize];
+/// let Condition::Apply { meaning, .. } = module.arena.condition(come.condition) else { panic!() };
+/// // What is called, and what it means.
+/// assert_eq!(module.display(come.condition).to_string(), "near(2)");
+/// assert_eq!(module.display(*meaning).to_string(), "x < 2");
+/// # Ok::<(), tltl_compiler::error::Errors>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Condition {
     /// ⊤ or ⊥
@@ -599,6 +625,14 @@ impl Arena {
 
     /// Adds a condition as it is, and returns its id; an equal one has the same id.
     /// [`not`](Self::not), [`and`](Self::and) and [`or`](Self::or) simplify first.
+    ///
+    /// ```
+    /// use tltl_compiler::predicate::{Arena, Condition};
+    ///
+    /// let mut arena = Arena::default();
+    /// let [one, other] = [0, 1].map(|_| arena.add_condition(Condition::Free("docked".into())));
+    /// assert_eq!((one, arena.conditions().len()), (other, 1));
+    /// ```
     pub fn add_condition(&mut self, condition: Condition) -> ConditionId {
         ConditionId(self.conditions.intern(condition))
     }
@@ -696,6 +730,15 @@ pub struct Task {
 
 impl Task {
     /// The task as the subject of a sentence.
+    ///
+    /// ```
+    /// use tltl_compiler::{check, source::Source};
+    ///
+    /// let named = check::file(&Source::new("s.tltl", "state S { a: bool }\ntask dock = F a"))?;
+    /// let bare = check::formula(&Source::new("formula", "F a"))?;
+    /// assert_eq!([named, bare].map(|module| module.tasks[0].title()), ["task `dock`", "the formula"]);
+    /// # Ok::<(), tltl_compiler::error::Errors>(())
+    /// ```
     #[must_use]
     pub fn title(&self) -> String {
         self.name.as_ref().map_or("the formula".to_owned(), |name| format!("task `{name}`"))
@@ -704,6 +747,16 @@ impl Task {
 
 /// How a task is compiled: the settings of its attributes. `None` leaves a bound to the caller's
 /// budget.
+///
+/// ```
+/// use tltl_compiler::{check, predicate::Options, source::Source};
+///
+/// let text = "state S { a: bool }\n#[budget(states = 100_000)] task t = F a";
+/// let module = check::file(&Source::new("s.tltl", text))?;
+/// let wanted = Options { states: Some(100_000), ..Options::default() };
+/// assert_eq!(module.tasks[0].options, wanted);
+/// # Ok::<(), tltl_compiler::error::Errors>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Options {
     /// `#[factored]`: the conjuncts run side by side.

@@ -4,6 +4,16 @@ use super::{Dfa, Guards, State};
 use crate::bdd::Cube;
 
 /// All transitions from one state to one state, as one edge.
+///
+/// ```
+/// use tltl_compiler::{compile, source::Source, translate::Budget};
+///
+/// let source = Source::new("formula", "a T b");
+/// let edges = compile::formula(&source, Budget::EMITTED)?.automata[0].dfa.edges();
+/// let ends: Vec<_> = edges.iter().map(|edge| (edge.from, edge.to, edge.is_loop())).collect();
+/// assert_eq!(ends, [(0, 0, true), (0, 1, false), (1, 1, true), (1, 2, false), (2, 2, true)]);
+/// # Ok::<(), tltl_compiler::error::Errors>(())
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Edge {
     /// The state that it leaves.
