@@ -162,6 +162,14 @@ fn deep(n: usize) -> Vec<String> {
         "for some x in {a, b}: ".repeat(n) + "F x",
         "a".repeat(n),
         "\u{25c7}".repeat(n) + "a",
+        "F[0,1] ".repeat(n) + "a",
+        "a U[1,2] ".repeat(n) + "b",
+        "!G ".repeat(n) + "a",
+        "G[".repeat(n),
+        "!(a W ".repeat(n) + "b" + &")".repeat(n),
+        "a <=> (".repeat(n) + "b" + &")".repeat(n),
+        "(".repeat(n) + "F a" + &" ensuring b)".repeat(n),
+        "F a && G b".to_owned() + &" && G c".repeat(n),
     ]
 }
 
@@ -276,6 +284,65 @@ fn meaning(module: &Module) -> String {
     format!("{:?} {:?} {formulas:?} {:?}", spec.propositions(), spec.root(), module.arena.terms())
 }
 
+/// Words of the language, which random texts are made of.
+const WORDS: &[&str] = &[
+    "F",
+    "X",
+    "G",
+    "U",
+    "T",
+    "R",
+    "W",
+    "M",
+    "ensuring",
+    "step",
+    "F[0,2]",
+    "G[<=1]",
+    "X[1]",
+    "[1 s]",
+    "U[1,2]",
+    "T[<=2]",
+    "[",
+    "]",
+    "0",
+    "2",
+    "1.5",
+    "s",
+    ",",
+    "<=",
+    "(",
+    ")",
+    "(a)",
+    "a",
+    "x",
+    "!",
+    "&&",
+    "||",
+    "<=>",
+    "=>",
+    "->",
+    "==",
+    "!=",
+    "<",
+    "-",
+    "\"a b\"",
+    "\"a\"",
+    "[]",
+    "◇",
+    "<>",
+    "○",
+    ".",
+    "in",
+    "for all i in 0..2:",
+    "i",
+    "true",
+    "#",
+    "{",
+    "}",
+    "until",
+    "/\\",
+];
+
 fn number() -> impl Strategy<Value = String> {
     let leaf = prop_oneof![
         Just("x".to_owned()),
@@ -352,7 +419,25 @@ proptest! {
     }
 
     #[test]
-    fn no_text_is_too_strange(text in "[ab1x.,;:{}()\\[\\]|&!<>=*/+'\"\n FXUTG◇∧-]{0,40}", item in "(state|task|predicate|const|struct|enum) [a-cF]? ?") {
+    fn words_in_any_order_get_an_answer(words in prop::collection::vec(prop::sample::select(WORDS), 1..24), blank in "[ ]?") {
+        let text = words.join(&blank);
+        let source = Source::new("<words>", text.as_str());
+        let file = Source::new("<file>", format!("state S {{ a: bool, x: f64 }}\nstep 0.5 s\ntask t = {text}\n"));
+        let _ = (report("formula", &source), report("file", &file));
+        if let Ok(ast) = parse::formula(&source) {
+            let once = printed(&ast);
+            let again = parse::formula(&Source::new("<printed>", once.clone())).map(|ast| printed(&ast));
+            prop_assert_eq!(again.as_ref(), Ok(&once));
+        }
+        if parse::file(&file).is_ok() {
+            let laid_out = tltlc::format::format(file.text()).unwrap();
+            prop_assert_eq!(tltlc::format::format(&laid_out), Some(laid_out.clone()));
+            prop_assert!(parse::file(&Source::new("<laid out>", laid_out)).is_ok());
+        }
+    }
+
+    #[test]
+    fn no_text_is_too_strange(text in "[ab1x.,;:{}()\\[\\]|&!<>=*/+'\"\n FXUTGRWM◇∧-]{0,40}", item in "(state|task|predicate|const|struct|enum|step) [a-cF1]? ?") {
         for mode in ["formula", "file", "macro"] {
             for text in [text.clone(), format!("{item}{text}"), format!("{text}\n{item}= {text}")] {
                 let source = Source::new("<text>", text);

@@ -210,11 +210,31 @@ fn wants_brackets(parent: &Node, ast: &Ast, id: NodeId, left: bool) -> bool {
             left
         }
         (Node::Infix(..), Node::Infix(Infix::Compare(_), ..)) if outer == UNTIL => true,
+        (Node::Prefix(Prefix::Always, _), Node::Infix(..)) => true,
+        (Node::Prefix(Prefix::Always, _), _) if is_after_name(ast, id) => true,
         (Node::Prefix(op, _), Node::Infix(..)) => *op != Prefix::Minus || inner < 10,
         (_, Node::Quantified(_)) => true,
         (Node::Prefix(..), _) => inner < outer,
         (Node::Infix(Infix::Implies, ..), _) => inner < outer,
         _ => inner < outer || inner == outer && !left,
+    }
+}
+
+/// Whether an expression reads on from a name before it, so that `G` would be one: `G R a` is `R`
+/// between two names, and `G - x` a difference.
+fn is_after_name(ast: &Ast, mut id: NodeId) -> bool {
+    while let Node::Field { base, .. }
+    | Node::Index { base, .. }
+    | Node::Call { callee: base, .. } = ast.node(id)
+    {
+        id = *base;
+    }
+    let text = ast.text(id);
+    match ast.node(id) {
+        Node::Prefix(Prefix::Minus, _) => true,
+        Node::Number(_) => text.starts_with('.'),
+        Node::Name => matches!(text, "R" | "W" | "M" | "V" | "S" | "in" | "ensuring"),
+        _ => false,
     }
 }
 

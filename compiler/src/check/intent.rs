@@ -43,14 +43,25 @@ pub(super) fn always_beside(
     let Expression::Prefix(Prefix::Always, kept) = resolved[always].expression else { return None };
     let ast = resolved.ast;
     let [node, goals, kept] = [always, goals, kept].map(|id| resolved[id].node);
-    let is_always = matches!(ast.node(goals), Node::Prefix(Prefix::Always, _));
-    if ast.entry(node).bound.is_some() || is_always || !is_of_a_state(ast, kept) {
+    if ast.entry(node).bound.is_some() || !is_of_a_state(ast, kept) || !can_be_goals(ast, goals) {
         return None;
     }
     let parent = Node::Infix(Infix::Ensuring, goals, kept);
     let (goals, kept) = (ast.within(&parent, goals, true), ast.within(&parent, kept, false));
     let help = format!("to keep it until the rest is reached, write `{goals} ensuring {kept}`");
     Some(refused(resolved, always, "G").help(help))
+}
+
+/// Whether an expression is short enough to repeat, and has no other "always" in it.
+fn can_be_goals(ast: &Ast, root: NodeId) -> bool {
+    /// More operators and operands than a message can show.
+    const MOST: u32 = 40;
+    let first = ast.first(root).0;
+    let is_always = |id| {
+        let always = matches!(ast.node(id), Node::Prefix(Prefix::Always, _));
+        always && ast.entry(id).bound.is_none()
+    };
+    root.0 - first < MOST && !(first..=root.0).map(NodeId).any(is_always)
 }
 
 /// Whether an expression has no temporal operator; a task may still hide one.

@@ -25,7 +25,7 @@ use crate::arena::{self, Memo};
 use crate::ast::{Infix, ItemKind, Prefix};
 use crate::error::{Error, Kind};
 use crate::predicate::{Connective, PredicateId, Task, TaskId};
-use crate::resolve::{Expression, ExpressionId, Name, Resolved};
+use crate::resolve::{Expression, ExpressionId, MOST_NODES, Name, Resolved};
 use crate::source::Span;
 use crate::spec::{Formula, FormulaId, Spec};
 
@@ -52,8 +52,8 @@ pub(super) fn spec(mut atoms: Atoms<'_, '_>) -> Option<(Spec, Vec<PredicateId>)>
     let (predicates, positions) = numbered(&leaves);
     let named = |id: &PredicateId| propositions.named(&lowering.arena, *id);
     let spec = Spec::new(predicates.iter().map(named).collect());
-    let (built, negations) = (Vec::new(), Memo::default());
-    let mut builder = Builder { lowering, roles, spec, positions, built, negations };
+    let (built, negations, room) = (Vec::new(), Memo::default(), MOST_NODES);
+    let mut builder = Builder { lowering, roles, spec, positions, built, negations, room };
     for ((id, role), leaf) in roles.iter().zip(leaves) {
         let formula = match role {
             Role::Formula { negated, state } => builder.formula(id, leaf, negated, state),
@@ -110,6 +110,9 @@ struct Builder<'c, 'r> {
     built: Vec<Option<FormulaId>>,
     /// The negations of state formulas so far.
     negations: Memo<FormulaId, FormulaId>,
+    /// The operators that `ensuring` may still go through: where one stands in another, each goes
+    /// through all that is below it.
+    room: usize,
 }
 
 impl Builder<'_, '_> {
@@ -198,9 +201,35 @@ impl Builder<'_, '_> {
                 let both = spec.and(a, b, span);
                 spec.until(b, both, span)
             }
-            (Infix::Ensuring, _) => spec.ensuring(a, b, span),
+            (Infix::Ensuring, _) => return self.ensuring(id, [a, b], span),
             _ => return None,
         })
+    }
+
+    /// `a ensuring b`.
+    fn ensuring(
+        &mut self,
+        id: ExpressionId,
+        [a, b]: [FormulaId; 2],
+        span: Span,
+    ) -> Option<FormulaId> {
+        let spec = &mut self.spec;
+        let parts = arena::needed(vec![a.0], &mut |id, open| {
+            open.extend(spec.formula(FormulaId(id)).operands().map(|operand| operand.0));
+        });
+        let Some(room) = self.room.checked_sub(parts.len()) else {
+            let message =
+                format!("written out, `ensuring` goes through more than {MOST_NODES} operators");
+            let operator = self.lowering.resolved.operator(id);
+            let error = Error::new(Kind::Budget, message, operator);
+            return self
+                .lowering
+                .refuse(error.help(
+                    "nest fewer of them: `(… ensuring p) ensuring q` is `… ensuring p && q`",
+                ));
+        };
+        self.room = room;
+        Some(spec.ensuring(a, b, span))
     }
 
     /// `a <=> b` of state formulas, or its negation.
@@ -378,6 +407,7 @@ mod tests {
     const FILE: &str = "enum Room { hall, attic }
         state S { x: f64, on: bool, room: Room, a: [bool; 2], t: [bool; Room] }
         step 0.1 s
+        predicate calm = X[0] (x < 1) && !G[0 s] on
         const few = 2 + 1
         const late in s = 0.4
         const halved = few / 2
@@ -419,6 +449,7 @@ mod tests {
             ("on != lit(hall)", "(on && !lit(hall)) || (!on && lit(hall))"),
             ("on == a[0] == a[1]", "truth values are compared two at a time"),
             ("on == x", "`on` is true or false, but a number is needed here"),
+            ("F calm && !F[0,0] calm", "F calm && !calm"),
             ("F[0,few] on", "F[0,3] on"),
             ("F[few, 0.4 s] on", "`few` counts steps, and the other end of this bound is a time"),
             ("F[0.1 s, late] on", "F[1,4] on"),

@@ -623,7 +623,9 @@ pub(super) static RULES: [(Kind, Peg); 109] = [
         Sequence(
             &[
                 Text("["),
-                Repeat(&Sequence(&[Not(&Text("]")), Class(|_| true)])),
+                Repeat(
+                    &Sequence(&[Not(&Choice(&[Text("["), Text("]")])), Class(|_| true)]),
+                ),
                 Text("]"),
             ],
         ),
