@@ -5,7 +5,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use quote::ToTokens;
 use serde_json::Value;
+use syn::visit_mut::{self, VisitMut};
+use syn::{Attribute, Generics, ImplItemFn, ItemFn, ItemImpl, ItemMod, Signature};
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
@@ -94,6 +97,67 @@ const ORDER: [(&str, &str); 4] = [
         "semantics online tables format evaluate lint task product trace diff emit explain cli",
     ),
 ];
+
+/// The rooms of the runtime that only programs that learn call.
+const LEARNING: &str = "augmented certificate checkpoint compose controller env estimate experience \
+     file learn model network policy product q shield solve";
+
+/// The functions that rustc makes code of where they are defined, whether or not anybody calls them.
+#[derive(Default)]
+struct MadeHere(Vec<String>);
+
+impl MadeHere {
+    fn add(&mut self, attributes: &[Attribute], signature: &Signature) {
+        let is_generic = has_types(&signature.generics)
+            || signature.inputs.to_token_stream().to_string().contains("impl ");
+        if !is_generic && !attributes.iter().any(|attribute| attribute.path().is_ident("inline")) {
+            self.0.push(signature.ident.to_string());
+        }
+    }
+}
+
+fn has_types(generics: &Generics) -> bool {
+    generics.type_params().next().is_some() || generics.const_params().next().is_some()
+}
+
+impl VisitMut for MadeHere {
+    fn visit_item_mod_mut(&mut self, module: &mut ItemMod) {
+        if module.ident != "tests" {
+            visit_mut::visit_item_mod_mut(self, module);
+        }
+    }
+
+    fn visit_item_impl_mut(&mut self, block: &mut ItemImpl) {
+        if !has_types(&block.generics) {
+            visit_mut::visit_item_impl_mut(self, block);
+        }
+    }
+
+    fn visit_item_fn_mut(&mut self, function: &mut ItemFn) {
+        self.add(&function.attrs, &function.sig);
+    }
+
+    fn visit_impl_item_fn_mut(&mut self, function: &mut ImplItemFn) {
+        self.add(&function.attrs, &function.sig);
+    }
+}
+
+/// What learns is made where it is called: most code of the runtime, which a crate that only
+/// monitors would pay for in each cold build.
+#[test]
+fn who_does_not_learn_does_not_pay_for_it() {
+    let learning: BTreeSet<&str> = LEARNING.split_whitespace().collect();
+    let mut unmarked = Vec::new();
+    for (module, path) in sources(&root().join("runtime/src")) {
+        if learning.contains(module.as_str()) {
+            let mut file = syn::parse_file(&std::fs::read_to_string(&path).unwrap()).unwrap();
+            let mut made = MadeHere::default();
+            made.visit_file_mut(&mut file);
+            unmarked.extend(made.0.into_iter().map(|name| format!("{}: {name}", path.display())));
+        }
+    }
+    assert!(unmarked.is_empty(), "mark them `#[inline]`: {unmarked:#?}");
+}
 
 /// The source files under `folder` with the module of the crate that each belongs to.
 fn sources(folder: &Path) -> Vec<(String, PathBuf)> {

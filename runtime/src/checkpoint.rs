@@ -56,6 +56,7 @@ pub enum Error {
 }
 
 impl fmt::Display for Error {
+    #[inline]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Io(path, error) => write!(f, "{}: {error}", path.display()),
@@ -107,6 +108,7 @@ impl std::error::Error for Error {}
 /// # Panics
 /// If `kind` is empty or has white space in it.
 #[track_caller]
+#[inline]
 pub fn write(path: &Path, kind: &str, content: &[u8]) -> Result<(), Error> {
     assert!(!kind.is_empty() && !kind.contains(char::is_whitespace), "a kind is one word");
     let header = std::format!(
@@ -142,6 +144,7 @@ pub fn write(path: &Path, kind: &str, content: &[u8]) -> Result<(), Error> {
 ///
 /// # Errors
 /// If the file cannot be read, or is not what it should be.
+#[inline]
 pub fn read(path: &Path, kind: &str) -> Result<Option<Vec<u8>>, Error> {
     match fs::read(path) {
         Ok(bytes) => check(path, kind, &bytes).map(|content| Some(content.to_vec())),
@@ -152,6 +155,7 @@ pub fn read(path: &Path, kind: &str) -> Result<Option<Vec<u8>>, Error> {
 
 /// From the outside in: is it ours, of this version, of this kind, whole, unchanged. So each error
 /// names the first thing that is wrong, and a file of a later version is never called corrupt.
+#[inline]
 fn check<'a>(path: &Path, kind: &str, bytes: &'a [u8]) -> Result<&'a [u8], Error> {
     let foreign = || Error::Foreign(path.to_path_buf());
     let end = bytes.iter().position(|&byte| byte == b'\n').ok_or_else(foreign)?;

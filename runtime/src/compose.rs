@@ -161,6 +161,7 @@ pub struct Stepwise<'a> {
 impl Stepwise<'_> {
     /// The values so far.
     #[must_use]
+    #[inline]
     pub const fn q(&self) -> &QTable {
         &self.q
     }
@@ -171,6 +172,7 @@ impl Compose for Stepwise<'_> {
     type Error = Infallible;
 
     #[track_caller]
+    #[inline]
     fn compensate(&mut self, updates: u64) -> Result<(), Infallible> {
         assert_eq!(self.combine, Combine::Sum, "compensation is of the plain sum");
         if updates > 0 {
@@ -179,6 +181,7 @@ impl Compose for Stepwise<'_> {
         Ok(())
     }
 
+    #[inline]
     fn refine(&mut self, updates: u64) -> Result<(), Infallible> {
         if updates > 0 {
             self.q = self.composition.refined_on(&self.problem, &self.q);
@@ -186,6 +189,7 @@ impl Compose for Stepwise<'_> {
         Ok(())
     }
 
+    #[inline]
     fn act(&self, q: u32, &s: &usize) -> Result<usize, Infallible> {
         Ok(self.q.greedy(q, s))
     }
@@ -272,6 +276,7 @@ impl<'a> Composition<'a> {
     ///
     /// # Errors
     /// If they are of another world.
+    #[inline]
     pub fn on(self, dynamics: &Dynamics, combine: Combine) -> Result<Stepwise<'a>, Mismatch> {
         let (q, problem) = (self.initial(combine), Problem::new(dynamics, &self.task)?);
         Ok(Stepwise { composition: self, problem, combine, q })
@@ -280,6 +285,7 @@ impl<'a> Composition<'a> {
     /// Step 2: the skills' values at their components of each product state. In a sequence only
     /// the running skill counts.
     #[must_use]
+    #[inline]
     pub fn initial(&self, combine: Combine) -> QTable {
         let tops = self.skills.iter().map(|skill| largest(skill.values()));
         let scales: Vec<f64> = tops.map(|top| if top > 0.0 { 1.0 / top } else { 1.0 }).collect();
@@ -325,10 +331,12 @@ impl<'a> Composition<'a> {
     ///
     /// # Errors
     /// If `dynamics` is of another world.
+    #[inline]
     pub fn compensated(&self, dynamics: &Dynamics) -> Result<QTable, Mismatch> {
         Ok(self.compensated_on(&Problem::new(dynamics, &self.task)?))
     }
 
+    #[inline]
     fn compensated_on(&self, problem: &Problem) -> QTable {
         let mut sum = self.initial(Combine::Sum);
         let compensation = problem.policy_q(&self.excess(), self.rewards.gamma(), &sum.policy());
@@ -342,17 +350,20 @@ impl<'a> Composition<'a> {
     ///
     /// # Errors
     /// If `dynamics` is of another world, or `start` of another task.
+    #[inline]
     pub fn refined(&self, dynamics: &Dynamics, start: &QTable) -> Result<QTable, Mismatch> {
         self.task.check("a table", start.task())?;
         Ok(self.refined_on(&Problem::new(dynamics, &self.task)?, start))
     }
 
+    #[inline]
     fn refined_on(&self, problem: &Problem, start: &QTable) -> QTable {
         let payment = self.task.payment(&self.rewards);
         problem.optimal_q_of(&payment, self.rewards.gamma(), Some(start))
     }
 
     /// The skills that read states at `q`, and where they are.
+    #[inline]
     fn active(&self, q: u32) -> impl Iterator<Item = (usize, u32)> {
         let running = self.running[q as usize];
         let only = self.operator == Operator::Sequence;
@@ -364,6 +375,7 @@ impl<'a> Composition<'a> {
     ///
     /// It is what Q_{1∧2} discounts: positive where one step is a step of several skills, and where one
     /// skill moves on while another is lost.
+    #[inline]
     fn excess(&self) -> Payment {
         let pay = |skill: &&QTable| skill.task().payment(&self.rewards);
         let payments: Vec<Payment> = self.skills.iter().map(pay).collect();

@@ -290,6 +290,7 @@ fn sample(columns: &[Alias], word: u64) -> usize {
 /// n columns of mass 1/n each are filled so that none holds more than two outcomes: one that is
 /// too small for its column is topped up from one that is too large, until all are level. So one
 /// uniform column and one comparison sample the distribution, and making the table is O(n).
+#[inline]
 fn alias_table(probabilities: &[f64]) -> Vec<Alias> {
     let n = probabilities.len();
     let (mut mass, mut columns) = (Vec::with_capacity(n), Vec::with_capacity(n));
@@ -339,6 +340,7 @@ impl Outcomes {
     /// The columns of `dynamics`; none if they are too many.
     ///
     /// `compact` has the tables of the distinct rows; a row that needs no padding is copied from there.
+    #[inline]
     fn new(dynamics: &Dynamics, compact: &[Alias]) -> Self {
         let (states, actions) = (dynamics.states(), dynamics.actions());
         let width = (0..states).map(|s| dynamics.successors(s).len()).max().unwrap_or(1);
@@ -473,6 +475,7 @@ impl<M: FiniteModel> ModelEnv<M> {
 /// The alias tables of all distinct rows, in place.
 ///
 /// States share matrices, and a matrix is done once, by the first state that has it.
+#[inline]
 fn columns(dynamics: &Dynamics) -> Vec<Alias> {
     let empty = Alias { threshold: 0, alias: 0 };
     let mut columns = alloc::vec![empty; dynamics.probabilities().len()];

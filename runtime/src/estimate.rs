@@ -45,6 +45,7 @@ impl Interval {
     /// Unless there are trials, and 0 < `confidence` < 1.
     #[must_use]
     #[track_caller]
+    #[inline]
     pub fn wilson(hits: u64, trials: u64, confidence: f64) -> Self {
         assert!(trials > 0 && hits <= trials, "a share of some trials");
         let (n, p, z) = (trials as f64, hits as f64 / trials as f64, normal(confidence));
@@ -74,6 +75,7 @@ impl Interval {
     /// Unless 0 < `confidence` < 1.
     #[must_use]
     #[track_caller]
+    #[inline]
     pub fn student(count: u64, sum: f64, squares: f64, confidence: f64) -> Option<Self> {
         if count < 2 {
             return None;
@@ -90,6 +92,7 @@ impl Interval {
     /// As [`Self::student`].
     #[must_use]
     #[track_caller]
+    #[inline]
     pub fn of(values: &[f64], confidence: f64) -> Option<Self> {
         let squares = values.iter().map(|v| v * v).sum();
         Self::student(values.len() as u64, values.iter().sum(), squares, confidence)
@@ -162,6 +165,7 @@ checked! { Trials {
 
 impl Default for Trials {
     /// 10,000 episodes of at most 1,000 steps, 95 % confidence.
+    #[inline]
     fn default() -> Self {
         Self { episodes: 10_000, horizon: 1_000, confidence: 0.95 }
     }
@@ -246,6 +250,7 @@ fn episode<E: Env, M: Monitor<E::State>, R: Rng + ?Sized, F: From<Error>>(
 /// By bisection: it is asked once or twice for an estimate, and needs no table and no second
 /// approximation beside the series.
 #[track_caller]
+#[inline]
 fn normal(confidence: f64) -> f64 {
     assert!(confidence > 0.0 && confidence < 1.0, "a confidence is between 0 and 1");
     let (mut low, mut high) = (0.0, 40.0);
@@ -257,6 +262,7 @@ fn normal(confidence: f64) -> f64 {
 }
 
 /// P(|Z| < x): the series 2 φ(x) (x + x³/3 + x⁵/15 + …).
+#[inline]
 fn within(x: f64) -> f64 {
     if x > 8.0 {
         return 1.0;
@@ -272,6 +278,7 @@ fn within(x: f64) -> f64 {
 /// The same number for Student's distribution: exact for 1 and 2 degrees of freedom, else the
 /// expansion of Fisher and Cornish, which errs by less than 0.5 % from 3 on at 95 %.
 #[track_caller]
+#[inline]
 fn student(degrees: f64, confidence: f64) -> f64 {
     let p = confidence;
     if degrees < 1.5 {

@@ -47,12 +47,14 @@ pub struct Experience {
 impl Experience {
     /// No experience of a world of this size.
     #[must_use]
+    #[inline]
     pub fn new(states: usize, actions: usize) -> Self {
         let outcomes = alloc::vec![Vec::new(); states * actions];
         Self { actions, outcomes, starts: alloc::vec![0; states] }
     }
 
     /// Whether all of it is of a world of this size: it may come from a file.
+    #[inline]
     pub(crate) fn is_of(&self, states: usize, actions: usize) -> bool {
         let inside = |list: &Vec<(u32, u32)>| list.iter().all(|&(to, _)| (to as usize) < states);
         (self.starts.len(), self.actions) == (states, actions)
@@ -102,6 +104,7 @@ impl Experience {
     ///
     /// # Errors
     /// If the worlds differ in size.
+    #[inline]
     pub fn extend(&mut self, other: &Self) -> Result<(), Mismatch> {
         let world = |e: &Self| mismatch::world(e.starts.len(), e.actions);
         if world(self) != world(other) {
@@ -116,6 +119,7 @@ impl Experience {
 
     /// How often `a` was tried in `s`.
     #[must_use]
+    #[inline]
     pub fn tried(&self, s: usize, a: usize) -> u64 {
         self.outcomes[s * self.actions + a].iter().map(|&(_, times)| u64::from(times)).sum()
     }
@@ -124,14 +128,17 @@ impl Experience {
 impl FiniteModel for Experience {
     type State = usize;
 
+    #[inline]
     fn states(&self) -> usize {
         self.starts.len()
     }
 
+    #[inline]
     fn actions(&self) -> usize {
         self.actions
     }
 
+    #[inline]
     fn state(&self, s: usize) -> usize {
         s
     }
@@ -146,6 +153,7 @@ impl FiniteModel for Experience {
         }
     }
 
+    #[inline]
     fn start(&self, s: usize) -> f64 {
         f64::from(self.starts[s])
     }

@@ -29,6 +29,7 @@ const UNFINISHED: &str = ".tltl.tmp";
 ///
 /// # Errors
 /// If it cannot be written, or may not be. What was there before is then still there.
+#[inline]
 pub fn replace(path: &Path, content: &[u8]) -> io::Result<()> {
     // A link is not replaced, but the file that it points at.
     let path = &fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
@@ -57,6 +58,7 @@ pub fn replace(path: &Path, content: &[u8]) -> io::Result<()> {
 
 /// Writes a file and flushes it: the content must be on the disk before the name is, or a power
 /// failure can leave an empty file under the right name.
+#[inline]
 fn write(path: &Path, content: &[u8], like: Option<&Metadata>) -> io::Result<()> {
     let mut file = File::create(path)?;
     if let Some(like) = like {
@@ -70,15 +72,18 @@ fn write(path: &Path, content: &[u8], like: Option<&Metadata>) -> io::Result<()>
 
 /// Gives a file the owner of another, where the process may.
 #[cfg(unix)]
+#[inline]
 fn own(path: &Path, like: &Metadata) {
     use std::os::unix::fs::{MetadataExt as _, chown};
     let _ = chown(path, Some(like.uid()), Some(like.gid()));
 }
 
 #[cfg(not(unix))]
+#[inline]
 fn own(_: &Path, _: &Metadata) {}
 
 /// The name under which a process writes a file before it is renamed.
+#[inline]
 fn beside(path: &Path, process: u32) -> PathBuf {
     let mut name = start(path);
     name.push(std::format!("{process}{UNFINISHED}"));
@@ -86,6 +91,7 @@ fn beside(path: &Path, process: u32) -> PathBuf {
 }
 
 /// The start of the names of a file's unfinished versions.
+#[inline]
 fn start(path: &Path) -> OsString {
     let mut name = OsString::from(".");
     name.push(path.file_name().unwrap_or_default());
@@ -95,6 +101,7 @@ fn start(path: &Path) -> OsString {
 
 /// Removes what killed processes have left beside a file. Where the system does not show which
 /// processes there are, only what the number of this one has left is overwritten.
+#[inline]
 fn remove_orphans(path: &Path) {
     let Ok(entries) = fs::read_dir(folder(path)) else { return };
     if !Path::new("/proc/self").exists() {
@@ -112,12 +119,14 @@ fn remove_orphans(path: &Path) {
     }
 }
 
+#[inline]
 fn folder(path: &Path) -> &Path {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     folder.unwrap_or(Path::new("."))
 }
 
 /// Makes the renaming last; only Unix lets a folder be opened for that.
+#[inline]
 fn sync_folder(path: &Path) -> io::Result<()> {
     if cfg!(unix) { File::open(folder(path))?.sync_all() } else { Ok(()) }
 }

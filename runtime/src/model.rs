@@ -204,6 +204,7 @@ pub enum ModelError {
 }
 
 impl fmt::Display for ModelError {
+    #[inline]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Size { states, actions } => {
@@ -295,6 +296,7 @@ impl Dynamics {
     ///
     /// # Panics
     /// If there is no such state or action.
+    #[inline]
     pub fn outcomes(&self, s: usize, a: usize) -> impl Iterator<Item = (usize, f64)> {
         let successors = self.successors(s);
         let row = &self.matrix(s)[a * successors.len()..][..successors.len()];
@@ -318,6 +320,7 @@ impl Dynamics {
 
     /// The probability of starting in each state.
     #[must_use]
+    #[inline]
     pub fn starts(&self) -> &[f64] {
         &self.0.starts
     }
@@ -329,11 +332,13 @@ impl Dynamics {
     }
 
     /// The distinct matrices, one after the other.
+    #[inline]
     pub(crate) fn probabilities(&self) -> &[f64] {
         &self.0.probabilities
     }
 
     /// For each state those that some action leads to it from, as (first, list).
+    #[inline]
     pub(crate) fn predecessors(&self) -> (Vec<u32>, Vec<u32>) {
         let mut first = alloc::vec![0; self.states() + 2];
         self.0.successors.iter().for_each(|&to| first[to as usize + 2] += 1);
@@ -353,6 +358,7 @@ impl Dynamics {
 }
 
 impl fmt::Debug for Dynamics {
+    #[inline]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Dynamics")
             .field("states", &self.states())
@@ -362,6 +368,7 @@ impl fmt::Debug for Dynamics {
 }
 
 /// `weights`, scaled to sum to one: a user gives weights, and solvers need probabilities.
+#[inline]
 fn distribution(mut weights: Vec<f64>) -> Result<Vec<f64>, ModelError> {
     let sum: f64 = weights.iter().sum();
     if !(sum > 0.0 && sum.is_finite() && weights.iter().all(|&w| w >= 0.0)) {
@@ -383,6 +390,7 @@ struct Builder {
 }
 
 impl Builder {
+    #[inline]
     fn new(states: usize, actions: usize) -> Self {
         let mut first = Vec::with_capacity(states + 1);
         first.push(0);
@@ -401,6 +409,7 @@ impl Builder {
     }
 
     /// Adds the state whose outcomes were read.
+    #[inline]
     fn close(&mut self) {
         let start = self.tables.successors.len();
         let mut list = Vec::new();
@@ -434,6 +443,7 @@ impl Builder {
     }
 
     /// The outcomes as a matrix over the successors from `start` on.
+    #[inline]
     fn dense(&self, start: usize) -> Vec<f64> {
         let list = &self.tables.successors[start..];
         let mut matrix = alloc::vec![0.0; self.tables.actions * list.len()];
@@ -444,6 +454,7 @@ impl Builder {
         matrix
     }
 
+    #[inline]
     fn intern(&mut self, matrix: &[f64]) -> u32 {
         let bits: Vec<u64> = matrix.iter().map(|p| p.to_bits()).collect();
         let number = self.matrices.number(&bits) as usize;

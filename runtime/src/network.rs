@@ -160,22 +160,26 @@ impl Shape {
     }
 
     /// The actions that point at nothing.
+    #[inline]
     pub(crate) fn plain(&self) -> usize {
         self.actions - self.entities
     }
 
     /// What a head puts out as values: those of the plain actions, and what all pointing actions
     /// have in common.
+    #[inline]
     pub(crate) fn levels(&self) -> usize {
         self.plain() + usize::from(self.entities > 0)
     }
 
     /// What a head puts out: the values, then the query.
+    #[inline]
     pub(crate) fn head_width(&self) -> usize {
         self.levels() + self.channels
     }
 
     /// A size with which there is no network, of a shape that may come from a file.
+    #[inline]
     fn fault(&self) -> Option<&'static str> {
         let columns = || self.levels().checked_add(self.channels)?.checked_mul(self.heads);
         let lone = self.entities == 0 && self.channels > 0;
@@ -191,6 +195,7 @@ impl Shape {
     }
 
     /// The widths of all layers, the input first.
+    #[inline]
     pub(crate) fn widths(&self) -> Vec<usize> {
         let ends = [self.inputs, self.heads * self.head_width()];
         let mut widths = alloc::vec![ends[0]];
@@ -250,6 +255,7 @@ pub enum NetworkError {
 }
 
 impl fmt::Display for NetworkError {
+    #[inline]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Layers { found, expected } => {
@@ -301,6 +307,7 @@ impl Network {
     ///
     /// # Errors
     /// If they do not fit the shape, or a weight is not finite.
+    #[inline]
     pub fn new(shape: Shape, layers: Vec<Dense>) -> Result<Self, NetworkError> {
         if let Some(field) = shape.fault() {
             return Err(NetworkError::Shape { field });
@@ -360,6 +367,7 @@ impl Network {
     /// Composition starts from such a network, since it adds nothing to the skills until it has
     /// learned something; its hidden layers are random, so it can learn.
     #[must_use]
+    #[inline]
     pub fn silent(mut self) -> Self {
         if let Some(heads) = self.layers.last_mut() {
             heads.weights.fill(0.0);
@@ -370,6 +378,7 @@ impl Network {
 
     /// The sizes.
     #[must_use]
+    #[inline]
     pub const fn shape(&self) -> &Shape {
         &self.shape
     }
@@ -378,6 +387,7 @@ impl Network {
     /// `h * (actions - entities + 1 + channels)`; without entities, at
     /// `h * actions`.
     #[must_use]
+    #[inline]
     pub fn layers(&self) -> &[Dense] {
         &self.layers
     }
@@ -402,6 +412,7 @@ impl Network {
     /// If the features or the head do not fit the shape.
     #[must_use]
     #[track_caller]
+    #[inline]
     pub fn values(&self, head: usize, inputs: &[f32], entities: &[f32]) -> Vec<f32> {
         let (plain, n) = (self.shape.plain(), self.shape.entities);
         assert_eq!(inputs.len(), self.shape.inputs, "as many features as the shape says");
@@ -430,6 +441,7 @@ impl Network {
     /// As [`Self::values`].
     #[must_use]
     #[track_caller]
+    #[inline]
     pub fn greedy(&self, head: usize, inputs: &[f32], entities: &[f32]) -> usize {
         argmax(&self.values(head, inputs, entities))
     }
@@ -441,6 +453,7 @@ impl Dense {
     /// Inputs of 0 are skipped: features are mostly sparse (one of many is 1), and half of the units
     /// behind a rectifier are off. The order of the sum is that of the inputs, as in emitted code, so
     /// both give the same bits.
+    #[inline]
     fn forward(&self, x: &[f32], from: usize, width: usize) -> Vec<f32> {
         let mut y = self.bias[from..from + width].to_vec();
         for (&x, row) in x.iter().zip(self.weights.chunks(self.bias.len())) {
@@ -464,6 +477,7 @@ struct Unchecked {
 impl TryFrom<Unchecked> for Network {
     type Error = NetworkError;
 
+    #[inline]
     fn try_from(network: Unchecked) -> Result<Self, NetworkError> {
         Self::new(network.shape, network.layers)
     }
@@ -471,6 +485,7 @@ impl TryFrom<Unchecked> for Network {
 
 #[cfg(feature = "serde")]
 impl From<Network> for Unchecked {
+    #[inline]
     fn from(network: Network) -> Self {
         Self { shape: network.shape, layers: network.layers }
     }

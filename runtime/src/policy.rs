@@ -144,6 +144,7 @@ struct Notes {
 impl TryFrom<Document> for Policy {
     type Error = PolicyError;
 
+    #[inline]
     fn try_from(document: Document) -> Result<Self, PolicyError> {
         document.check()?;
         let States { states, initial, accepting, trap } = document.automaton;
@@ -183,6 +184,7 @@ impl TryFrom<Document> for Policy {
 }
 
 impl From<Policy> for Document {
+    #[inline]
     fn from(policy: Policy) -> Self {
         let Policy { task, action, record } = policy;
         let tables = task.tables();
@@ -288,6 +290,7 @@ impl Policy {
     }
 
     /// The policy of actions that are the world's, one for each pair.
+    #[inline]
     pub(crate) fn from_table(task: &Labelled, action: Vec<u32>) -> Self {
         Self { task: task.clone(), action, record: Notes::default() }
     }
@@ -314,6 +317,7 @@ impl Policy {
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
     #[must_use]
+    #[inline]
     pub fn trained(mut self, training: Training) -> Self {
         self.record.training.push(training);
         self
@@ -337,6 +341,7 @@ impl Policy {
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
     #[must_use]
+    #[inline]
     pub fn certified(mut self, certificate: Certificate) -> Self {
         self.record.certificate = Some(certificate);
         self
@@ -363,6 +368,7 @@ impl Policy {
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
     #[must_use]
+    #[inline]
     pub fn shielded(mut self, worth: Shielded) -> Self {
         self.record.certificate = Some(worth.after.clone());
         self.record.shield = Some(worth);
@@ -385,6 +391,7 @@ impl Policy {
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
     #[must_use]
+    #[inline]
     pub fn from_starts(mut self, starts: &[Start]) -> Self {
         self.record.starts = Some(Starts::new(starts));
         self
@@ -411,6 +418,7 @@ impl Policy {
     /// ```
     #[cfg(feature = "std")]
     #[must_use]
+    #[inline]
     pub fn estimated(mut self, estimate: crate::estimate::Estimate) -> Self {
         self.record.estimate = Some(estimate);
         self
@@ -446,36 +454,42 @@ impl Policy {
 
     /// The task, on the world that the policy acts in.
     #[must_use]
+    #[inline]
     pub const fn task(&self) -> &Labelled {
         &self.task
     }
 
     /// All that the policy says, as it is saved: the fields of the schema above.
     #[must_use]
+    #[inline]
     pub fn document(&self) -> Document {
         self.clone().into()
     }
 
     /// How it was learned: one entry for each skill of a composition.
     #[must_use]
+    #[inline]
     pub fn training(&self) -> &[Training] {
         &self.record.training
     }
 
     /// What it is worth, if it says so.
     #[must_use]
+    #[inline]
     pub const fn certificate(&self) -> Option<&Certificate> {
         self.record.certificate.as_ref()
     }
 
     /// What its shield costs and gains, if it is under one.
     #[must_use]
+    #[inline]
     pub const fn shield(&self) -> Option<&Shielded> {
         self.record.shield.as_ref()
     }
 
     /// What it is worth from each start, if it says so.
     #[must_use]
+    #[inline]
     pub const fn starts(&self) -> Option<&Starts> {
         self.record.starts.as_ref()
     }
@@ -483,6 +497,7 @@ impl Policy {
     /// What it was seen to be worth, if it says so.
     #[cfg(feature = "std")]
     #[must_use]
+    #[inline]
     pub const fn estimate(&self) -> Option<&crate::estimate::Estimate> {
         self.record.estimate.as_ref()
     }
@@ -525,6 +540,7 @@ impl Policy {
     /// # Panics
     /// If `q` is out of range.
     #[track_caller]
+    #[inline]
     pub fn sub_policy(&self, q: u32) -> impl Iterator<Item = usize> {
         let layer = &self.action[self.task.pair(q, 0)..][..self.task.states()];
         layer.iter().map(|&a| a as usize)
@@ -538,11 +554,13 @@ impl Policy {
     }
 
     /// All actions, indexed `q * states + s`.
+    #[inline]
     pub(crate) fn table(&self) -> &[u32] {
         &self.action
     }
 
     /// `Ok` if it is a policy for `task`.
+    #[inline]
     pub(crate) fn must_be_for(&self, task: &Labelled) -> Result<(), Mismatch> {
         task.check("a policy", &self.task)
     }

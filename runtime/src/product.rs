@@ -63,6 +63,7 @@ pub enum Operator {
 
 impl Operator {
     /// What stands between two operands; `;` is what programs write between two steps.
+    #[inline]
     const fn symbol(self) -> &'static str {
         match self {
             Self::Conjunction => " && ",
@@ -489,6 +490,7 @@ impl<'a, S: ?Sized> Product<'a, S> {
 }
 
 /// Every tuple of `tuples` continued by every one of `edges`.
+#[inline]
 fn combinations(tuples: &[Vec<u32>], edges: &[u32]) -> Vec<Vec<u32>> {
     let mut longer = Vec::with_capacity(tuples.len() * edges.len());
     for tuple in tuples {

@@ -34,6 +34,7 @@ pub struct QTable {
 impl QTable {
     /// A table of zeros.
     #[must_use]
+    #[inline]
     pub fn zeros(task: &Labelled) -> Self {
         Self { values: alloc::vec![0.0; task.pairs() * task.actions()], task: task.clone() }
     }
@@ -50,6 +51,7 @@ impl QTable {
     /// # Ok::<(), tltl::augmented::LabelError>(())
     /// ```
     #[must_use]
+    #[inline]
     pub fn filled(task: &Labelled, value: f64) -> Self {
         let mut table = Self::zeros(task);
         let size = task.states() * task.actions();
@@ -75,6 +77,7 @@ impl QTable {
     ///
     /// # Errors
     /// If there is not one value for each q, s and a.
+    #[inline]
     pub fn from_values(task: &Labelled, values: Vec<f64>) -> Result<Self, Mismatch> {
         if values.len() != task.pairs() * task.actions() {
             let found = alloc::format!("{} values", values.len());
@@ -85,6 +88,7 @@ impl QTable {
 
     /// The task that the values are for.
     #[must_use]
+    #[inline]
     pub const fn task(&self) -> &Labelled {
         &self.task
     }
@@ -97,6 +101,7 @@ impl QTable {
     }
 
     /// All values, to change them.
+    #[inline]
     pub(crate) fn values_mut(&mut self) -> &mut [f64] {
         &mut self.values
     }
@@ -144,12 +149,14 @@ impl QTable {
 
     /// The greedy policy: in each (q, s) the action of the largest value.
     #[must_use]
+    #[inline]
     pub fn policy(&self) -> Policy {
         let rows = self.values.chunks(self.task.actions());
         Policy::from_table(&self.task, rows.map(|row| argmax(row) as u32).collect())
     }
 
     /// All (q, s, Q(s, q, ·)), to change them.
+    #[inline]
     pub(crate) fn rows_mut(&mut self) -> impl Iterator<Item = (u32, usize, &mut [f64])> {
         let (states, actions) = (self.task.states(), self.task.actions());
         let rows = self.values.chunks_mut(actions).enumerate();
@@ -176,6 +183,7 @@ fn more(a: f64, b: f64) -> f64 {
     core::hint::select_unpredictable(a > b, a, b)
 }
 
+#[inline]
 fn largest_of(values: &[f64]) -> f64 {
     values.iter().fold(f64::NEG_INFINITY, |best, &v| if v > best { v } else { best })
 }

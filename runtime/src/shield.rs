@@ -52,6 +52,7 @@ impl Shield {
     /// 1e-9 is ten times the error of the values: ties are common, and a shield must not bar an action
     /// for a rounding.
     #[must_use]
+    #[inline]
     pub fn of_model(problem: &Problem) -> Self {
         let actions = problem.avoiding(&problem.smallest_lost());
         Self { task: problem.task().clone(), actions }
@@ -78,6 +79,7 @@ impl Shield {
     ///
     /// # Errors
     /// If the experience is of another world.
+    #[inline]
     pub fn one_step(experience: &Experience, task: &Labelled) -> Result<Self, Mismatch> {
         task.check_world("experience", experience.states(), experience.actions())?;
         let mut actions = Actions::none(task.pairs(), task.actions());
@@ -105,6 +107,7 @@ impl Shield {
 
     /// The task that the shield is for.
     #[must_use]
+    #[inline]
     pub const fn task(&self) -> &Labelled {
         &self.task
     }
@@ -144,6 +147,7 @@ impl Shield {
     /// If there is no such pair in the shield's task or in the table's.
     #[must_use]
     #[track_caller]
+    #[inline]
     pub fn greedy(&self, table: &QTable, q: u32, s: usize) -> usize {
         let row = table.row(q, s);
         let allowed = (0..row.len()).filter(|&a| self.allows(q, s, a));
@@ -156,6 +160,7 @@ impl Shield {
     ///
     /// # Errors
     /// If the table is of another task or another world.
+    #[inline]
     pub fn policy(&self, table: &QTable) -> Result<Policy, Mismatch> {
         self.task.check("a table", table.task())?;
         let states = self.task.states();
@@ -186,6 +191,7 @@ impl Optimum {
     ///
     /// # Errors
     /// If the shield or the table is of another task or another world.
+    #[inline]
     pub fn certify_shield(&self, shield: &Shield, table: &QTable) -> Result<Shielded, Mismatch> {
         let (problem, task) = (self.problem(), self.problem().task());
         task.check("a shield", &shield.task)?;

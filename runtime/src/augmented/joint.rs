@@ -83,6 +83,7 @@ impl Labelled {
 ///
 /// Two states with the same letter are the same to every part, so the joint table has a column for
 /// each letter, and not for each combination of classes that could be written down.
+#[inline]
 fn letters(parts: &[Labelled]) -> (Vec<u32>, Interner<u32>) {
     let mut letters = Interner::new();
     let states = parts.first().map_or(0, Labelled::states);
@@ -114,6 +115,7 @@ struct JointStates<'a> {
 }
 
 impl<'a> JointStates<'a> {
+    #[inline]
     fn new(parts: &'a [Labelled]) -> Self {
         let mut joint = Self {
             parts,
@@ -129,6 +131,7 @@ impl<'a> JointStates<'a> {
     }
 
     /// The number of the state that follows `q` on a letter.
+    #[inline]
     fn read(&mut self, q: &[u32], letter: &[u32]) -> u32 {
         let mut next = Vec::with_capacity(q.len());
         for ((part, &q), &class) in self.parts.iter().zip(q).zip(letter) {
@@ -139,6 +142,7 @@ impl<'a> JointStates<'a> {
     }
 
     /// The number of a tuple of the parts' states: the one it has, or the next.
+    #[inline]
     fn number(&mut self, q: &[u32]) -> u32 {
         let tuple = self.tuples.number(q) as usize;
         if let Some(&number) = self.numbers.get(tuple) {
@@ -160,6 +164,7 @@ impl<'a> JointStates<'a> {
     }
 
     /// How a tuple ends: one lost part loses a conjunction, and only all together accept.
+    #[inline]
     fn end(&self, q: &[u32]) -> Option<End> {
         let mut accepted = true;
         for (part, &q) in self.parts.iter().zip(q) {

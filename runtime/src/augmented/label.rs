@@ -93,6 +93,7 @@ pub enum LabelError {
 }
 
 impl fmt::Display for LabelError {
+    #[inline]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NotANumber(error) => error.fmt(f),
@@ -183,6 +184,7 @@ impl Labelled {
     }
 
     /// The table of these parts.
+    #[inline]
     pub(crate) fn from_tables(tables: LabelTable) -> Result<Self, LabelError> {
         let (states, actions) = (tables.class.len(), tables.actions.len());
         let sized = states > 0 && actions > 0 && u32::try_from(states).is_ok();
@@ -244,6 +246,7 @@ impl Labelled {
     /// # Ok::<(), tltl::augmented::LabelError>(())
     /// ```
     #[must_use]
+    #[inline]
     pub fn named(mut self, name: &str, formula: &str) -> Self {
         let tables = Arc::make_mut(&mut self.0);
         (tables.name, tables.formula) = (name.to_string(), formula.to_string());
@@ -252,12 +255,14 @@ impl Labelled {
 
     /// What the task is called; its formula if it has no name.
     #[must_use]
+    #[inline]
     pub fn name(&self) -> &str {
         &self.0.name
     }
 
     /// The formula as its author wrote it.
     #[must_use]
+    #[inline]
     pub fn formula(&self) -> &str {
         &self.0.formula
     }
@@ -278,12 +283,14 @@ impl Labelled {
 
     /// What the actions are called, in the order of their numbers.
     #[must_use]
+    #[inline]
     pub fn action_names(&self) -> &[String] {
         &self.0.actions
     }
 
     /// The number of states of the automaton, the trap included.
     #[must_use]
+    #[inline]
     pub fn automaton_states(&self) -> u32 {
         self.0.ends.states()
     }
@@ -323,6 +330,7 @@ impl Labelled {
 
     /// Where the task ends, and how far each automaton state is from acceptance.
     #[must_use]
+    #[inline]
     pub fn ends(&self) -> &Ends {
         &self.0.ends
     }
@@ -335,6 +343,7 @@ impl Labelled {
     }
 
     /// The automaton states in which the task goes on.
+    #[inline]
     pub fn live(&self) -> impl Iterator<Item = u32> + use<> {
         self.0.ends.live()
     }
@@ -353,23 +362,27 @@ impl Labelled {
         q as usize * self.states() + s
     }
 
+    #[inline]
     pub(crate) fn tables(&self) -> &LabelTable {
         &self.0
     }
 
     /// What every move pays under `rewards`.
     #[track_caller]
+    #[inline]
     pub(crate) fn payment(&self, rewards: &Rewards) -> Payment {
         self.payment_of(rewards, false)
     }
 
     /// What every move pays that is the last one, for the environment terminates.
     #[track_caller]
+    #[inline]
     pub(crate) fn last_payment(&self, rewards: &Rewards) -> Payment {
         self.payment_of(rewards, true)
     }
 
     #[track_caller]
+    #[inline]
     fn payment_of(&self, rewards: &Rewards, terminated: bool) -> Payment {
         let pays = |q, to, robustness| {
             let arrival = Arrival { robustness, terminated, ..Arrival::at(q, to) };
@@ -384,6 +397,7 @@ impl Labelled {
     }
 
     /// A payment for each move, as `pays(q, q')` says.
+    #[inline]
     pub(crate) fn payment_by(&self, pays: &dyn Fn(u32, u32) -> f64) -> Payment {
         let LabelTable { next, classes, .. } = &*self.0;
         let mut table = Vec::with_capacity(next.len());
@@ -394,6 +408,7 @@ impl Labelled {
     }
 
     /// A payment for each automaton state and state, as `pays(q, s')` says.
+    #[inline]
     pub(crate) fn payment_by_state(&self, pays: &dyn Fn(u32, usize) -> f64) -> Payment {
         let mut table = Vec::with_capacity(self.pairs());
         for q in 0..self.automaton_states() {
@@ -405,6 +420,7 @@ impl Labelled {
     }
 
     /// Its name and its sizes, as errors show them.
+    #[inline]
     pub(crate) fn describe(&self) -> String {
         let (name, automaton) = (self.name(), self.automaton_states());
         let (states, actions) = (self.states(), self.actions());
@@ -415,6 +431,7 @@ impl Labelled {
 
     /// 64-bit FNV-1a over all that [`Self::check`] compares: the same for tables of the same moves.
     /// A checkpoint keeps it in place of the tables.
+    #[inline]
     pub(crate) fn checksum(&self) -> u64 {
         let LabelTable { initial, ends, .. } = self.tables();
         let end = |end: Option<u32>| end.map_or(u32::MAX, |q| q);
@@ -429,6 +446,7 @@ impl Labelled {
     /// `Ok` if `found`, to which `what` belongs, is this task on this world: if the automaton moves
     /// and ends alike on every world state. Names do not matter, for the same task may be written in
     /// several ways. Clones are known by their address; others cost one pass over the pairs.
+    #[inline]
     pub(crate) fn check(&self, what: &'static str, found: &Self) -> Result<(), Mismatch> {
         if Arc::ptr_eq(&self.0, &found.0) {
             return Ok(());
@@ -444,6 +462,7 @@ impl Labelled {
     }
 
     /// `Ok` if a world of these sizes, to which `what` belongs, can be the one of this table.
+    #[inline]
     pub(crate) fn check_world(
         &self,
         what: &'static str,
@@ -460,6 +479,7 @@ impl Labelled {
     /// differently in tables from a file, so what counts is where each state leads.
     ///
     /// It says why two tables are not the same task to readers who see one name and one size twice.
+    #[inline]
     fn difference(&self, other: &Self) -> Option<String> {
         let (own, others) = (self.tables(), other.tables());
         let sizes = |t: &LabelTable| (t.class.len(), t.actions.len(), t.ends.states());
@@ -488,6 +508,7 @@ impl LabelTable {
     ///
     /// Distances by δ alone may be shorter: an edge of the automaton that no state of the world takes
     /// is not a move here. Cost: O(|Q| × classes).
+    #[inline]
     pub(crate) fn distances(of: &[Option<End>], next: &[u32]) -> Vec<Option<u32>> {
         let mut before = alloc::vec![Vec::new(); of.len()];
         for (q, row) in next.chunks((next.len() / of.len()).max(1)).enumerate() {
@@ -515,6 +536,7 @@ impl LabelTable {
 /// Equal are tables of the same names and moves. Distances and robustness are not compared: a table
 /// from a file has other distances, those that the world allows.
 impl PartialEq for Labelled {
+    #[inline]
     fn eq(&self, other: &Self) -> bool {
         let names = |l: &Self| (l.name().to_string(), l.formula().to_string());
         let same = Arc::ptr_eq(&self.0, &other.0) || self.difference(other).is_none();
@@ -523,6 +545,7 @@ impl PartialEq for Labelled {
 }
 
 impl fmt::Debug for Labelled {
+    #[inline]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Labelled")
             .field("name", &self.name())
@@ -535,6 +558,7 @@ impl fmt::Debug for Labelled {
 }
 
 /// The error at the state with number `s`.
+#[inline]
 fn at(s: usize, error: Error) -> LabelError {
     LabelError::NotANumber(Error { instant: Some(s), ..error })
 }
@@ -572,10 +596,12 @@ struct ClassBuilder {
 }
 
 impl ClassBuilder {
+    #[inline]
     fn push(&mut self, column: &[u32]) {
         self.class.push(self.seen.number(column));
     }
 
+    #[inline]
     fn into_labelled(
         self,
         (name, formula): (String, String),

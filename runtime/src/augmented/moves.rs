@@ -22,6 +22,7 @@ impl Moves {
         Self { ends: Ends::of(task), rewards }
     }
 
+    #[inline]
     pub(crate) const fn ends(&self) -> &Ends {
         &self.ends
     }

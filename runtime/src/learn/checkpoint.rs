@@ -81,6 +81,7 @@ pub(super) struct Identity {
 }
 
 impl Identity {
+    #[inline]
     pub(super) fn of(task: &Labelled) -> Self {
         Self {
             name: task.name().to_string(),
@@ -94,6 +95,7 @@ impl Identity {
 impl Checkpoint {
     /// `Ok` if it is of `task`, whose updates are counted in so many `entries`. It may come from a
     /// file, so sizes and entries are compared too: what passes cannot panic later.
+    #[inline]
     pub(super) fn must_be_of(&self, task: &Labelled, entries: usize) -> Result<(), Mismatch> {
         let Self { q, visits, experience, .. } = self;
         let own = Identity::of(task);
@@ -112,6 +114,7 @@ impl Checkpoint {
         Err(if alike { mismatch.in_that("the automata move differently".into()) } else { mismatch })
     }
 
+    #[inline]
     fn describe(&self) -> String {
         let SavedValues { values, states, actions } = &self.q;
         let (name, automaton) = match &self.task {

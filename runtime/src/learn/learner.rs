@@ -62,6 +62,7 @@ impl Learner {
     /// A learner of `task`; all that is random comes from `seed`. Same task, settings, seed and
     /// environment: the same table to the last bit.
     #[must_use]
+    #[inline]
     pub fn new(task: &Labelled, settings: Settings, seed: u64) -> Self {
         let remembered = if settings.remembers() { task.states() } else { 0 };
         Self {
@@ -233,6 +234,7 @@ impl Learner {
     ///
     /// # Errors
     /// If nothing is remembered.
+    #[inline]
     pub fn replay(&mut self) -> Result<(), ModelError> {
         let dynamics = Dynamics::new(&self.experience)?;
         let rewards = self.settings.rewards();
@@ -244,12 +246,14 @@ impl Learner {
 
     /// The task that is learned, on its world.
     #[must_use]
+    #[inline]
     pub const fn task(&self) -> &Labelled {
         self.q.task()
     }
 
     /// The action values so far.
     #[must_use]
+    #[inline]
     pub const fn q(&self) -> &QTable {
         &self.q
     }
@@ -274,6 +278,7 @@ impl Learner {
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
     #[must_use]
+    #[inline]
     pub fn policy(&self) -> Policy {
         self.q.policy().trained(self.training())
     }
@@ -283,12 +288,14 @@ impl Learner {
     ///
     /// # Errors
     /// If `problem` is another task, or another world.
+    #[inline]
     pub fn certify(&self, problem: &Problem) -> Result<Certificate, Mismatch> {
         problem.optimum(&self.rewards()).certify(&self.q.policy())
     }
 
     /// How the table was learned so far, as policies say it.
     #[must_use]
+    #[inline]
     pub fn training(&self) -> Training {
         Training {
             task: self.task().name().into(),
@@ -301,30 +308,35 @@ impl Learner {
 
     /// What was seen, if the settings say to keep it.
     #[must_use]
+    #[inline]
     pub const fn experience(&self) -> &Experience {
         &self.experience
     }
 
     /// The settings.
     #[must_use]
+    #[inline]
     pub const fn settings(&self) -> &Settings {
         &self.settings
     }
 
     /// What is optimised: the rewards of the settings.
     #[must_use]
+    #[inline]
     pub const fn rewards(&self) -> Rewards {
         self.settings.rewards()
     }
 
     /// Environment steps so far.
     #[must_use]
+    #[inline]
     pub const fn steps(&self) -> u64 {
         self.elapsed.steps
     }
 
     /// Episodes so far.
     #[must_use]
+    #[inline]
     pub const fn episodes(&self) -> u64 {
         self.elapsed.episodes
     }
@@ -349,6 +361,7 @@ impl Learner {
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
     #[must_use]
+    #[inline]
     pub fn checkpoint(&self) -> Checkpoint {
         let task = self.task();
         Checkpoint {
@@ -386,6 +399,7 @@ impl Learner {
     ///
     /// # Errors
     /// If the checkpoint is of another task or another world.
+    #[inline]
     pub fn resume(task: &Labelled, checkpoint: Checkpoint) -> Result<Self, Mismatch> {
         checkpoint.must_be_of(task, entries(task, &checkpoint.settings))?;
         Ok(Self {
@@ -403,6 +417,7 @@ impl Learner {
 /// The number of entries whose updates are counted.
 ///
 /// Counterfactual updates visit all automaton states together, so they need one count for (s, a).
+#[inline]
 fn entries(task: &Labelled, settings: &Settings) -> usize {
     let pairs = if settings.is_counterfactual() { task.states() } else { task.pairs() };
     pairs * task.actions()

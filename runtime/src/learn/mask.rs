@@ -61,6 +61,7 @@ pub enum Mask<'a> {
 impl Mask<'_> {
     /// Leaves in `allowed` the actions that are allowed in `s` at `q`; all, if none would be: a mask
     /// never stops an episode.
+    #[inline]
     fn allow(
         &self,
         (q, s): (u32, usize),
@@ -91,6 +92,7 @@ impl Mask<'_> {
 /// How often the action entered the trap as a fraction of its tries, and the variance of that
 /// fraction. One try of each kind is assumed beside (Laplace's rule of succession), so that one
 /// accident bars nothing and an action without tries is not thought safe.
+#[inline]
 fn risk((q, s, a): (u32, usize, usize), task: &Labelled, seen: &Experience) -> (f64, f64) {
     let (tried, mut lost) = (seen.tried(s, a) as f64, 0.0);
     if tried > 0.0 {
@@ -116,6 +118,7 @@ impl Agent for Masked<'_> {
     type State = usize;
     type Error = TrainError;
 
+    #[inline]
     fn start(&mut self, s: &usize) {
         self.agent.start(s);
     }

@@ -63,6 +63,7 @@ pub enum TrainError {
 }
 
 impl fmt::Display for TrainError {
+    #[inline]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Mismatch(error) => error.fmt(f),
@@ -75,18 +76,21 @@ impl fmt::Display for TrainError {
 impl core::error::Error for TrainError {}
 
 impl From<Mismatch> for TrainError {
+    #[inline]
     fn from(error: Mismatch) -> Self {
         Self::Mismatch(error)
     }
 }
 
 impl From<task::Error> for TrainError {
+    #[inline]
     fn from(error: task::Error) -> Self {
         Self::NotANumber(error)
     }
 }
 
 impl From<Infallible> for TrainError {
+    #[inline]
     fn from(never: Infallible) -> Self {
         match never {}
     }

@@ -119,6 +119,7 @@ pub struct TrajectoryLearner {
 impl TrajectoryLearner {
     /// A learner of `task` that is paid by `terminal`, seeded.
     #[must_use]
+    #[inline]
     pub fn new(
         task: &Labelled,
         settings: Settings,
@@ -156,6 +157,7 @@ impl TrajectoryLearner {
     }
 
     /// The automaton state as the learner observes it.
+    #[inline]
     const fn seen(&self, q: u32) -> u32 {
         match self.observation {
             Observation::World => 0,
@@ -165,6 +167,7 @@ impl TrajectoryLearner {
 
     /// The greedy policy.
     #[must_use]
+    #[inline]
     pub fn policy(&self) -> Policy {
         let (task, states) = (self.q.task(), self.q.task().states());
         let greedy = |pair| self.q.greedy(self.seen((pair / states) as u32), pair % states) as u32;
@@ -173,6 +176,7 @@ impl TrajectoryLearner {
 
     /// Environment steps so far.
     #[must_use]
+    #[inline]
     pub const fn steps(&self) -> u64 {
         self.elapsed.steps
     }

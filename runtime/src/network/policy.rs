@@ -229,6 +229,7 @@ pub enum NetworkPolicyError {
 }
 
 impl fmt::Display for NetworkPolicyError {
+    #[inline]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Format(found) => {
@@ -261,6 +262,7 @@ impl fmt::Display for NetworkPolicyError {
 impl core::error::Error for NetworkPolicyError {}
 
 impl From<NetworkError> for NetworkPolicyError {
+    #[inline]
     fn from(error: NetworkError) -> Self {
         Self::Network(error)
     }
@@ -302,6 +304,7 @@ pub struct NetworkPolicy(NetworkDocument);
 impl TryFrom<NetworkDocument> for NetworkPolicy {
     type Error = NetworkPolicyError;
 
+    #[inline]
     fn try_from(document: NetworkDocument) -> Result<Self, NetworkPolicyError> {
         document.check()?;
         Ok(Self(document))
@@ -309,12 +312,14 @@ impl TryFrom<NetworkDocument> for NetworkPolicy {
 }
 
 impl From<NetworkPolicy> for NetworkDocument {
+    #[inline]
     fn from(policy: NetworkPolicy) -> Self {
         policy.0
     }
 }
 
 impl NetworkDocument {
+    #[inline]
     fn check(&self) -> Result<(), NetworkPolicyError> {
         check_format(&self.format)?;
         check_version(&self.version)?;
@@ -337,6 +342,7 @@ impl NetworkDocument {
     }
 
     #[cfg(feature = "std")]
+    #[inline]
     fn check_worth(&self) -> Result<(), NetworkPolicyError> {
         let Some(estimate) = &self.estimate else { return Ok(()) };
         let probability = |interval: &crate::estimate::Interval| {
@@ -350,6 +356,7 @@ impl NetworkDocument {
         sound("estimate.steps", steps)
     }
 
+    #[inline]
     fn check_automaton(&self) -> Result<(), NetworkPolicyError> {
         let States { states, initial, accepting, trap } = self.automaton;
         let below = |field, state| match state {
@@ -426,6 +433,7 @@ impl NetworkPolicy {
     ///
     /// # Errors
     /// Unless there are as many names as features, or none.
+    #[inline]
     pub fn described(
         mut self,
         inputs: Vec<String>,
@@ -439,6 +447,7 @@ impl NetworkPolicy {
     ///
     /// `deep::Learner::policy` says it already.
     #[must_use]
+    #[inline]
     pub fn trained(mut self, training: NetworkTraining) -> Self {
         self.0.training.push(training);
         self
@@ -447,6 +456,7 @@ impl NetworkPolicy {
     /// The same policy, saying what it was seen to be worth.
     #[cfg(feature = "std")]
     #[must_use]
+    #[inline]
     pub fn estimated(mut self, estimate: crate::estimate::Estimate) -> Self {
         self.0.estimate = Some(estimate);
         self
@@ -454,18 +464,21 @@ impl NetworkPolicy {
 
     /// All that the policy says.
     #[must_use]
+    #[inline]
     pub const fn document(&self) -> &NetworkDocument {
         &self.0
     }
 
     /// The network.
     #[must_use]
+    #[inline]
     pub const fn network(&self) -> &Network {
         &self.0.network
     }
 
     /// How the task has ended at `q`, if it has.
     #[must_use]
+    #[inline]
     pub fn end(&self, q: u32) -> Option<End> {
         match q {
             q if self.0.automaton.accepting == Some(q) => Some(End::Accepted),
@@ -496,6 +509,7 @@ impl NetworkPolicy {
     /// If `q` is not a state of the automaton.
     #[must_use]
     #[track_caller]
+    #[inline]
     pub fn head(&self, q: u32) -> Option<usize> {
         assert!(q < self.0.automaton.states, "a state of the automaton");
         let live = |&q: &u32| self.end(q).is_none();
@@ -509,6 +523,7 @@ impl NetworkPolicy {
     /// If `q` is not a state of the automaton, or the features do not fit the network.
     #[must_use]
     #[track_caller]
+    #[inline]
     pub fn values(&self, q: u32, inputs: &[f32], entities: &[f32]) -> Vec<f32> {
         let network = self.network();
         match self.head(q) {
@@ -524,16 +539,19 @@ impl NetworkPolicy {
     /// As [`Self::values`].
     #[must_use]
     #[track_caller]
+    #[inline]
     pub fn act(&self, q: u32, inputs: &[f32], entities: &[f32]) -> usize {
         argmax(&self.values(q, inputs, entities))
     }
 }
 
+#[inline]
 fn check_format(found: &String) -> Result<(), NetworkPolicyError> {
     let known = found == NetworkPolicy::FORMAT;
     if known { Ok(()) } else { Err(NetworkPolicyError::Format(found.clone())) }
 }
 
+#[inline]
 fn check_version(found: &u32) -> Result<(), NetworkPolicyError> {
     let known = *found == NetworkPolicy::VERSION;
     if known { Ok(()) } else { Err(NetworkPolicyError::Version(*found)) }

@@ -123,6 +123,7 @@ pub struct Starts {
 impl Starts {
     /// The columns of what [`Optimum::starts`](crate::solve::Optimum::starts) gives.
     #[must_use]
+    #[inline]
     pub fn new(starts: &[Start]) -> Self {
         let mut columns = Self { state: Vec::new(), satisfied: Vec::new(), steps: Vec::new() };
         for start in starts {
@@ -252,6 +253,7 @@ pub enum PolicyError {
 }
 
 impl fmt::Display for PolicyError {
+    #[inline]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Format(found) => {
@@ -283,6 +285,7 @@ impl core::error::Error for PolicyError {}
 impl Document {
     /// In this order: what kind of document it is, then sizes, then entries, then what the entries mean,
     /// each relying on those before; the first error is reported.
+    #[inline]
     pub(super) fn check(&self) -> Result<(), PolicyError> {
         check_format(&self.format)?;
         check_version(&self.version)?;
@@ -300,6 +303,7 @@ impl Document {
         self.check_worth()
     }
 
+    #[inline]
     fn check_worth(&self) -> Result<(), PolicyError> {
         if let Some(certificate) = &self.certificate {
             check_certificate(certificate)?;
@@ -318,6 +322,7 @@ impl Document {
         unsorted.map_or(Ok(()), |at| Err(PolicyError::Order(at + 1)))
     }
 
+    #[inline]
     fn check_sizes(&self) -> Result<(), PolicyError> {
         let n = self.automaton.states as usize;
         nonempty("states", self.states)?;
@@ -332,6 +337,7 @@ impl Document {
     }
 
     /// A policy never acts at an end, so an end with a way out would be a state without a meaning.
+    #[inline]
     fn check_terminal(&self, end: Option<u32>) -> Result<(), PolicyError> {
         let Some(q) = end else { return Ok(()) };
         let row = &self.next[q as usize * self.classes..][..self.classes];
@@ -340,26 +346,31 @@ impl Document {
     }
 }
 
+#[inline]
 fn check_format(found: &String) -> Result<(), PolicyError> {
     let known = found == Policy::FORMAT;
     if known { Ok(()) } else { Err(PolicyError::Format(found.clone())) }
 }
 
+#[inline]
 fn check_version(found: &u32) -> Result<(), PolicyError> {
     let known = *found == Policy::VERSION;
     if known { Ok(()) } else { Err(PolicyError::Version(*found)) }
 }
 
+#[inline]
 fn check_certificate(certificate: &Certificate) -> Result<(), PolicyError> {
     let Certificate { satisfied, optimal_satisfied, steps, .. } = certificate;
     probabilities("certificate.satisfied", &[*satisfied, *optimal_satisfied])?;
     durations("certificate.steps", &[*steps])
 }
 
+#[inline]
 fn nonempty(field: &'static str, found: usize) -> Result<(), PolicyError> {
     if found == 0 { Err(PolicyError::Size { field, found, expected: 0 }) } else { Ok(()) }
 }
 
+#[inline]
 fn size(field: &'static str, found: usize, expected: Option<usize>) -> Result<(), PolicyError> {
     match expected {
         Some(expected) if found == expected => Ok(()),
@@ -381,11 +392,13 @@ fn below<T: Copy + TryInto<usize>>(
 
 /// Whether all are probabilities, within the error of a sum over all starts: a file may come from
 /// another program, which rounds elsewhere.
+#[inline]
 fn probabilities(field: &'static str, values: &[f64]) -> Result<(), PolicyError> {
     let bad = values.iter().position(|p| !(-1e-9..=1.0 + 1e-9).contains(p));
     bad.map_or(Ok(()), |at| Err(PolicyError::Worth { field, at }))
 }
 
+#[inline]
 fn durations(field: &'static str, values: &[Option<f64>]) -> Result<(), PolicyError> {
     let bad =
         values.iter().position(|steps| steps.is_some_and(|steps| steps.is_nan() || steps < 0.0));

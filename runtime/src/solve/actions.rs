@@ -14,11 +14,13 @@ pub(crate) struct Actions {
 
 impl Actions {
     /// No action anywhere.
+    #[inline]
     pub(crate) fn none(pairs: usize, actions: usize) -> Self {
         Self { bits: alloc::vec![0; (pairs * actions).div_ceil(64)], actions }
     }
 
     /// Adds action `a` to the set of `pair`.
+    #[inline]
     pub(crate) fn insert(&mut self, pair: usize, a: usize) {
         let at = pair * self.actions + a;
         self.bits[at / 64] |= 1 << (at % 64);

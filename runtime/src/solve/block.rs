@@ -99,6 +99,7 @@ pub(super) struct Block<'a> {
 
 impl<'a> Block<'a> {
     /// The component of `members`, all actions allowed.
+    #[inline]
     pub(super) fn new(
         problem: &'a Problem,
         members: &[u32],
@@ -111,6 +112,7 @@ impl<'a> Block<'a> {
     }
 
     /// The component of `members` under a policy, undiscounted.
+    #[inline]
     pub(super) fn following(
         problem: &'a Problem,
         members: &[u32],
@@ -125,11 +127,13 @@ impl<'a> Block<'a> {
     /// One automaton state that never moves.
     ///
     /// The paper's Eq. 3A6: progress is paid again and again, and q stays.
+    #[inline]
     pub(super) fn fixed(problem: &'a Problem, q: u32, payment: &'a Payment, discount: f64) -> Self {
         Self { fixed: true, ..Self::new(problem, &[q], payment, discount) }
     }
 
     /// The same component under another payment.
+    #[inline]
     pub(super) fn paying(self, payment: &'a Payment) -> Self {
         Self { payment, ..self }
     }
@@ -149,6 +153,7 @@ impl<'a> Block<'a> {
     }
 
     /// The pairs from which an exit can be reached.
+    #[inline]
     pub(super) fn pairs(&self) -> impl Iterator<Item = usize> {
         let reached = &self.order.pairs[..self.order.reached];
         reached.iter().map(|&(k, s)| self.pair(k, s))
@@ -157,6 +162,7 @@ impl<'a> Block<'a> {
     /// Sets the values to 1 and returns true if success is almost sure from every pair: all can
     /// reach an exit, and every exit is worth 1. (Going to a pair nearer an exit then succeeds
     /// sooner or later.) It saves the sweeps, and is exact.
+    #[inline]
     pub(super) fn succeeds(&self, values: &mut [f64]) -> bool {
         let labelled = &self.problem.task;
         let exits_well = |&q: &u32| {
@@ -178,6 +184,7 @@ impl<'a> Block<'a> {
 
     /// Gives the pairs that can reach an exit first values, and the order of their sweeps; see
     /// [`settle`].
+    #[inline]
     pub(super) fn settled(mut self, values: &mut [f64], rule: &Rule<'_>) -> Self {
         let settled = settle(&self, values, rule);
         self.order.pairs[..settled.pairs.len()].copy_from_slice(&settled.pairs);
@@ -189,6 +196,7 @@ impl<'a> Block<'a> {
     ///
     /// A table that is near the result saves sweeps. It cannot change the result: discounted sweeps
     /// are a contraction, whatever they start from.
+    #[inline]
     pub(super) fn start(&self, values: &mut [f64], table: &QTable) {
         for &(k, s) in &self.order.pairs {
             values[self.pair(k, s)] = table.max(self.members[k as usize], s as usize);
@@ -196,15 +204,18 @@ impl<'a> Block<'a> {
     }
 
     /// The pairs from which an exit can be reached.
+    #[inline]
     pub(super) fn reached_pairs(&self) -> &[(u32, u32)] {
         &self.order.pairs[..self.order.reached]
     }
 
     /// Those of them from which it can be reached in one step, unless they are settled.
+    #[inline]
     pub(super) fn seeds(&self) -> &[(u32, u32)] {
         &self.order.pairs[..self.order.seeds]
     }
 
+    #[inline]
     pub(super) fn states(&self) -> usize {
         self.problem.task.states()
     }
@@ -220,6 +231,7 @@ impl<'a> Block<'a> {
     }
 
     /// What arriving in each state is worth to each member: payment plus discounted value.
+    #[inline]
     pub(super) fn arrivals(&self, values: &[f64]) -> Vec<f64> {
         let labelled = &self.problem.task;
         let mut arrivals = Vec::with_capacity(self.members.len() * self.states());
@@ -234,11 +246,13 @@ impl<'a> Block<'a> {
 
     /// Sweeps until `values` is the fixed point of `rule`; over all pairs, or only those that can
     /// reach an exit.
+    #[inline]
     pub(super) fn sweep(&self, values: &mut [f64], all: bool, rule: &Rule<'_>) {
         self.sweep_at_most(SWEEPS, values, all, rule);
     }
 
     /// The same with a limit; whether it got there.
+    #[inline]
     fn sweep_at_most(&self, limit: usize, values: &mut [f64], all: bool, rule: &Rule<'_>) -> bool {
         let count = if all { self.order.pairs.len() } else { self.order.reached };
         let pairs = &self.order.pairs[..count];
@@ -260,6 +274,7 @@ impl<'a> Block<'a> {
     /// Over-relaxed sweeps of the pairs of which a successor has changed: first in a window that
     /// advances from the exits outwards, then everywhere, while that helps. What they leave, plain
     /// sweeps mend, for over-relaxation alone need not converge.
+    #[inline]
     fn relax(
         &self,
         pairs: &[(u32, u32)],
@@ -287,6 +302,7 @@ impl<'a> Block<'a> {
     }
 
     /// One such sweep over a range of the pairs; the largest difference of a backup.
+    #[inline]
     fn relax_once(
         &self,
         pairs: &[(u32, u32)],
@@ -352,6 +368,7 @@ impl<'a> Block<'a> {
     ///
     /// The rate is taken as at least a half, for one lucky sweep must not end the search; where the
     /// change does not shrink at all the rate is 1 and nothing is ever small enough.
+    #[inline]
     fn is_done(&self, change: f64, before: f64, top: f64) -> bool {
         let shrinks = if before.is_finite() { (change / before).clamp(0.5, 1.0) } else { 1.0 };
         let rate = if self.discount < 1.0 { self.discount } else { shrinks };
@@ -359,6 +376,7 @@ impl<'a> Block<'a> {
     }
 
     /// One pass in order; the largest change, and the largest value.
+    #[inline]
     fn sweep_once(
         &self,
         pairs: &[(u32, u32)],
@@ -397,6 +415,7 @@ impl<'a> Block<'a> {
     ///
     /// The system has one solution because every one of these pairs leaves in the end; pairs that
     /// cannot leave would make it singular, and are not part of it.
+    #[inline]
     pub(super) fn solve(&self, values: &mut [f64], costs: &[f64], policy: &[u32]) {
         let rule = &Rule::Cost { costs, policy };
         let small = self.order.reached <= ELIMINATE;
@@ -411,6 +430,7 @@ impl<'a> Block<'a> {
     /// Unknown i is pair i of the order; what leads out of the component, or to a pair that is not in
     /// the system, is a constant of its equation. I − P is diagonally dominant by rows, the kind of
     /// system on which elimination loses little.
+    #[inline]
     fn eliminate(&self, values: &mut [f64], costs: &[f64], policy: &[u32]) {
         self.pairs().for_each(|pair| values[pair] = 0.0);
         let outside = self.arrivals(values);
@@ -436,6 +456,7 @@ impl<'a> Block<'a> {
     /// −p for each unknown that the pair leads to; at `n`, what it gets from outside.
     ///
     /// `column` has the unknown of each pair of the component, `usize::MAX` for pairs without one.
+    #[inline]
     fn equation(
         &self,
         (k, s): (u32, u32),
@@ -463,6 +484,7 @@ impl<'a> Block<'a> {
 
 /// Solves the equations in place: the last column of each row becomes its unknown. Zeros are skipped,
 /// for a state leads to few others, and rows fill up only as the elimination goes on.
+#[inline]
 fn eliminate(rows: &mut [Vec<f64>]) {
     let n = rows.len();
     for i in 0..n {

@@ -31,6 +31,7 @@ pub struct Values {
 }
 
 impl Values {
+    #[inline]
     pub(super) fn new(problem: &Problem, values: Vec<f64>) -> Self {
         Self { problem: problem.clone(), values }
     }
@@ -41,6 +42,7 @@ impl Values {
     /// If there is no such pair.
     #[must_use]
     #[track_caller]
+    #[inline]
     pub fn at(&self, q: u32, s: usize) -> f64 {
         self.values[self.problem.task.pair(q, s)]
     }
@@ -59,12 +61,14 @@ impl Values {
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
     #[must_use]
+    #[inline]
     pub fn as_slice(&self) -> &[f64] {
         &self.values
     }
 
     /// The mean over the starts, `s_0` read.
     #[must_use]
+    #[inline]
     pub fn mean(&self) -> f64 {
         let starts = self.problem.dynamics.starts();
         self.problem.start_pairs().map(|(s, pair)| starts[s] * self.values[pair]).sum()
@@ -97,18 +101,21 @@ pub struct Evaluation {
 }
 
 impl Evaluation {
+    #[inline]
     pub(super) const fn new(policy: Policy, satisfied: Values, steps: Vec<f64>) -> Self {
         Self { policy, satisfied, steps }
     }
 
     /// The policy.
     #[must_use]
+    #[inline]
     pub const fn policy(&self) -> &Policy {
         &self.policy
     }
 
     /// The probability that the task is satisfied, within any number of steps.
     #[must_use]
+    #[inline]
     pub const fn satisfied(&self) -> &Values {
         &self.satisfied
     }
@@ -120,12 +127,14 @@ impl Evaluation {
     /// If there is no such pair.
     #[must_use]
     #[track_caller]
+    #[inline]
     pub fn steps(&self, q: u32, s: usize) -> Option<f64> {
         finite(self.steps[self.satisfied.problem.task.pair(q, s)])
     }
 
     /// P(satisfied), mean over the starts, `s_0` read.
     #[must_use]
+    #[inline]
     pub fn mean_satisfied(&self) -> f64 {
         self.means().0
     }
@@ -133,11 +142,13 @@ impl Evaluation {
     /// E\[steps\] given success, mean over the starts, `s_0` read; `None` if success is impossible.
     /// Starts count by how often they succeed.
     #[must_use]
+    #[inline]
     pub fn mean_steps(&self) -> Option<f64> {
         finite(self.means().1)
     }
 
     /// Both means; infinite steps if success is impossible.
+    #[inline]
     pub(super) fn means(&self) -> (f64, f64) {
         let problem = &self.satisfied.problem;
         let (mut satisfied, mut weighted) = (0.0, 0.0);
@@ -152,6 +163,7 @@ impl Evaluation {
     }
 
     /// P(satisfied) and E\[steps\] from the pair with a number.
+    #[inline]
     pub(super) fn at_pair(&self, pair: usize) -> (f64, Option<f64>) {
         (self.satisfied.values[pair], finite(self.steps[pair]))
     }
@@ -159,12 +171,14 @@ impl Evaluation {
 
 impl Problem {
     /// The states in which an episode can start, with their pairs once they are read.
+    #[inline]
     pub(super) fn start_pairs(&self) -> impl Iterator<Item = (usize, usize)> {
         let starts = self.dynamics.starts().iter().enumerate().filter(|&(_, &weight)| weight > 0.0);
         starts.map(|(s, _)| (s, self.task.pair(self.task.start(s), s)))
     }
 }
 
+#[inline]
 pub(super) fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
 }

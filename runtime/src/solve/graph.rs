@@ -20,6 +20,7 @@ use crate::reward::End;
 /// Ends are no components: their values are known, for nothing is paid after them. Tarjan's
 /// algorithm closes a component only after all that it leads to, so its numbers are the order.
 /// Without recursion, for a deadline of ten thousand steps is a path of as many states.
+#[inline]
 pub(super) fn components(labelled: &Labelled) -> Vec<Vec<u32>> {
     let n = labelled.automaton_states() as usize;
     let mut search = Tarjan {
@@ -59,6 +60,7 @@ struct Tarjan<'a> {
 impl Tarjan<'_> {
     /// Searches from `root`. `path` holds each state on the way down with the next of its moves to
     /// look at, as the call stack would.
+    #[inline]
     fn visit(&mut self, root: u32) {
         let mut path = alloc::vec![(root, 0)];
         self.enter(root);
@@ -84,6 +86,7 @@ impl Tarjan<'_> {
     }
 
     /// Numbers a state that is met for the first time.
+    #[inline]
     fn enter(&mut self, q: u32) {
         self.index[q as usize] = self.entered;
         self.low[q as usize] = self.entered;
@@ -93,6 +96,7 @@ impl Tarjan<'_> {
 
     /// Hands `low` up to the parent, and closes the component if `q` is the first of it that was
     /// entered: then the component is what stands on the stack from there on.
+    #[inline]
     fn leave(&mut self, q: u32, parent: Option<u32>) {
         if let Some(parent) = parent {
             let low = self.low[q as usize];
@@ -130,6 +134,7 @@ pub(super) struct Order {
 /// which such a move is one step away. The trap is no exit, for nothing can be had there. A
 /// breadth-first search, whose queue is the list of the pairs found so far; cost: one look at each
 /// predecessor of each pair, and under a policy one binary search for its action's outcome.
+#[inline]
 pub(super) fn order(problem: &Problem, members: &[u32], policy: Option<&[u32]>) -> Order {
     let Problem { dynamics, task: labelled, .. } = problem;
     let (first, list) = &*problem.predecessors;

@@ -75,12 +75,14 @@ impl Problem {
     ///
     /// # Errors
     /// If they have different numbers of states or actions.
+    #[inline]
     pub fn new(dynamics: &Dynamics, task: &Labelled) -> Result<Self, Mismatch> {
         task.check_world("dynamics", dynamics.states(), dynamics.actions())?;
         Ok(Self::of_own_world(dynamics.clone(), task.clone()))
     }
 
     /// The same where the sizes are known to fit.
+    #[inline]
     pub(crate) fn of_own_world(dynamics: Dynamics, task: Labelled) -> Self {
         let predecessors = Arc::new(dynamics.predecessors());
         let components = graph::components(&task).into();
@@ -89,12 +91,14 @@ impl Problem {
 
     /// The world.
     #[must_use]
+    #[inline]
     pub const fn dynamics(&self) -> &Dynamics {
         &self.dynamics
     }
 
     /// The task.
     #[must_use]
+    #[inline]
     pub const fn task(&self) -> &Labelled {
         &self.task
     }
@@ -115,6 +119,7 @@ impl Problem {
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
     #[must_use]
+    #[inline]
     pub fn optimum(&self, rewards: &Rewards) -> Optimum {
         Optimum::new(self.clone(), rewards)
     }
@@ -139,12 +144,14 @@ impl Problem {
     /// If the rewards need ρ and the task is labelled without it.
     #[must_use]
     #[track_caller]
+    #[inline]
     pub fn optimal_q(&self, rewards: &Rewards) -> QTable {
         self.optimal_q_of(&self.task.payment(rewards), rewards.gamma(), None)
     }
 
     /// The same for any payment; `start` saves sweeps if it is near the result. (Whatever it is, the
     /// result is the same: the sweeps are a contraction.)
+    #[inline]
     pub(crate) fn optimal_q_of(
         &self,
         payment: &Payment,
@@ -156,6 +163,7 @@ impl Problem {
     }
 
     /// The flat action values Q^π of a policy of this problem, for any payment.
+    #[inline]
     pub(crate) fn policy_q(&self, payment: &Payment, gamma: f64, policy: &Policy) -> QTable {
         let values = self.discounted(payment, gamma, None, &Rule::Follow(policy.table()));
         self.action_values(&self.arrivals(payment, gamma, &values))
@@ -184,6 +192,7 @@ impl Problem {
     /// As [`Self::optimal_q`].
     #[must_use]
     #[track_caller]
+    #[inline]
     pub fn sub_policy_q(&self, rewards: &Rewards) -> QTable {
         let (payment, gamma) = (self.task.payment(rewards), rewards.gamma());
         let mut values = alloc::vec![0.0; self.task.pairs()];
@@ -214,6 +223,7 @@ impl Problem {
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
     #[must_use]
+    #[inline]
     pub fn best(&self) -> Evaluation {
         let accept = self.acceptance();
         let satisfied = self.reach(&accept);
@@ -225,6 +235,7 @@ impl Problem {
 
     /// The largest possible P(satisfied), to 1e-10: 1 at the accepting state, 0 at the trap.
     #[must_use]
+    #[inline]
     pub fn largest_satisfied(&self) -> Values {
         let mut satisfied = self.reach(&self.acceptance());
         self.set_end(End::Accepted, &mut satisfied, 1.0);
@@ -249,6 +260,7 @@ impl Problem {
     ///
     /// # Errors
     /// If it is a policy for another task or another world.
+    #[inline]
     pub fn evaluate(&self, policy: &Policy) -> Result<Evaluation, Mismatch> {
         policy.must_be_for(&self.task)?;
         let actions = policy.table();
@@ -267,6 +279,7 @@ impl Problem {
     ///
     /// # Errors
     /// If it is a policy for another task or another world.
+    #[inline]
     pub fn lost(&self, policy: &Policy) -> Result<Values, Mismatch> {
         policy.must_be_for(&self.task)?;
         let mut lost = self.lost_by(&self.entering(End::Lost), &Rule::Follow(policy.table()));
@@ -294,6 +307,7 @@ impl Problem {
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
     #[must_use]
+    #[inline]
     pub fn smallest_lost(&self) -> Values {
         let mut lost = self.lost_by(&self.entering(End::Lost), &Rule::Least);
         self.set_end(End::Lost, &mut lost, 1.0);
@@ -301,6 +315,7 @@ impl Problem {
     }
 
     /// The actions with which P(the trap is ever entered) can stay `lost`, within 1e-9.
+    #[inline]
     pub(crate) fn avoiding(&self, lost: &Values) -> Actions {
         let lost = lost.as_slice();
         let mut avoiding = Actions::none(self.task.pairs(), self.dynamics.actions());
@@ -317,6 +332,7 @@ impl Problem {
 
     /// Sweeps from 0, which is below: the least fixed point, for being lost needs an entry into the
     /// trap, and a cycle that never enters it must not count.
+    #[inline]
     fn lost_by(&self, trapped: &Payment, rule: &Rule<'_>) -> Vec<f64> {
         let mut values = self.zeros();
         for members in self.components.iter() {
@@ -325,33 +341,39 @@ impl Problem {
         values
     }
 
+    #[inline]
     fn paid(&self, payment: &Payment, q: u32, s: usize) -> f64 {
         payment.get(q, s, self.task.tables().class[s])
     }
 
     /// Pays 1 for entering the accepting state: its undiscounted value is P(satisfied), as that of
     /// reachability in a Markov decision process (Baier and Katoen 2008, chapter 10).
+    #[inline]
     fn acceptance(&self) -> Payment {
         self.entering(End::Accepted)
     }
 
     /// Pays 1 for entering an end.
+    #[inline]
     fn entering(&self, end: End) -> Payment {
         let of = |q| self.task.end(q);
         let pays = |q, to| f64::from(u8::from(of(q).is_none() && of(to) == Some(end)));
         self.task.payment_by(&pays)
     }
 
+    #[inline]
     fn nothing(&self) -> Payment {
         self.task.payment_by(&|_, _| 0.0)
     }
 
     /// 0 at every pair: at terminal ones, that is their value.
+    #[inline]
     fn zeros(&self) -> Vec<f64> {
         alloc::vec![0.0; self.task.pairs()]
     }
 
     /// Values by sweeps, from `start` or from estimates.
+    #[inline]
     fn discounted(
         &self,
         payment: &Payment,
@@ -371,6 +393,7 @@ impl Problem {
     }
 
     /// The largest possible P(satisfied).
+    #[inline]
     fn reach(&self, accept: &Payment) -> Vec<f64> {
         let mut values = self.zeros();
         for members in self.components.iter() {
@@ -386,6 +409,7 @@ impl Problem {
     /// Least Σ steps · 1(success) with the actions that are `safe`: divided by P(success) it is
     /// E\[steps\] given success. Pairs from which success is impossible take no part, for there every
     /// number of steps would do.
+    #[inline]
     fn fewest_steps(&self, satisfied: &[f64], safe: &Actions) -> Vec<f64> {
         let (mut values, nothing) = (self.zeros(), self.nothing());
         let rule = &Rule::LeastCost { costs: satisfied, safe };
@@ -398,6 +422,7 @@ impl Problem {
     }
 
     /// For each pair the safe action of the least cost.
+    #[inline]
     fn fewest(&self, cost: &[f64], safe: &Actions) -> Vec<u32> {
         let mut policy = alloc::vec![0; self.task.pairs()];
         self.backups(&self.arrivals(&self.nothing(), 1.0, cost), &mut |q, s, actions| {
@@ -411,6 +436,7 @@ impl Problem {
 
     /// The actions within 1e-9 of the largest P: ties are common, and rounding must not break them
     /// before the steps do.
+    #[inline]
     fn safe(&self, accept: &Payment, satisfied: &[f64]) -> Actions {
         let mut safe = Actions::none(self.task.pairs(), self.dynamics.actions());
         self.backups(&self.arrivals(accept, 1.0, satisfied), &mut |q, s, actions| {
@@ -425,6 +451,7 @@ impl Problem {
     }
 
     /// What reading `s` at `q` is worth: payment plus discounted value.
+    #[inline]
     fn arrivals(
         &self,
         payment: &Payment,
@@ -439,6 +466,7 @@ impl Problem {
 
     /// One backup of every action at every live pair: `visit(q, s, values)`. What arriving is worth is
     /// gathered once for each q, so that a pair reads its successors from one row.
+    #[inline]
     fn backups(
         &self,
         arrival: &dyn Fn(u32, usize) -> f64,
@@ -460,6 +488,7 @@ impl Problem {
     }
 
     /// Q(s, q, a) = E\[arrival(q, s')\].
+    #[inline]
     fn action_values(&self, arrival: &dyn Fn(u32, usize) -> f64) -> QTable {
         let mut table = QTable::zeros(&self.task);
         self.backups(arrival, &mut |q, s, row| table.row_mut(q, s).copy_from_slice(row));
@@ -467,6 +496,7 @@ impl Problem {
     }
 
     /// `satisfied` times the steps to satisfaction is `weighted`.
+    #[inline]
     fn evaluation(&self, policy: Policy, mut satisfied: Vec<f64>, weighted: &[f64]) -> Evaluation {
         let steps = |(&w, &p): (&f64, &f64)| if p > 0.0 { w / p } else { f64::NAN };
         let mut steps: Vec<f64> = weighted.iter().zip(&satisfied).map(steps).collect();
@@ -476,6 +506,7 @@ impl Problem {
     }
 
     /// Sets the values at an end.
+    #[inline]
     fn set_end(&self, end: End, values: &mut [f64], value: f64) {
         for q in 0..self.task.automaton_states() {
             if self.task.end(q) == Some(end) {

@@ -42,6 +42,7 @@ pub struct Optimum {
 }
 
 impl Optimum {
+    #[inline]
     pub(super) fn new(problem: Problem, rewards: &Rewards) -> Self {
         Self { q: problem.optimal_q(rewards), best: problem.best(), problem }
     }
@@ -63,6 +64,7 @@ impl Optimum {
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
     #[must_use]
+    #[inline]
     pub fn with_rewards(&self, rewards: &Rewards) -> Self {
         let (problem, best) = (self.problem.clone(), self.best.clone());
         Self { q: problem.optimal_q(rewards), best, problem }
@@ -70,18 +72,21 @@ impl Optimum {
 
     /// The problem.
     #[must_use]
+    #[inline]
     pub const fn problem(&self) -> &Problem {
         &self.problem
     }
 
     /// The optimal action values Q* for the rewards.
     #[must_use]
+    #[inline]
     pub const fn q(&self) -> &QTable {
         &self.q
     }
 
     /// The best policy for the task itself: see [`Problem::best`].
     #[must_use]
+    #[inline]
     pub const fn best(&self) -> &Evaluation {
         &self.best
     }
@@ -90,6 +95,7 @@ impl Optimum {
     ///
     /// # Errors
     /// If it is a policy for another task or another world.
+    #[inline]
     pub fn certify(&self, policy: &Policy) -> Result<Certificate, Mismatch> {
         let own = self.problem.evaluate(policy)?;
         let (satisfied, steps) = own.means();
@@ -127,6 +133,7 @@ impl Optimum {
     ///
     /// # Errors
     /// If it is a policy for another task or another world.
+    #[inline]
     pub fn starts(&self, policy: &Policy) -> Result<Vec<Start>, Mismatch> {
         let own = self.problem.evaluate(policy)?;
         let start = |(state, pair)| {
@@ -157,6 +164,7 @@ impl Optimum {
     ///
     /// # Errors
     /// If it is a policy for another task or another world.
+    #[inline]
     pub fn mistakes(&self, policy: &Policy) -> Result<Vec<Mistake>, Mismatch> {
         let task = self.problem.task();
         policy.must_be_for(task)?;
@@ -179,6 +187,7 @@ impl Optimum {
     ///
     /// # Errors
     /// If it is a policy for another task or another world.
+    #[inline]
     pub fn fraction_optimal(&self, policy: &Policy) -> Result<f64, Mismatch> {
         self.fraction_optimal_at(self.problem.task().live(), policy)
     }
@@ -221,6 +230,7 @@ impl Optimum {
         Ok(if pairs == 0 { 1.0 } else { optimal as f64 / pairs as f64 })
     }
 
+    #[inline]
     fn worst_regret(&self, own: &Evaluation) -> f64 {
         let mut worst: f64 = 0.0;
         for (_, pair) in self.problem.start_pairs() {

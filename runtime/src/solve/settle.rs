@@ -53,6 +53,7 @@ struct Blend {
 }
 
 impl Lookahead<'_> {
+    #[inline]
     fn blend(&self, action: usize) -> Blend {
         let n = self.arrivals.len();
         let row = &self.matrix[action * n..][..n];
@@ -71,6 +72,7 @@ impl Lookahead<'_> {
         blend
     }
 
+    #[inline]
     fn actions(&self) -> usize {
         self.matrix.len() / self.arrivals.len()
     }
@@ -79,6 +81,7 @@ impl Lookahead<'_> {
     ///
     /// With the probability m of what is known and Σ p · arrival over it, v = Σ + γ (1 − m) v, so
     /// v = Σ / (1 − γ (1 − m)). The same factor is how far to over-relax.
+    #[inline]
     pub(super) fn discounted(&self, action: usize, gamma: f64) -> Guess {
         let blend = self.blend(action);
         if blend.known <= 0.0 {
@@ -91,6 +94,7 @@ impl Lookahead<'_> {
     /// The largest discounted value of the actions.
     ///
     /// Comparisons with NaN are false, and [`Guess::or`] then keeps the one that is known.
+    #[inline]
     pub(super) fn best(&self, gamma: f64) -> Guess {
         let all = (0..self.actions()).map(|a| self.discounted(a, gamma));
         all.fold(Guess::NONE, |best, e| if e.value <= best.value { best } else { e.or(best) })
@@ -98,6 +102,7 @@ impl Lookahead<'_> {
 
     /// Undiscounted cost of an action that pays `cost` now: what is not known costs as much more
     /// than the state itself as the state costs more than its main known successor.
+    #[inline]
     pub(super) fn cost(&self, action: usize, cost: f64) -> Guess {
         let blend = self.blend(action);
         let unknown = 1.0 - blend.known - blend.own;
@@ -134,6 +139,7 @@ impl Guess {
     pub(super) const NONE: Self = Self { value: f64::NAN, over: 1.0 };
 
     /// This one, if it is one.
+    #[inline]
     fn or(self, other: Self) -> Self {
         if self.value.is_nan() { other } else { self }
     }
@@ -161,18 +167,21 @@ struct Waiting {
 }
 
 impl Ord for Waiting {
+    #[inline]
     fn cmp(&self, other: &Self) -> Ordering {
         other.key.total_cmp(&self.key).then(other.pair.cmp(&self.pair))
     }
 }
 
 impl PartialOrd for Waiting {
+    #[inline]
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
 impl PartialEq for Waiting {
+    #[inline]
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other).is_eq()
     }
@@ -206,6 +215,7 @@ struct Front<'a> {
 
 impl Front<'_> {
     /// Renews the estimate of an open pair.
+    #[inline]
     fn relax(&mut self, (k, s): (u32, u32), values: &mut [f64]) {
         let block = self.block;
         let dynamics = &block.problem.dynamics;
@@ -228,6 +238,7 @@ impl Front<'_> {
     }
 
     /// Makes the value of a pair known to all that lead to it.
+    #[inline]
     fn settle(&mut self, (k, s): (u32, u32), values: &mut [f64]) {
         let block = self.block;
         let (first, list) = &*block.problem.predecessors;
@@ -257,6 +268,7 @@ impl Front<'_> {
 ///
 /// Pairs of which nothing ever becomes known (all their ways lead through pairs that no rule
 /// settles) come last, with the value of the last settled one: a start that is not absurd.
+#[inline]
 pub(super) fn settle(block: &Block<'_>, values: &mut [f64], rule: &Rule<'_>) -> Settled {
     let pairs = block.reached_pairs();
     let mut stage = alloc::vec![Stage::Outside; block.members.len() * block.states()];
