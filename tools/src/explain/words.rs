@@ -40,6 +40,27 @@ fn states(spec: &Spec) -> Vec<bool> {
     state
 }
 
+/// So many steps.
+fn steps(n: u32) -> String {
+    format!("{n} step{}", if n == 1 { "" } else { "s" })
+}
+
+/// The instants of `F[first, first + length]`.
+fn some(first: u64, length: u32) -> String {
+    match first {
+        0 => format!("at some instant within {}", steps(length)),
+        _ => format!("at some instant {first} to {} steps later", first + u64::from(length)),
+    }
+}
+
+/// The instants of `G[first, first + length]`.
+fn every(first: u64, length: u32) -> String {
+    match first {
+        0 => format!("at every instant from now to {} later", steps(length)),
+        _ => format!("at every instant {first} to {} steps later", first + u64::from(length)),
+    }
+}
+
 /// A formula that is being retold.
 struct Words<'a> {
     spec: &'a Spec,
@@ -53,6 +74,10 @@ impl Words<'_> {
             return lines.push(format!("{}{before}{sentence}", "  ".repeat(depth)));
         }
         let mut head = |text: &str| lines.push(format!("{}{before}{text}", "  ".repeat(depth)));
+        if let Some((when, part)) = self.window(id) {
+            head(&format!("{when}:"));
+            return self.tell(part, "- ", depth + 1, lines);
+        }
         let parts: Vec<(FormulaId, &str)> = match self.spec.formula(id) {
             Formula::And(..) => {
                 head("all of these:");
@@ -62,24 +87,8 @@ impl Words<'_> {
                 head("one of these:");
                 self.chain(id).into_iter().map(|part| (part, "- ")).collect()
             }
-            Formula::Next(a) => {
-                head("at the next instant:");
-                vec![(a, "- ")]
-            }
-            Formula::Delay(n, a) => {
-                head(&format!("{n} instants later:"));
-                vec![(a, "- ")]
-            }
-            Formula::Within(n, a) => {
-                head(&format!("at one of the first {} instants, from then on:", u64::from(n) + 1));
-                vec![(a, "- ")]
-            }
-            Formula::Throughout(n, a) => {
-                head(&format!("at each of the first {} instants:", u64::from(n) + 1));
-                vec![(a, "- ")]
-            }
             Formula::UntilWithin(n, a, b) => {
-                head(&format!("these two, within {} instants:", u64::from(n) + 1));
+                head(&format!("these two, within {}:", steps(n)));
                 vec![(b, "- at some instant: "), (a, "- at every instant before that: ")]
             }
             Formula::Eventually(a) => {
@@ -94,7 +103,8 @@ impl Words<'_> {
                 head("in this order:");
                 vec![(a, "- first: "), (self.goal(b), "- strictly later: ")]
             }
-            Formula::True | Formula::False | Formula::Literal { .. } => Vec::new(),
+            // Windows are told above, conditions as a sentence.
+            _ => Vec::new(),
         };
         for (part, mark) in parts {
             self.tell(part, mark, depth + 1, lines);
@@ -108,39 +118,41 @@ impl Words<'_> {
         }
         let simple = |a: FormulaId| self.is_state(a).then(|| self.condition(a));
         match self.spec.formula(id) {
-            Formula::Next(a) => self.next(a, 1),
-            Formula::Delay(n, a) => self.next(a, n as usize),
             Formula::Eventually(a) => simple(a).map(|a| format!("at some instant {a}")),
-            Formula::Within(n, a) => {
-                Some(format!("at one of the first {} instants {}", u64::from(n) + 1, simple(a)?))
-            }
-            Formula::Throughout(n, a) => {
-                Some(format!("at each of the first {} instants {}", u64::from(n) + 1, simple(a)?))
-            }
             Formula::UntilWithin(n, a, b) => {
                 let (a, b) = (simple(a)?, simple(b)?);
-                let n = u64::from(n) + 1;
-                Some(format!(
-                    "{a}, at every instant until {b}, which must come within {n} instants"
-                ))
+                let within = steps(n);
+                Some(format!("{a}, at every instant until {b}, which must come within {within}"))
             }
             Formula::Until(a, b) => {
                 let (a, b) = (simple(a)?, simple(b)?);
                 Some(format!("{a}, at every instant until {b}, which must come"))
             }
             Formula::Then(..) => self.order(id),
-            _ => None,
+            _ => {
+                let (when, a) = self.window(id)?;
+                simple(a).map(|a| format!("{when} {a}"))
+            }
         }
     }
 
-    /// Nested `X` as one number of instants: `X X a` is "2 instants later a".
-    fn next(&self, a: FormulaId, instants: usize) -> Option<String> {
-        match self.spec.formula(a) {
-            Formula::Next(b) => self.next(b, instants + 1),
-            Formula::Delay(n, b) => self.next(b, instants + n as usize),
-            _ if !self.is_state(a) => None,
-            _ if instants == 1 => Some(format!("at the next instant {}", self.condition(a))),
-            _ => Some(format!("{instants} instants later {}", self.condition(a))),
+    /// The instants that an operator with a bound is about, and its operand: `X X a` is "2 instants
+    /// later a", `X F[0,2] a` "at some instant 1 to 3 steps later a".
+    fn window(&self, id: FormulaId) -> Option<(String, FormulaId)> {
+        let (mut first, mut at) = (0_u64, id);
+        loop {
+            (first, at) = match self.spec.formula(at) {
+                Formula::Next(a) => (first + 1, a),
+                Formula::Delay(n, a) => (first + u64::from(n), a),
+                Formula::Within(n, a) => return Some((some(first, n), a)),
+                Formula::Throughout(n, a) => return Some((every(first, n), a)),
+                _ => break,
+            };
+        }
+        match first {
+            0 => None,
+            1 => Some(("at the next instant".to_owned(), at)),
+            _ => Some((format!("{first} instants later"), at)),
         }
     }
 
@@ -209,6 +221,42 @@ impl Words<'_> {
                 [open(a), open(b)].concat()
             }
             _ => vec![id],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tltl_compiler::check;
+    use tltl_compiler::source::Source;
+
+    #[test]
+    fn bounds_are_told_in_steps() {
+        for (formula, words) in [
+            ("X X a", &["2 instants later a"][..]),
+            ("F[0,1] a", &["at some instant within 1 step a"]),
+            ("F[2,5] a", &["at some instant 2 to 5 steps later a"]),
+            ("G[0,2] a", &["at every instant from now to 2 steps later a"]),
+            ("X G[0,2] F a", &["at every instant 1 to 3 steps later:", "  - at some instant a"]),
+            (
+                "X[3] (a U b)",
+                &["3 instants later:", "  - a, at every instant until b, which must come"],
+            ),
+            ("a U[0,4] b", &["a, at every instant until b, which must come within 4 steps"]),
+            (
+                "(F a) U[<=1] b",
+                &[
+                    "these two, within 1 step:",
+                    "  - at some instant: b",
+                    "  - at every instant before that: at some instant a",
+                ],
+            ),
+            ("F a ensuring !b", &["not b, at every instant until a and not b, which must come"]),
+            ("F (p <=> q)", &["at some instant (p and q) or (not p and not q)"]),
+        ] {
+            let module = check::formula(&Source::new("formula", formula)).unwrap();
+            assert_eq!(retell(&module.tasks[0].spec), words, "{formula}");
         }
     }
 }
