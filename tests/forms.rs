@@ -74,7 +74,7 @@ fn a_trace_of_a_difference_is_judged_as_told() {
         for second in formulas {
             let pair = [automaton(first), automaton(second)];
             let found = diff::diff(&pair[0], &pair[1]);
-            let diff::Difference::Trace { trace, first: one, second: two } = found else {
+            let diff::Difference::Trace { trace, first: one, second: two, .. } = found else {
                 assert_eq!(first, second);
                 continue;
             };

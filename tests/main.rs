@@ -4,6 +4,7 @@ mod batch;
 mod bounded;
 mod columns;
 mod corpus;
+mod differences;
 mod emitted;
 mod evaluate;
 mod factored;

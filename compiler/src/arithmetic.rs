@@ -118,6 +118,23 @@ impl Possible {
         self.letters == Bdd::TRUE
     }
 
+    /// The letters as a function in another diagram, whose level i is proposition i.
+    ///
+    /// ```
+    /// use tltl_compiler::{arithmetic, bdd::Diagram, check, source::Source};
+    ///
+    /// let module = check::formula(&Source::new("formula", "F (x < 3) && F (x > 5)"))?;
+    /// let possible = arithmetic::possible(&module, &module.tasks[0]);
+    /// let mut diagram = Diagram::default();
+    /// let letters = possible.letters(&mut diagram);
+    /// assert_eq!(diagram.evaluate(letters, &|_| true), 0, "not both");
+    /// # Ok::<(), tltl_compiler::error::Errors>(())
+    /// ```
+    #[must_use]
+    pub fn letters(&self, diagram: &mut Diagram) -> Bdd {
+        diagram.import(&self.diagram, self.letters)
+    }
+
     /// For each proposition whether it can be true, and whether it can be false. Linear in the
     /// diagram.
     #[must_use]
@@ -195,7 +212,7 @@ impl Possible {
     #[must_use]
     pub fn restrict(&self, dfa: &Dfa) -> Dfa {
         let mut diagram = dfa.diagram.clone();
-        let letters = diagram.import(&self.diagram, self.letters);
+        let letters = self.letters(&mut diagram);
         let roots: Vec<Bdd> =
             dfa.transitions.iter().map(|&root| diagram.constrain(root, letters)).collect();
         let (diagram, transitions) = diagram.map_leaves(&roots, &Bdd::leaf);

@@ -101,7 +101,9 @@ enum Command {
     },
     /// Tells whether two tasks mean the same; if not, shows a shortest trajectory between them.
     ///
-    /// Propositions are the same if they have the same name.
+    /// A predicate is its definition: a name equals what it stands for, and two versions of a file
+    /// that give one name two meanings differ. Names of a bare formula, and of an automaton in HOA,
+    /// are those of the other side.
     Diff {
         /// A formula, a task file with one task, FILE:TASK, or an automaton in HOA.
         #[arg(value_name = "FORMULA|FILE[:TASK]")]

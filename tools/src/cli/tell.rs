@@ -1,10 +1,9 @@
 //! `tltlc explain` and `tltlc diff`.
 
-use tltl_compiler::dfa::Dfa;
 use tltl_compiler::error::Style;
 use tltl_compiler::translate::Budget;
 
-use crate::diff::{Difference, diff};
+use crate::diff::{Difference, Side, of_definitions};
 use crate::explain::{Explanation, explain as explanation, explain_automaton};
 
 use super::streams::shown;
@@ -43,17 +42,20 @@ pub(super) fn difference(first: &str, second: &str, streams: &mut Streams<'_>) -
     else {
         return Ok(Exit::Mistaken);
     };
-    let found = diff(automaton(&first)?, automaton(&second)?);
+    let found = of_definitions(side(&first)?, side(&second)?);
     streams.print(&found.to_string())?;
     Ok(Exit::of(found == Difference::None))
 }
 
-/// The automaton of a subject, after arithmetic.
-fn automaton(subject: &Subject) -> Result<&Dfa, String> {
-    match subject {
-        Subject::Task(entry) => subject::automata(entry).map(|automata| &automata.dfa),
-        Subject::Automaton(automaton) => Ok(&automaton.dfa),
-    }
+/// A subject as a side of a comparison, with its automaton after arithmetic.
+fn side(subject: &Subject) -> Result<Side<'_>, String> {
+    Ok(match subject {
+        Subject::Task(entry) => {
+            let module = &entry.file().compiled().module;
+            Side::Task(module, entry.task(), &subject::automata(entry)?.dfa)
+        }
+        Subject::Automaton(automaton) => Side::Automaton(&automaton.dfa),
+    })
 }
 
 /// The text with its headings in bold on a terminal. Headings are the lines that are not indented.
