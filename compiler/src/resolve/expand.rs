@@ -131,9 +131,11 @@ fn constants_first(resolved: &Resolved<'_>) -> (Vec<usize>, Vec<usize>) {
 
 /// The item that a node names.
 fn used(resolved: &Resolved<'_>, node: NodeId) -> Option<Use> {
-    let is_name = matches!(resolved.ast.node(node), Node::Name);
-    let item = resolved.scope.item(resolved.ast.text(node)).filter(|_| is_name)?;
-    Some((item, resolved.ast.span(node)))
+    // Only the text of a name is short: that of an operator is all of its operands.
+    if !matches!(resolved.ast.node(node), Node::Name) {
+        return None;
+    }
+    Some((resolved.scope.item(resolved.ast.text(node))?, resolved.ast.span(node)))
 }
 
 /// The quantifiers of an expression that stand inside no other, last one first, each with its first
