@@ -6,14 +6,14 @@ use std::ops::RangeInclusive;
 
 use proptest::prelude::*;
 use tltl::{Acceptor, Monitor, robustness};
-use tltl_compiler::check;
 use tltl_compiler::dfa::Dfa;
 use tltl_compiler::minimize::minimize;
 use tltl_compiler::source::{Source, Span};
 use tltl_compiler::spec::{Formula, FormulaId, Spec};
-use tltl_compiler::translate::{Budget, translate};
+use tltl_compiler::translate::{Budget, states_of_bound, translate};
+use tltl_compiler::{check, compile};
 use tltlc::evaluate::{Columns, Evaluator, Scratch};
-use tltlc::task::compile;
+use tltlc::task;
 use tltlc::{semantics, tables};
 
 use crate::corpus;
@@ -266,7 +266,7 @@ proptest! {
     #[test]
     fn engines_give_the_robustness_of_the_definitions(bytes in bytes(), trace in traces()) {
         let (tree, spec) = chosen(&bytes, false);
-        let task = compile(&spec.to_string(), Budget::SHOWN).unwrap();
+        let task = task::compile(&spec.to_string(), Budget::SHOWN).unwrap();
         let names: Vec<_> = task.inputs().iter().map(|input| input.name.as_str().into()).collect();
         let places = random::places(&names);
         let rows: Vec<Vec<f64>> =
@@ -291,9 +291,12 @@ proptest! {
     fn automata_are_those_of_bounds_written_out(bytes in bytes()) {
         let (_, spec) = chosen(&bytes, true);
         let [bounded, plain] = [&spec, &written_out(&spec)].map(minimal);
-        prop_assert_eq!(bounded.transitions, plain.transitions, "{}", spec);
+        prop_assert_eq!(&bounded.transitions, &plain.transitions, "{}", spec);
         prop_assert_eq!(bounded.diagram.nodes(), plain.diagram.nodes(), "{}", spec);
         prop_assert_eq!(bounded.accepting, plain.accepting);
+        if let Some(states) = states_of_bound(&spec, Budget::SHOWN) {
+            prop_assert_eq!(states, plain.len() as u64, "{}", spec);
+        }
     }
 
     #[test]
@@ -302,6 +305,48 @@ proptest! {
         let holds = |p: u32, t: usize| trace[t][p as usize] > 0.0;
         let found = semantics::satisfied(&spec, trace.len(), holds);
         prop_assert_eq!(found, tree.rho(&trace, 0) > 0.0, "{:?} as {}", tree, spec);
+    }
+}
+
+/// Bounds of thousands, within the limits of the macros and beyond: the states, or why not.
+#[test]
+fn large_bounds_are_answered() {
+    for (formula, expected) in [
+        ("F[0,10000] a", "10003"),
+        ("G[0,10000] a", "10003"),
+        ("X[10000] a", "10003"),
+        ("a U[0,10000] b", "10003"),
+        ("F[2000,12000] a", "12003"),
+        ("F[0,1000] a && F[0,1000] b && F[0,1000] c", "7003"),
+        ("F[0,10000] a && G[0,5] b", "10008"),
+        ("F[0,100] G[0,100] a", "5153"),
+        ("G[0,100] F[0,100] a", "5153"),
+        ("(a T X[317] F[1771,4440] !a) T a", "4182"),
+        ("F[0,100000] a", "the automaton of the formula needs 100003 states, more than 16384"),
+        ("a U[7,4000000007] b", "the automaton of the formula needs more than 16384 states"),
+        (
+            "X[50000] G[0,50000] a",
+            "the automaton of the formula needs 100003 states, more than 16384",
+        ),
+        (
+            "F[0,4000000000] a && F[0,4000000000] b",
+            "the automaton of the formula needs more than 16384 states",
+        ),
+        (
+            "F[0,1000] (a && F[0,1000] b)",
+            "the automaton of the formula needs more than 16384 states",
+        ),
+        ("G[0,1000] (a || X[1000] b)", "the automaton of the formula needs more than 16384 states"),
+        (
+            "(F[0,2536] b) T G[26949,34782] a",
+            "the automaton of the formula needs more than 1048576 nodes",
+        ),
+    ] {
+        let found = match compile::formula(&Source::new("formula", formula), Budget::EMITTED) {
+            Ok(compiled) => compiled.automata[0].dfa.len().to_string(),
+            Err(errors) => errors.first().message().to_owned(),
+        };
+        assert_eq!(found, expected, "{formula}");
     }
 }
 

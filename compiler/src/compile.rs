@@ -318,8 +318,9 @@ fn exceeds(task: &Task, budget: Budget, exceeded: Exceeded) -> Error {
 /// The place of a subformula whose own automaton exceeds the budget, while those of its operands do
 /// not.
 ///
-/// Each translation can cost the whole budget, so the subformulas are not tried one by one. The
-/// path down into the larger operand is searched by halving for its last subformula that exceeds
+/// Each translation can cost the whole budget, so the subformulas are not tried one by one, and what
+/// needs an eighth of the nodes counts as too large: the search costs little more than the failure
+/// that led to it. The path down into the larger operand is searched by halving for its last subformula that exceeds
 /// the budget; then the smaller operand beside the path is tried, and if it exceeds the budget too,
 /// the search starts again there. Operands at least halve with each such step to the side, so n
 /// operators make O(log² n) translations.
@@ -336,6 +337,7 @@ fn culprit(spec: &Spec, budget: Budget) -> Span {
     let larger =
         |id: FormulaId| spec.formula(id).operands().max_by_key(|part| sizes[part.0 as usize]);
     let mut part = spec.clone();
+    let budget = Budget { nodes: budget.nodes / 8, ..budget };
     let mut is_guilty = |id: FormulaId| {
         part.set_root(id);
         translate(&part, budget).is_err()

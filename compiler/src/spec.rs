@@ -308,6 +308,10 @@ impl Spec {
         match self.formula(a) {
             Formula::True | Formula::False | Formula::Eventually(_) | Formula::Then(..) => a,
             Formula::Within(_, b) => self.eventually(b, span),
+            Formula::Delay(n, b) => {
+                let later = self.eventually(b, span);
+                self.delay(n, later, span)
+            }
             _ => self.intern(Formula::Eventually(a), span),
         }
     }

@@ -96,7 +96,8 @@ use obligation::Obligations;
 pub struct Budget {
     /// States of the automaton before minimization.
     pub states: usize,
-    /// Nodes of decision diagrams: a measure of both memory and time.
+    /// Nodes of decision diagrams, and half the steps of the operations that make them: a
+    /// measure of both memory and time.
     pub nodes: usize,
     /// Edges of the minimal automaton. Each gets a guard where the automaton is written out.
     pub edges: usize,
@@ -531,7 +532,10 @@ impl<'a> Translation<'a> {
                 limit: Diagram::MAX_LEVELS as usize,
             });
         }
-        self.check(Resource::Nodes, self.functions.nodes().len(), self.budget.nodes)
+        match self.functions.is_exhausted() {
+            true => Err(Exceeded { what: Resource::Nodes, limit: self.budget.nodes }),
+            false => Ok(()),
+        }
     }
 
     /// Checks a count against a limit.

@@ -118,6 +118,16 @@ fn cases() -> Vec<Case> {
         let formula = format!("F(a && {}b)", "X ".repeat(n));
         add("F(a && X^n b)", n, formula, (1 << n) + 1, spot);
     }
+    for n in [100, 1000, 10_000] {
+        add("F[0,n] a", n, format!("F[0,{n}] a"), n + 3, None);
+    }
+    for n in [100, 1000, 10_000] {
+        add("a U[0,n] b", n, format!("a U[0,{n}] b"), n + 3, None);
+    }
+    for n in [10, 100, 300] {
+        let formula = format!("F[0,{n}] (a && F[0,{n}] b)");
+        add("F[0,n](a && F[0,n] b)", n, formula, (n + 2) * (n + 3) / 2, None);
+    }
     cases
 }
 

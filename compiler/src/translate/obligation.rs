@@ -8,7 +8,8 @@
 //!
 //! The obligations of F[0,k], G[0,k] and U[0,k] imply each other, and each range is a
 //! [chain](crate::bdd) in the diagram, weakest first: F[0,k] φ implies F[0,k+1] φ, and G[0,k+1] φ
-//! implies G[0,k] φ. Those of X[k] do not.
+//! implies G[0,k] φ. X[k+1] F φ implies X[k] F φ, and so with T; over other operands those of X[k]
+//! are free.
 
 use crate::intern::Interner;
 use crate::spec::{Formula, FormulaId, Spec};
@@ -33,6 +34,32 @@ struct Range {
     id: FormulaId,
     /// The first level.
     first: u32,
+    order: Order,
+}
+
+/// How the obligations of one operator imply each other.
+#[derive(Clone, Copy, PartialEq)]
+enum Order {
+    /// More steps are weaker, and come first.
+    MoreIsWeaker,
+    /// Fewer steps are weaker, and come first.
+    FewerIsWeaker,
+    /// They are free; more steps come first.
+    Free,
+}
+
+impl Order {
+    fn of(spec: &Spec, formula: Formula) -> Self {
+        match formula {
+            Formula::Within(..) | Formula::UntilWithin(..) => Self::MoreIsWeaker,
+            Formula::Throughout(..) => Self::FewerIsWeaker,
+            Formula::Delay(_, a) => match spec.formula(a) {
+                Formula::Eventually(_) | Formula::Then(..) => Self::FewerIsWeaker,
+                _ => Self::Free,
+            },
+            _ => Self::Free,
+        }
+    }
 }
 
 impl Range {
@@ -41,12 +68,12 @@ impl Range {
         self.first.checked_add(self.formula.bound().unwrap_or(0))
     }
 
-    /// The level of the obligation with `steps` left; and back, for it is its own inverse: G[0,k]
-    /// counts from the first level, the others count from the last.
+    /// The place in the range of the obligation with `steps` left. It is its own inverse: the steps
+    /// of a place.
     fn turned(self, steps: u32) -> u32 {
-        match self.formula {
-            Formula::Throughout(..) => steps,
-            formula => formula.bound().unwrap_or(0) - steps,
+        match self.order {
+            Order::FewerIsWeaker => steps,
+            _ => self.formula.bound().unwrap_or(0) - steps,
         }
     }
 }
@@ -65,7 +92,10 @@ impl Obligations {
             match ranges.get_mut(place as usize) {
                 Some(range) if range.formula.bound() < formula.bound() => range.formula = formula,
                 Some(_) => {}
-                None => ranges.push(Range { formula, id, first: 0 }),
+                None => {
+                    let order = Order::of(spec, formula);
+                    ranges.push(Range { formula, id, first: 0, order });
+                }
             }
         }
         let propositions = spec.propositions().len() as u32;
@@ -84,10 +114,8 @@ impl Obligations {
 
     /// The first and the last level of each range whose obligations imply each other.
     pub(super) fn chains(&self) -> Vec<(u32, u32)> {
-        let implied = |range: &&Range| !matches!(range.formula, Formula::Delay(..));
-        let ends = |range: &Range| Some((range.first, range.last()?));
-        let chains = self.ranges.iter().filter(implied).filter_map(ends);
-        chains.filter(|(first, last)| first < last).collect()
+        let chains = self.ranges.iter().filter(|range| range.order != Order::Free);
+        chains.filter_map(|range| Some((range.first, range.last()?))).collect()
     }
 
     /// The level of a formula that can be due.
