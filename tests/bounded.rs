@@ -5,7 +5,7 @@ use std::convert::Infallible;
 use std::ops::RangeInclusive;
 
 use proptest::prelude::*;
-use tltl::{Acceptor, Monitor, robustness};
+use tltl::{Acceptor, Monitor, robustness, tltl};
 use tltl_compiler::dfa::Dfa;
 use tltl_compiler::minimize::minimize;
 use tltl_compiler::source::{Source, Span};
@@ -402,10 +402,36 @@ fn long_windows_give_the_robustness_of_their_definitions() {
     }
 }
 
+/// The windows of generated code: arrays on the stack, and on the heap where they are large.
+#[test]
+fn generated_code_has_the_robustness_of_the_definitions() {
+    let mut choices = Seeded(8);
+    let mut number = || f64::from(choices.choose(1000)) - 500.5;
+    let trace: Vec<[f64; 5]> = (0..6000).map(|_| [(); 5].map(|()| number())).collect();
+    let (a, b) = (|row: &[f64; 5]| row[0], |row: &[f64; 5]| row[1]);
+    let small = tltl! { G[0,5] (a || F[2,7] b) };
+    // The automaton has two states, whatever the bound.
+    let large = tltl! { F a || F[0,5000] b };
+    for length in [1, 7, 12, 13, 14, 100, 4999, 5001, 5002, 6000] {
+        let trace = &trace[..length];
+        let rho = |p: usize| move |t: usize| trace.get(t).map_or(f64::NEG_INFINITY, |row| row[p]);
+        let most = |p: usize, last: usize| (0..=last).map(rho(p)).fold(f64::NEG_INFINITY, f64::max);
+        let expected = most(0, length).max(most(1, 5000));
+        assert_eq!(large.robustness(trace), Ok(expected), "{length}");
+        let soon = |t: usize| (t + 2..=t + 7).map(rho(1)).fold(f64::NEG_INFINITY, f64::max);
+        let each = (0..=5).map(|t| rho(0)(t).max(soon(t)));
+        let each = if length > 5 { each.fold(f64::INFINITY, f64::min) } else { f64::NEG_INFINITY };
+        assert_eq!(small.robustness(trace), Ok(each), "{length}");
+    }
+}
+
 /// The robustness by the runtime's pass over the operators, in memory of just the size it states.
 fn by_operators(spec: &Spec, length: usize, rho: impl Fn(usize, usize) -> f64) -> f64 {
     let formula = tables::formula(spec, "").unwrap();
     let operators = formula.operators();
+    // Generated code has the cells of any length.
+    let cells = robustness::cells(operators, usize::MAX);
+    assert_eq!(tltl_compiler::tables::cells(&tltl_compiler::tables::operators(spec)), cells);
     let mut now = vec![0.0; robustness::cells(operators, length)];
     let mut next = vec![0.0; operators.len()];
     let rho = |p: usize, t: usize| Ok::<f64, Infallible>(rho(p, t));

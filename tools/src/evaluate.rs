@@ -22,8 +22,20 @@
 //! evaluator is never written to: threads share it, each with a [`Scratch`] of its own.
 //!
 //! The robustness of the formula takes one backward pass, with one number carried for each temporal
-//! operator (after Donzé, Ferrère and Maler, "Efficient Robust Monitoring for STL", 2013): time and
-//! memory are linear in the rows, whatever the formula.
+//! operator, or a [window](tltl::robustness::Window) of them if it has a bound (after Donzé, Ferrère
+//! and Maler, "Efficient Robust Monitoring for STL", 2013): time and memory are linear in the rows,
+//! whatever the formula. It needs no automaton, so a bound may be any:
+//!
+//! ```
+//! use tltl_compiler::{check, source::Source};
+//! use tltlc::evaluate::{Columns, Evaluator, Scratch};
+//!
+//! let module = check::formula(&Source::new("formula", "F[2,1000000000] (x > 3)"))?;
+//! let evaluator = Evaluator::new(&module, &module.tasks[0])?;
+//! let columns = Columns::of_rows(4, 1, &[9.0, 9.0, 1.0, 5.0])?;
+//! assert_eq!(evaluator.robustness(&columns, &mut Scratch::default())?, 2.0);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 //!
 //! # Limits
 //!
