@@ -29,9 +29,12 @@ fn every_form_of_a_few_automata() {
         let dfa = automaton(formula);
         let title = formula;
         insta::assert_snapshot!(format!("{name}_text"), text::automaton(title, &dfa));
-        insta::assert_snapshot!(format!("{name}_dot"), dot::automaton(title, &dfa));
-        insta::assert_snapshot!(format!("{name}_mermaid"), mermaid::automaton(title, &dfa));
-        insta::assert_snapshot!(format!("{name}_hoa"), hoa::automaton(title, &dfa));
+        insta::assert_snapshot!(format!("{name}_dot"), dot::automaton(title, &dfa).unwrap());
+        insta::assert_snapshot!(
+            format!("{name}_mermaid"),
+            mermaid::automaton(title, &dfa).unwrap()
+        );
+        insta::assert_snapshot!(format!("{name}_hoa"), hoa::automaton(title, &dfa).unwrap());
         insta::assert_snapshot!(format!("{name}_svg"), svg::automaton(title, &dfa));
     }
 }
@@ -132,6 +135,26 @@ fn json_keeps_its_contract() {
     insta::assert_snapshot!(json::explicit("!c U a", &dfa).unwrap(), @r#"{"formula":"!c U a","propositions":["c","a"],"states":3,"initial":0,"accepting":[1],"trap":2,"edges":2,"self_loops":3,"transitions":[[0,2,1,1],[1,1,1,1],[2,2,2,2]]}"#);
 }
 
+/// The labels that are put together from texts of literals are those of the edges one by one, also
+/// where letters cannot occur.
+#[test]
+fn labels_are_the_guards() {
+    for formula in ["true", "a U b", "(a T b) && !c U d", "F (x < 1 || x > 3) && F (x < 0)"] {
+        let dfa = automaton(formula);
+        for notation in [sum::Notation::Ascii, sum::Notation::Mathematical, sum::Notation::Numbered]
+        {
+            let mut labels = Vec::new();
+            sum::Labels::new(&dfa, notation, &str::to_owned)
+                .unwrap()
+                .visit(&mut |from, to, label| labels.push((from, to, label.to_owned())));
+            let edges = dfa.edges();
+            let expected =
+                edges.iter().map(|edge| (edge.from, edge.to, sum::label(&dfa, edge, notation)));
+            assert!(labels.into_iter().eq(expected), "{formula}");
+        }
+    }
+}
+
 #[test]
 fn names_from_elsewhere_are_escaped() {
     let mut dfa = automaton("a U b");
@@ -139,12 +162,13 @@ fn names_from_elsewhere_are_escaped() {
     let names = [("x < 3 \"&\"", Shape::Compound), ("p|1]#;\\", Shape::Foreign)];
     dfa.propositions = names.map(named).to_vec();
     let title = "<a> & \"b\" --> ]]";
-    insta::assert_snapshot!("escaped_dot", dot::automaton(title, &dfa));
-    insta::assert_snapshot!("escaped_mermaid", mermaid::automaton(title, &dfa));
-    insta::assert_snapshot!("escaped_hoa", hoa::automaton(title, &dfa));
+    insta::assert_snapshot!("escaped_dot", dot::automaton(title, &dfa).unwrap());
+    insta::assert_snapshot!("escaped_mermaid", mermaid::automaton(title, &dfa).unwrap());
+    insta::assert_snapshot!("escaped_hoa", hoa::automaton(title, &dfa).unwrap());
     let svg = svg::automaton(title, &dfa);
     assert!(!svg.contains("<a>") && svg.contains("&lt;a&gt; &amp; "));
-    let read = tltl_compiler::hoa::read(&Source::new("x", hoa::automaton(title, &dfa))).unwrap();
+    let read =
+        tltl_compiler::hoa::read(&Source::new("x", hoa::automaton(title, &dfa).unwrap())).unwrap();
     assert_eq!(read.name.as_deref(), Some(title));
     assert_eq!(read.dfa.propositions, dfa.propositions);
 }

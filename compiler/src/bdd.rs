@@ -18,8 +18,8 @@
 //! assert_eq!(diagram.and(either, both), both);
 //! // One of the two: a ∧ ¬b ∨ ¬a ∧ b.
 //! let one = diagram.and(either, not_both);
-//! let sum = diagram.sum_of_products(one, one);
-//! assert_eq!(sum, [[(0, true), (1, false)], [(0, false), (1, true)]]);
+//! let sum = diagram.cover(one, one);
+//! assert_eq!(diagram.cubes(sum), [[(0, true), (1, false)], [(0, false), (1, true)]]);
 //! // A transition function: to state 7 where exactly one holds, else to state 3.
 //! let (states, moves) = diagram.map_leaves(&[one], &|leaf| Bdd::leaf(if leaf == 1 { 7 } else { 3 }));
 //! assert_eq!(states.leaves(moves[0]), [3, 7]);
@@ -46,7 +46,7 @@
 //! Manipulation" (1986). Unique table and operation cache: Brace, Rudell and Bryant, "Efficient
 //! Implementation of a BDD Package" (1990). Leaves that are numbers: Fujita, McGeer and Yang,
 //! "Multi-Terminal Binary Decision Diagrams" (1997). [Constrain](Diagram::constrain): Coudert,
-//! Berthet and Madre (1989). [Sums of products](Diagram::sum_of_products): Minato, "Fast Generation
+//! Berthet and Madre (1989). [Sums of products](Diagram::cover): Minato, "Fast Generation
 //! of Prime-Irredundant Covers from Binary Decision Diagrams" (1993), after Morreale (1970).
 //!
 //! # Cost
@@ -69,7 +69,7 @@ mod walk;
 
 use crate::arena::{self, Memo};
 
-pub use sum::{Cube, Literal};
+pub use sum::{Cover, Cube, Literal};
 pub use walk::Images;
 
 use sum::Covers;

@@ -31,7 +31,7 @@
 
 mod edge;
 
-use crate::bdd::{Bdd, Cube, Diagram};
+use crate::bdd::{Bdd, Cover, Cube, Diagram, Literal, Node};
 use crate::proposition::Proposition;
 
 pub use edge::Edge;
@@ -179,14 +179,38 @@ impl Dfa {
             into_trap: 0,
             trap: self.trap.is_some(),
         };
+        self.each_edge(&mut |q, to| {
+            size.self_loops += usize::from(to == q);
+            size.edges += usize::from(to != q);
+            size.into_trap += usize::from(to != q && self.trap == Some(to));
+        });
+        size
+    }
+
+    /// Visits each pair of a state and a successor once, states rising. One mark for each node and
+    /// each state serves all walks: some automata have ten thousand times more edges than nodes.
+    fn each_edge(&self, edge: &mut dyn FnMut(State, State)) {
+        let mut passed = vec![State::MAX; self.diagram.nodes().len()];
+        let mut entered = vec![State::MAX; self.len()];
+        let nodes = self.diagram.nodes();
+        let mut stack = Vec::new();
         for q in self.states() {
-            for to in self.diagram.leaves(self.transitions[q as usize]) {
-                size.self_loops += usize::from(to == q);
-                size.edges += usize::from(to != q);
-                size.into_trap += usize::from(to != q && self.trap == Some(to));
+            let mut next = Some(self.transitions[q as usize]);
+            while let Some(f) = next {
+                next = match (f.index(), f.value()) {
+                    (Some(node), _) if std::mem::replace(&mut passed[node as usize], q) != q => {
+                        let Node { low, high, .. } = nodes[node as usize];
+                        stack.push(high);
+                        Some(low)
+                    }
+                    (_, Some(to)) if std::mem::replace(&mut entered[to as usize], q) != q => {
+                        edge(q, to);
+                        stack.pop()
+                    }
+                    _ => stack.pop(),
+                };
             }
         }
-        size
     }
 
     /// For each state the least number of transitions to the accepting state; `None` if there is no
@@ -194,11 +218,7 @@ impl Dfa {
     #[must_use]
     pub fn distances(&self) -> Vec<Option<u32>> {
         let mut predecessors = vec![Vec::new(); self.len()];
-        for q in self.states() {
-            for to in self.successors(q) {
-                predecessors[to as usize].push(q);
-            }
-        }
+        self.each_edge(&mut |q, to| predecessors[to as usize].push(q));
         let mut distances = vec![None; self.len()];
         let mut queue: std::collections::VecDeque<_> = self.accepting.into_iter().collect();
         queue.iter().for_each(|&q| distances[q as usize] = Some(0));
@@ -217,9 +237,9 @@ impl Dfa {
 
 /// The guards of an automaton, each as an irredundant sum of products.
 ///
-/// Making one computes for all states at once under which letters they move where; a guard is then
-/// a lookup and a sum of products ([`Diagram::sum_of_products`]). Letters that cannot occur may be
-/// in a guard or not, whichever is shorter.
+/// Making one computes for all states at once under which letters they move where, as sums that
+/// share their parts ([`Diagram::leaf_covers`]); none is written out before it is asked for.
+/// Letters that cannot occur may be in a guard or not, whichever is shorter.
 ///
 /// ```
 /// use tltl_compiler::{compile, dfa::Guards, source::Source, translate::Budget};
@@ -240,7 +260,7 @@ pub struct Guards<'a> {
     possible: Bdd,
     /// For each state its successors, rising, and the letters that lead there. Computed for all
     /// states in one pass, because states share most of their transition functions.
-    moves: Vec<Vec<(State, Bdd)>>,
+    moves: Vec<Vec<(State, Cover)>>,
 }
 
 impl<'a> Guards<'a> {
@@ -249,8 +269,30 @@ impl<'a> Guards<'a> {
     pub fn new(dfa: &'a Dfa) -> Self {
         let mut diagram = Diagram::default();
         let possible = dfa.possible.map_or(Bdd::TRUE, |f| diagram.import(&dfa.diagram, f));
-        let moves = dfa.diagram.indicators(&dfa.transitions, &mut diagram);
+        let moves = dfa.diagram.leaf_covers(&dfa.transitions, &mut diagram);
         Self { dfa, diagram, possible, moves }
+    }
+
+    /// The edges that leave `q`, its self-loop included, by rising states, each with its guard
+    /// ψ_{q,q'}. An edge that only impossible letters take is left out.
+    pub fn edges(&mut self, q: State) -> Vec<(State, Cover)> {
+        let mut edges = self.moves[q as usize].clone();
+        if self.possible != Bdd::TRUE {
+            edges.iter_mut().for_each(|(_, guard)| *guard = self.guard(*guard));
+            edges.retain(|&(_, guard)| guard != Cover::FALSE);
+        }
+        edges
+    }
+
+    /// The products of a guard; see [`Diagram::cubes`].
+    #[must_use]
+    pub fn cubes(&self, guard: Cover) -> Vec<Cube> {
+        self.diagram.cubes(guard)
+    }
+
+    /// Visits the products of a guard, without an allocation for each.
+    pub fn visit(&self, guard: Cover, visit: &mut dyn FnMut(&[Literal])) {
+        self.diagram.visit(guard, visit);
     }
 
     /// ψ_{q,to}: the letters under which `q` moves to `to`, as a sum of products. Literals are
@@ -267,15 +309,16 @@ impl<'a> Guards<'a> {
     /// # Ok::<(), tltl_compiler::error::Errors>(())
     /// ```
     pub fn edge(&mut self, q: State, to: State) -> Vec<Cube> {
-        let when = self.when(q, to);
-        self.sum(when)
+        let guard = self.when(q, to);
+        let guard = self.guard(guard);
+        self.cubes(guard)
     }
 
     /// D_φ^q: the letters under which `q` moves to another state that is not the trap (paper, Eq.
     /// 3A3).
     pub fn progress(&mut self, q: State) -> Vec<Cube> {
-        let when = self.progresses(q);
-        self.sum(when)
+        let guard = self.progresses(q);
+        self.cubes(guard)
     }
 
     /// The first product of the guard of an edge that no possible letter takes: a demand that no
@@ -283,50 +326,65 @@ impl<'a> Guards<'a> {
     /// would read.
     pub(crate) fn impossible(&mut self, q: State, to: State) -> Option<Cube> {
         let when = self.when(q, to);
-        let is_possible = self.diagram.and(when, self.possible) != Bdd::FALSE;
-        if is_possible || self.diagram.count_products(when, when) > 1 << 12 {
-            return None;
-        }
-        self.diagram.sum_of_products(when, when).into_iter().next()
+        let is_impossible = self.guard(when) == Cover::FALSE;
+        let is_short = self.diagram.products(when) <= 1 << 12;
+        let mut cubes = if is_impossible && is_short { self.cubes(when) } else { Vec::new() };
+        cubes.drain(..).next()
     }
 
     /// Whether no guard has more than `most` products. Counts them without writing one out.
     pub fn are_below(&mut self, most: usize) -> bool {
         self.dfa.states().all(|q| {
-            let mut guards = self.moves[q as usize].clone();
+            let mut guards = self.edges(q);
             // The guard of progress is written out too, and can be larger than those of its edges.
             guards.push((q, self.progresses(q)));
-            guards.iter().all(|&(_, when)| {
-                let (lower, upper) = self.bounds(when);
-                self.diagram.count_products(lower, upper) <= most
-            })
+            guards.iter().all(|&(_, guard)| self.diagram.products(guard) <= most)
         })
     }
 
+    /// The number of products of all edges together, saturating.
+    pub fn products(&mut self) -> usize {
+        let mut products = 0_usize;
+        for q in self.dfa.states() {
+            for (_, guard) in self.edges(q) {
+                products = products.saturating_add(self.diagram.products(guard));
+            }
+        }
+        products
+    }
+
     /// The letters under which `q` moves to `to`; none if it does not.
-    fn when(&self, q: State, to: State) -> Bdd {
+    fn when(&self, q: State, to: State) -> Cover {
         let moves = &self.moves[q as usize];
         let place = moves.binary_search_by_key(&to, |&(state, _)| state);
-        place.map_or(Bdd::FALSE, |place| moves[place].1)
+        place.map_or(Cover::FALSE, |place| moves[place].1)
     }
 
-    /// The letters under which `q` moves to another state that is not the trap.
-    fn progresses(&mut self, q: State) -> Bdd {
-        let falls = self.dfa.trap.map_or(Bdd::FALSE, |trap| self.when(q, trap));
-        let rests = self.diagram.or(self.when(q, q), falls);
-        self.diagram.not(rests)
+    /// The letters under which `q` moves to another state that is not the trap, as a guard.
+    fn progresses(&mut self, q: State) -> Cover {
+        let stays = self.when(q, q);
+        let falls = self.dfa.trap.map_or(Cover::FALSE, |trap| self.when(q, trap));
+        let (stays, falls) = (self.diagram.function(stays), self.diagram.function(falls));
+        let rests = self.diagram.or(stays, falls);
+        let moves = self.diagram.not(rests);
+        self.shortest(moves)
     }
 
-    /// The bounds of a sum of products: the letters of `when` that can occur, which it must cover,
-    /// and with them all letters that cannot occur, which it may cover.
-    fn bounds(&mut self, when: Bdd) -> (Bdd, Bdd) {
+    /// The letters of a sum as a guard.
+    fn guard(&mut self, when: Cover) -> Cover {
+        if self.possible == Bdd::TRUE {
+            return when;
+        }
+        let when = self.diagram.function(when);
+        self.shortest(when)
+    }
+
+    /// A guard for these letters: it must cover those of them that can occur, and may cover all
+    /// letters that cannot.
+    fn shortest(&mut self, when: Bdd) -> Cover {
         let impossible = self.diagram.not(self.possible);
-        (self.diagram.and(when, self.possible), self.diagram.or(when, impossible))
-    }
-
-    /// A guard as an irredundant sum of products.
-    fn sum(&mut self, when: Bdd) -> Vec<Cube> {
-        let (lower, upper) = self.bounds(when);
-        self.diagram.sum_of_products(lower, upper)
+        let lower = self.diagram.and(when, self.possible);
+        let upper = self.diagram.or(when, impossible);
+        self.diagram.cover(lower, upper)
     }
 }

@@ -15,10 +15,10 @@ fuzz_target!(|text: &str| {
             if automaton.dfa.len() > 1_000 {
                 return;
             }
-            let written = emit::hoa::automaton("", &automaton.dfa);
+            let written = emit::hoa::automaton("", &automaton.dfa).unwrap();
             let again = Source::new("<written>", written.as_str());
             match read(&again) {
-                Ok(read) => assert_eq!(emit::hoa::automaton("", &read.dfa), written),
+                Ok(read) => assert_eq!(emit::hoa::automaton("", &read.dfa).unwrap(), written),
                 Err(error) => panic!("{}\n{written}", error.render(&again, Style::Plain)),
             }
         }

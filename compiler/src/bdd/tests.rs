@@ -88,7 +88,8 @@ fn sums_of_products_are_irredundant() {
         for b in tables() {
             let (lower, upper) = (a & b, a | b);
             let [f, g] = [lower, upper].map(|table| function(&mut diagram, table));
-            let cubes = diagram.sum_of_products(f, g);
+            let cover = diagram.cover(f, g);
+            let cubes = diagram.cubes(cover);
             let covered = sum(&cubes);
             assert_eq!((lower & !covered, covered & !upper), (0, 0), "{lower:x} {upper:x}");
             for (place, cube) in cubes.iter().enumerate() {
@@ -101,7 +102,9 @@ fn sums_of_products_are_irredundant() {
                     assert_ne!(sum(&[shorter]) & !upper, 0, "all of {cube:?} is needed");
                 }
             }
-            assert_eq!(diagram.count_products(f, g), cubes.len());
+            assert_eq!(diagram.products(cover), cubes.len());
+            let covered = diagram.function(cover);
+            assert_eq!(table(&diagram, covered), sum(&cubes));
             assert!(cubes.is_sorted_by_key(|cube| {
                 cube.iter().map(|&(level, value)| (level, !value)).collect::<Vec<_>>()
             }));
@@ -128,12 +131,15 @@ fn leaves_are_numbers() {
         assert_eq!(diagram.evaluate(count, &|level| v >> level & 1 == 1), v.count_ones());
     }
 
-    let mut indicators = Diagram::default();
-    let of_count = &diagram.indicators(&[count], &mut indicators)[0];
+    let mut guards = Diagram::default();
+    let of_count = &diagram.leaf_covers(&[count], &mut guards)[0];
     assert_eq!(of_count.iter().map(|(leaf, _)| *leaf).collect::<Vec<_>>(), diagram.leaves(count));
-    for &(leaf, indicator) in of_count {
+    for &(leaf, cover) in of_count {
+        let function = guards.function(cover);
         let expected = (0..1_u32 << LEVELS).map(|v| u32::from(v.count_ones() == leaf) << v).sum();
-        assert_eq!(table(&indicators, indicator), expected);
+        assert_eq!(table(&guards, function), expected);
+        let direct = guards.cover(function, function);
+        assert_eq!(guards.cubes(cover), guards.cubes(direct));
     }
 
     // Even or odd; the nodes that no root needs are left behind.
@@ -217,14 +223,15 @@ fn no_operation_runs_out_of_stack() {
     let and = diagram.and(f, g);
     assert_eq!(diagram.level(and), 0);
     assert_eq!(diagram.constrain(g, f), diagram.constrain(and, f));
-    assert_eq!(diagram.count_products(and, and), usize::MAX);
+    let cover = diagram.cover(and, and);
+    assert_eq!(diagram.products(cover), usize::MAX);
     let [mut conjunction, mut cube] = [Bdd::TRUE, Bdd::TRUE];
     for level in levels.clone().rev() {
         conjunction = diagram.node(level, Bdd::FALSE, conjunction);
         cube = if level % 2 == 0 { diagram.node(level, Bdd::FALSE, cube) } else { cube };
     }
-    let sum = diagram.sum_of_products(conjunction, cube);
-    assert_eq!(sum[0].len(), levels.len() / 2);
+    let sum = diagram.cover(conjunction, cube);
+    assert_eq!(diagram.cubes(sum)[0].len(), levels.len() / 2);
 }
 
 #[test]

@@ -51,11 +51,8 @@ impl Dfa {
         let mut guards = Guards::new(self);
         let mut edges = Vec::new();
         for from in self.states() {
-            for (to, when) in guards.moves[from as usize].clone() {
-                let guard = guards.sum(when);
-                if !guard.is_empty() {
-                    edges.push(Edge { from, to, guard });
-                }
+            for (to, guard) in guards.edges(from) {
+                edges.push(Edge { from, to, guard: guards.cubes(guard) });
             }
         }
         edges

@@ -2,7 +2,8 @@
 //! of the forms of [`emit`](crate::emit).
 
 use tltl_compiler::dfa::{Automata, Dfa};
-use tltl_compiler::error::Style;
+use tltl_compiler::error::{Error, Kind, Style};
+use tltl_compiler::source::Span;
 use tltl_compiler::translate::Budget;
 
 use crate::emit::{dot, hoa, json, mermaid, rust, svg, text};
@@ -27,8 +28,7 @@ pub(super) fn run(arguments: &Automaton, streams: &mut Streams<'_>) -> Outcome {
             streams.print(&rust::file(file.compiled()))
         }
         Some(File::Tasks(file)) => {
-            let entry = subject::choose(&file, arguments.task.as_deref())?;
-            streams.print(&shown(arguments, &entry)?)
+            write(arguments, &subject::choose(&file, arguments.task.as_deref())?, streams)
         }
         Some(File::Automaton(_)) if arguments.task.is_some() => {
             Err(format!("{} is an automaton: it has no tasks with names", path.display()))
@@ -37,7 +37,13 @@ pub(super) fn run(arguments: &Automaton, streams: &mut Streams<'_>) -> Outcome {
             let Foreign { name, dfa } = *automaton;
             let text = || text::automaton(&name, &dfa);
             let rust = || rust::foreign(&name, &dfa);
-            streams.print(&formatted(arguments, [&name, &name], &dfa, [&text, &rust])?)
+            match formatted(arguments, [&name, &name], &dfa, Span::default(), [&text, &rust]) {
+                Ok(text) => streams.print(&text),
+                Err(error) => {
+                    streams.complain(&format!("{}: {}", path.display(), error.message()));
+                    Ok(Exit::Mistaken)
+                }
+            }
         }
         None => Ok(Exit::Mistaken),
     }
@@ -51,7 +57,7 @@ fn single(arguments: &Automaton, formula: &str, streams: &mut Streams<'_>) -> Ou
         return Ok(Exit::Mistaken);
     }
     match input::reported(result, Report::Human, streams)? {
-        Some(file) => streams.print(&shown(arguments, &subject::choose(&file, None)?)?),
+        Some(file) => write(arguments, &subject::choose(&file, None)?, streams),
         None => Ok(Exit::Mistaken),
     }
 }
@@ -100,35 +106,51 @@ fn selected<'a>(arguments: &Automaton, automata: &'a Automata) -> &'a Dfa {
     if arguments.propositional { &automata.propositional } else { &automata.dfa }
 }
 
+/// Writes a task in the form that the arguments ask for.
+fn write(arguments: &Automaton, entry: &Entry, streams: &mut Streams<'_>) -> Outcome {
+    let automata = subject::automata(entry)?;
+    match shown(arguments, entry, automata) {
+        Ok(text) => streams.print(&text),
+        Err(error) => {
+            let source = entry.file().source();
+            input::judged::<()>(source, Err(error.into()), Report::Human, streams)?;
+            Ok(Exit::Mistaken)
+        }
+    }
+}
+
 /// A task in the form that the arguments ask for.
-fn shown(arguments: &Automaton, entry: &Entry) -> Result<String, String> {
-    let (task, automata) = (entry.task(), subject::automata(entry)?);
+fn shown(arguments: &Automaton, entry: &Entry, automata: &Automata) -> Result<String, Error> {
+    let task = entry.task();
     let title = task.name.as_deref().unwrap_or(&task.text);
     let text = || sizes(arguments, &task.text, automata);
     let rust = || rust::file(entry.file().compiled());
-    formatted(arguments, [title, &task.text], selected(arguments, automata), [&text, &rust])
+    let dfa = selected(arguments, automata);
+    formatted(arguments, [title, &task.text], dfa, task.span, [&text, &rust])
 }
 
 /// An automaton in the form that the arguments ask for; the table of text and the Rust are made by
-/// the functions.
+/// the functions. `Err` says at `span` that it is too large for the form.
 fn formatted(
     arguments: &Automaton,
     [title, formula]: [&str; 2],
     dfa: &Dfa,
+    span: Span,
     [text, rust]: [&dyn Fn() -> String; 2],
-) -> Result<String, String> {
-    Ok(match arguments.format {
-        Format::Text => text(),
+) -> Result<String, Error> {
+    let written = match arguments.format {
+        Format::Text => return Ok(text()),
         Format::Json if arguments.explicit => {
-            json::explicit(formula, dfa).map_err(|error| error.to_string())?
+            return json::explicit(formula, dfa);
         }
         Format::Json => json::automaton(formula, dfa),
         Format::Dot => dot::automaton(title, dfa),
-        Format::Svg => svg::automaton(title, dfa),
+        Format::Svg => return Ok(svg::automaton(title, dfa)),
         Format::Mermaid => mermaid::automaton(title, dfa),
         Format::Hoa => hoa::automaton(title, dfa),
-        Format::Rust => rust(),
-    })
+        Format::Rust => return Ok(rust()),
+    };
+    written.map_err(|too_large| Error::new(Kind::Budget, too_large.to_string(), span))
 }
 
 /// The table of the automaton; if arithmetic has made it smaller, with both sizes.

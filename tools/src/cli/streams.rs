@@ -100,7 +100,11 @@ pub(super) fn write(path: &Path, text: &str) -> Outcome {
 
 /// A text of several lines in which no character is obeyed, whatever it was made of.
 pub(super) fn shown(text: &str) -> Cow<'_, str> {
-    if !text.contains(|c| c != '\n' && is_hidden(c)) {
+    // Asked of bytes first, without a branch for each: results can be megabytes.
+    let plain = |all, byte: &u8| all & matches!(byte, b' '..=b'~' | b'\n');
+    if text.as_bytes().chunks(256).all(|bytes| bytes.iter().fold(true, plain))
+        || !text.contains(|c| c != '\n' && is_hidden(c))
+    {
         return Cow::Borrowed(text);
     }
     Cow::Owned(text.split('\n').map(visible).collect::<Vec<_>>().join("\n"))

@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use crate::emit::sum::{Notation, label, quoted};
-use tltl_compiler::dfa::{Dfa, Edge, State};
+use crate::emit::sum::{Labels, Notation, TooLarge, escaped, quoted};
+use tltl_compiler::dfa::{Dfa, State};
 
 /// A digraph, laid out from left to right: the accepting state has two circles, the trap and the
 /// edges into it are grey, and an arrow from a point marks the initial state.
@@ -12,13 +12,15 @@ use tltl_compiler::dfa::{Dfa, Edge, State};
 /// use tltl_compiler::translate::Budget;
 ///
 /// let task = tltlc::task::compile("a T b", Budget::default())?;
-/// let dot = tltlc::emit::dot::automaton("order", task.dfa());
+/// let dot = tltlc::emit::dot::automaton("order", task.dfa()?);
 /// assert!(dot.starts_with("digraph \"order\" {"));
 /// assert!(dot.contains("  0 -> 1 [label=\"a\"];"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[must_use]
-pub fn automaton(title: &str, dfa: &Dfa) -> String {
+///
+/// # Errors
+/// If the guards have more than [`MOST_PRODUCTS`](super::sum::MOST_PRODUCTS).
+pub fn automaton(title: &str, dfa: &Dfa) -> Result<String, TooLarge> {
     let mut dot = format!("digraph {} {{\n", quoted(title));
     dot.push_str("  rankdir=LR;\n");
     dot.push_str("  node [shape=circle, fontname=\"Helvetica\"];\n");
@@ -29,11 +31,13 @@ pub fn automaton(title: &str, dfa: &Dfa) -> String {
         let _ = writeln!(dot, "  {q}{};", attributes(dfa, q));
     }
     dot.push_str("  start -> 0;\n");
-    for edge in dfa.edges() {
-        let _ = writeln!(dot, "{}", arrow(dfa, &edge));
-    }
+    Labels::new(dfa, Notation::Ascii, &escaped)?.visit(&mut |from, to, label| {
+        let into_trap = dfa.trap == Some(to);
+        let colour = if into_trap { ", color=gray40, fontcolor=gray40" } else { "" };
+        let _ = writeln!(dot, "  {from} -> {to} [label=\"{label}\"{colour}];");
+    });
     dot.push_str("}\n");
-    dot
+    Ok(dot)
 }
 
 /// The attributes by which the verdict of a state is seen.
@@ -45,12 +49,4 @@ fn attributes(dfa: &Dfa, q: State) -> &'static str {
     } else {
         ""
     }
-}
-
-/// An edge with its guard as label.
-fn arrow(dfa: &Dfa, edge: &Edge) -> String {
-    let label = quoted(&label(dfa, edge, Notation::Ascii));
-    let into_trap = dfa.trap == Some(edge.to);
-    let colour = if into_trap { ", color=gray40, fontcolor=gray40" } else { "" };
-    format!("  {} -> {} [label={label}{colour}];", edge.from, edge.to)
 }

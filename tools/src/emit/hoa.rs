@@ -12,8 +12,8 @@
 
 use std::fmt::Write as _;
 
-use crate::emit::sum::{Notation, Sum, quoted};
-use tltl_compiler::dfa::{Dfa, Edge, State};
+use crate::emit::sum::{Labels, Notation, TooLarge, quoted};
+use tltl_compiler::dfa::{Dfa, State};
 
 /// The automaton in HOA v1, with one label for each pair of states.
 ///
@@ -25,23 +25,25 @@ use tltl_compiler::dfa::{Dfa, Edge, State};
 /// use tltl_compiler::translate::Budget;
 ///
 /// let task = tltlc::task::compile("F a", Budget::default())?;
-/// let hoa = tltlc::emit::hoa::automaton("reach", task.dfa());
+/// let hoa = tltlc::emit::hoa::automaton("reach", task.dfa()?);
 /// assert!(hoa.ends_with("State: 0\n[!0] 0\n[0] 1\nState: 1 {0}\n[t] 1\n--END--\n"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[must_use]
-pub fn automaton(title: &str, dfa: &Dfa) -> String {
+///
+/// # Errors
+/// If the guards have more than [`MOST_PRODUCTS`](super::sum::MOST_PRODUCTS).
+pub fn automaton(title: &str, dfa: &Dfa) -> Result<String, TooLarge> {
     let free = Dfa { possible: None, ..dfa.clone() };
     let mut hoa = header(title, dfa);
     let mut last = None;
-    for edge in free.edges() {
-        if last.replace(edge.from) != Some(edge.from) {
-            let _ = writeln!(hoa, "State: {}{}", edge.from, mark(dfa, edge.from));
+    Labels::new(&free, Notation::Numbered, &str::to_owned)?.visit(&mut |from, to, label| {
+        if last.replace(from) != Some(from) {
+            let _ = writeln!(hoa, "State: {from}{}", mark(dfa, from));
         }
-        hoa.push_str(&row(dfa, &edge));
-    }
+        let _ = writeln!(hoa, "[{label}] {to}");
+    });
     hoa.push_str("--END--\n");
-    hoa
+    Ok(hoa)
 }
 
 /// Everything before the states. `terminal` says that accepting states are absorbing.
@@ -62,10 +64,4 @@ fn header(title: &str, dfa: &Dfa) -> String {
 /// The acceptance set of a state.
 fn mark(dfa: &Dfa, q: State) -> &'static str {
     if dfa.accepting == Some(q) { " {0}" } else { "" }
-}
-
-/// An edge: its label and its target.
-fn row(dfa: &Dfa, edge: &Edge) -> String {
-    let label = Sum::new(&dfa.propositions, &edge.guard).notation(Notation::Numbered);
-    format!("[{label}] {}\n", edge.to)
 }

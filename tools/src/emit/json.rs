@@ -12,7 +12,7 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
-use crate::emit::sum::{Notation, label};
+use crate::emit::sum::{Labels, Notation, TooLarge};
 use tltl_compiler::dfa::{Dfa, State};
 use tltl_compiler::error::{Error, Kind};
 use tltl_compiler::source::{Source, Span, is_hidden};
@@ -32,16 +32,7 @@ struct Automaton<'a> {
     edges: usize,
     self_loops: usize,
     #[serde(skip_serializing_if = "Option::is_none")]
-    guards: Option<Vec<Transition>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     transitions: Option<Vec<Vec<State>>>,
-}
-
-#[derive(Serialize)]
-struct Transition {
-    from: State,
-    to: State,
-    guard: String,
 }
 
 #[derive(Serialize)]
@@ -88,7 +79,6 @@ impl<'a> Automaton<'a> {
             trap: dfa.trap,
             edges: size.edges,
             self_loops: size.self_loops,
-            guards: None,
             transitions: None,
         }
     }
@@ -140,27 +130,36 @@ pub fn explicit(formula: &str, dfa: &Dfa) -> Result<String, Error> {
     Ok(line(&Automaton { transitions, ..Automaton::new(formula, dfa) }))
 }
 
-/// The automaton with the guards of its edges, self-loops included, over several lines. A guard is
-/// a formula of the language.
+/// The automaton with the guards of its edges, self-loops included, one a line. A guard is a
+/// formula of the language.
 ///
 /// ```
 /// use tltl_compiler::translate::Budget;
 ///
 /// let task = tltlc::task::compile("a T b", Budget::default())?;
-/// let json = tltlc::emit::json::automaton("a T b", task.dfa());
+/// let json = tltlc::emit::json::automaton("a T b", task.dfa()?);
 /// let read: serde_json::Value = serde_json::from_str(&json)?;
 /// assert_eq!(read["states"], 3);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[must_use]
-pub fn automaton(formula: &str, dfa: &Dfa) -> String {
-    let guards = dfa.edges().into_iter().map(|edge| Transition {
-        from: edge.from,
-        to: edge.to,
-        guard: label(dfa, &edge, Notation::Ascii),
+///
+/// # Errors
+/// If the guards have more than [`MOST_PRODUCTS`](super::sum::MOST_PRODUCTS).
+pub fn automaton(formula: &str, dfa: &Dfa) -> Result<String, TooLarge> {
+    let head = pretty(&Automaton::new(formula, dfa));
+    let head = head.strip_suffix("\n}\n").expect("an object over several lines");
+    let mut json = format!("{head},\n  \"guards\": [");
+    let escaped = |text: &str| line(&text).trim_matches('"').to_owned();
+    let mut separator = "\n";
+    Labels::new(dfa, Notation::Ascii, &escaped)?.visit(&mut |from, to, guard| {
+        let _ = write!(
+            json,
+            "{separator}    {{\"from\": {from}, \"to\": {to}, \"guard\": \"{guard}\"}}"
+        );
+        separator = ",\n";
     });
-    let guards = Some(guards.collect());
-    pretty(&Automaton { guards, ..Automaton::new(formula, dfa) })
+    json.push_str("\n  ]\n}\n");
+    Ok(json)
 }
 
 /// A mistake of a formula, on one line: the form in which a list of formulas reports one of them.

@@ -5,7 +5,7 @@
 
 use std::fmt::Write as _;
 
-use crate::emit::sum::{Notation, label, quoted};
+use crate::emit::sum::{Labels, Notation, TooLarge, quoted};
 use tltl_compiler::dfa::{Dfa, State};
 
 /// A flowchart, from left to right: the accepting state has two circles, the trap and the edges
@@ -15,26 +15,27 @@ use tltl_compiler::dfa::{Dfa, State};
 /// use tltl_compiler::translate::Budget;
 ///
 /// let task = tltlc::task::compile("a T b", Budget::default())?;
-/// let chart = tltlc::emit::mermaid::automaton("order", task.dfa());
+/// let chart = tltlc::emit::mermaid::automaton("order", task.dfa()?);
 /// assert!(chart.contains("flowchart LR\n"));
 /// assert!(chart.contains("  q0 -->|\"a\"| q1\n"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[must_use]
-pub fn automaton(title: &str, dfa: &Dfa) -> String {
+///
+/// # Errors
+/// If the guards have more than [`MOST_PRODUCTS`](super::sum::MOST_PRODUCTS).
+pub fn automaton(title: &str, dfa: &Dfa) -> Result<String, TooLarge> {
     let mut text = format!("---\ntitle: {}\n---\nflowchart LR\n", quoted(title));
     text.push_str("  start[\" \"]:::start --> q0\n");
     for q in dfa.states() {
         let _ = writeln!(text, "  {}", node(dfa, q));
     }
-    for edge in dfa.edges() {
-        let label = escape(&label(dfa, &edge, Notation::Ascii));
-        let arrow = if dfa.trap == Some(edge.to) { "-.->" } else { "-->" };
-        let _ = writeln!(text, "  q{} {arrow}|\"{label}\"| q{}", edge.from, edge.to);
-    }
+    Labels::new(dfa, Notation::Ascii, &escape)?.visit(&mut |from, to, label| {
+        let arrow = if dfa.trap == Some(to) { "-.->" } else { "-->" };
+        let _ = writeln!(text, "  q{from} {arrow}|\"{label}\"| q{to}");
+    });
     text.push_str("  classDef start fill:none,stroke:none\n");
     text.push_str("  classDef trap stroke-dasharray:4 3\n");
-    text
+    Ok(text)
 }
 
 /// A state in the shape of its verdict.

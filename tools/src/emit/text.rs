@@ -5,11 +5,14 @@
 
 use std::fmt::Write as _;
 
-use crate::emit::sum::{Notation, label};
-use tltl_compiler::dfa::{Dfa, Edge, Size, State};
+use crate::emit::sum::{Labels, Notation};
+use tltl_compiler::dfa::{Dfa, Size, State};
+
+/// The most edges of a table, self-loops included. Nobody reads so many.
+pub const MOST_EDGES: usize = 10_000;
 
 /// The sizes under both conventions, then each state with its edges and their guards. The initial
-/// state is marked `>`, the accepting one `*`, the trap `x`.
+/// state is marked `>`, the accepting one `*`, the trap `x`. Beyond [`MOST_EDGES`] only the sizes.
 ///
 /// ```
 /// use tltl_compiler::translate::Budget;
@@ -23,12 +26,27 @@ use tltl_compiler::dfa::{Dfa, Edge, Size, State};
 /// ```
 #[must_use]
 pub fn automaton(title: &str, dfa: &Dfa) -> String {
-    let mut text = format!("{title}\n\n{}\n", sizes(dfa.size()));
+    let size = dfa.size();
+    let mut text = format!("{title}\n\n{}\n", sizes(size));
+    let labels = match size.edges + size.self_loops {
+        ..=MOST_EDGES => Labels::new(dfa, Notation::Ascii, &str::to_owned).ok(),
+        _ => None,
+    };
+    let Some(labels) = labels else {
+        text.push_str("its edges are too many to read; JSON and HOA list them\n");
+        return text;
+    };
     let width = dfa.len().to_string().len().max(4);
     let _ = writeln!(text, "   {:>width$}  {:>width$}  when", "from", "to");
-    for edge in dfa.edges() {
-        let _ = writeln!(text, "{}", row(dfa, &edge, width));
-    }
+    let mut last = None;
+    labels.visit(&mut |from, to, guard| {
+        let first = last.replace(from) != Some(from);
+        let (mark, from) = match first {
+            true => (mark(dfa, from), from.to_string()),
+            false => ("", String::new()),
+        };
+        let _ = writeln!(text, "{mark:<2} {from:>width$}  {to:>width$}  {guard}");
+    });
     text.push_str(legend(dfa));
     text
 }
@@ -63,15 +81,6 @@ pub fn sizes(size: Size) -> String {
         row("without the trap", size.states - trap, edges, size.self_loops - trap);
     }
     text
-}
-
-/// The line of an edge. Only the first edge of a state shows the state and its mark.
-fn row(dfa: &Dfa, edge: &Edge, width: usize) -> String {
-    let guard = label(dfa, edge, Notation::Ascii);
-    let first = dfa.successors(edge.from).first() == Some(&edge.to);
-    let (mark, from) =
-        if first { (mark(dfa, edge.from), edge.from.to_string()) } else { ("", String::new()) };
-    format!("{mark:<2} {from:>width$}  {:>width$}  {guard}", edge.to)
 }
 
 /// The mark of a state: initial, accepting, trap.
