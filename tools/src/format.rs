@@ -99,8 +99,7 @@ impl<'a> Layout<'a> {
         match token.text {
             _ if token.kind == Kind::Unit => false,
             "!" | "¬" | "◇" | "○" | "<>" | "□" | "[]" => true,
-            "F" | "X" | "not" => token.kind == Kind::Word,
-            "G" => token.kind == Kind::Operator,
+            "F" | "X" | "G" | "not" => token.kind == Kind::Operator,
             // As in `[<=3]`.
             "<=" | "≤" => self.before.is_some_and(|before| before.kind == Kind::Bound),
             "-" | "−" => self.before.is_none_or(|before| !before.ends_operand()),
@@ -117,12 +116,13 @@ impl<'a> Layout<'a> {
         if before.kind == Kind::Comment || token.kind == Kind::Comment {
             return true;
         }
-        let calls = before.ends_operand() && !before.is_operator_word();
+        let calls = before.ends_operand();
         match token.text {
             _ if token.kind == Kind::Unit => before.kind != Kind::Unit,
             _ if token.kind == Kind::Rust => !symbol("("),
             "," | ";" | ":" | "?" => false,
-            "." | "::" | ".." | "..=" => false,
+            "." => self.after_number(before),
+            "::" | ".." | "..=" => false,
             _ if symbol("..") || symbol("..=") => false,
             ")" | "]" => false,
             "}" => closes_block && !symbol("{"),
@@ -134,6 +134,16 @@ impl<'a> Layout<'a> {
             }
             _ => true,
         }
+    }
+}
+
+impl Layout<'_> {
+    /// Whether the token before is a number, which would take a dot after it for its own. The
+    /// position of a field is none: `pose.0.1`.
+    fn after_number(&self, before: Token<'_>) -> bool {
+        let position = self.out[..self.out.len() - before.text.len()].ends_with('.');
+        before.text.starts_with(|c: char| c.is_ascii_digit())
+            && (!position || before.text.contains('.'))
     }
 }
 
@@ -204,6 +214,8 @@ mod tests {
             ("task t=F a ensuring-x<1", "task t = F a ensuring -x < 1\n"),
             ("task t=a R[0,1]-x<1<=>R-M<W", "task t = a R[0, 1] -x < 1 <=> R - M < W\n"),
             ("task t=G-1<x&&G!=2&&s.G(x)", "task t = G - 1 < x && G != 2 && s.G(x)\n"),
+            ("task t=1.5 . x<pose . 0 . 1&&2 . y", "task t = 1.5 .x < pose.0.1 && 2 .y\n"),
+            ("task t=pose . F [ 2 ]-x<1", "task t = pose.F[2] - x < 1\n"),
             ("task t=F a\n# [ factored ]\ntask u=F b", "task t = F a\n#[factored]\ntask u = F b\n"),
             ("task t = for all in in R: F in", "task t = for all in in R: F in\n"),
             ("task t = for all r in F:F r", "task t = for all r in F: F r\n"),

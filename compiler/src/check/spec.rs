@@ -405,8 +405,11 @@ mod tests {
     use crate::source::Source;
 
     const FILE: &str = "enum Room { hall, attic }
-        state S { x: f64, on: bool, room: Room, a: [bool; 2], t: [bool; Room] }
+        struct Wrench { F: f64, T: [f64; 2] }
+        enum Letter { F, G }
+        state S { wrench: Wrench, letter: Letter, G: f64, x: f64, on: bool, room: Room, a: [bool; 2], t: [bool; Room] }
         step 0.1 s
+        predicate held = wrench.F > 3 && wrench.T[1] > 0
         predicate calm = X[0] (x < 1) && !G[0 s] on
         const few = 2 + 1
         const late in s = 0.4
@@ -450,6 +453,8 @@ mod tests {
             ("on == a[0] == a[1]", "truth values are compared two at a time"),
             ("on == x", "`on` is true or false, but a number is needed here"),
             ("F calm && !F[0,0] calm", "F calm && !calm"),
+            ("F held && F (letter == Letter::F)", "F held && F (letter == F)"),
+            ("F (G > 1) && F[1,2] (G[0,1] (G > 2))", "F (G > 1) && F[1,2] G[0,1] (G > 2)"),
             ("F[0,few] on", "F[0,3] on"),
             ("F[few, 0.4 s] on", "`few` counts steps, and the other end of this bound is a time"),
             ("F[0.1 s, late] on", "F[1,4] on"),

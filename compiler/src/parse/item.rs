@@ -79,8 +79,9 @@ pub(super) fn broken(ast: &mut Ast, span: Span, mistakes: &mut Vec<Error>) {
     let heading = grammar::parse(Rule::heading, source.slice(span)).ok();
     let parts = heading.iter().flat_map(Tree::pairs);
     let mut takes = parts.filter(|part| part.as_rule() == Rule::parameters);
-    let fields = takes.next().map(|part| declarations(ast, part, span.start, mistakes));
-    let kind = ItemKind::Broken(fields.unwrap_or_default());
+    let fields = takes.next().map(|part| declarations(part, span.start)).unwrap_or_default();
+    fields.iter().for_each(|field| check_word(ast, field.name, mistakes));
+    let kind = ItemKind::Broken(fields);
     ast.push_item(Item { attributes: Vec::new(), docs: Vec::new(), name, kind, span });
 }
 
@@ -114,7 +115,13 @@ fn declaration(
         match part.as_rule() {
             Rule::identifier if name == Span::default() => name = place(&part, at),
             Rule::identifier => names.push(place(&part, at)),
-            Rule::fields | Rule::parameters => fields = declarations(ast, part, at, mistakes),
+            Rule::fields | Rule::parameters => {
+                fields = declarations(part, at);
+                // What stands after a dot is no operator.
+                let letter = |name: Span| name.end - name.start == 1;
+                let named = |field: &&Declaration| rule != Rule::record || !letter(field.name);
+                fields.iter().filter(named).for_each(|field| check_word(ast, field.name, mistakes));
+            }
             Rule::amount => amount = place(&part, at),
             Rule::host_type => host = Some(trimmed(ast, place(&part, at))),
             Rule::unit => measured = Some(unit(part, at)),
@@ -137,12 +144,7 @@ fn declaration(
 }
 
 /// The fields of a struct, or the parameters of a predicate or task.
-fn declarations(
-    ast: &Ast,
-    pair: Pair<'_>,
-    at: usize,
-    mistakes: &mut Vec<Error>,
-) -> Vec<Declaration> {
+fn declarations(pair: Pair<'_>, at: usize) -> Vec<Declaration> {
     let mut fields = Vec::new();
     for field in pair.into_inner().filter(|part| part.as_rule() == Rule::field_declaration) {
         let mut docs = Vec::new();
@@ -152,7 +154,6 @@ fn declarations(
                 Rule::doc => docs.push(doc_text(part.as_str())),
                 Rule::identifier => name = place(&part, at),
                 Rule::field_type => {
-                    check_word(ast, name, mistakes);
                     let docs = std::mem::take(&mut docs);
                     let ty = field_type(part, at);
                     fields.push(Declaration { docs, name, ty, unit: None });

@@ -12,7 +12,7 @@ pub(super) enum Kind {
     Word,
     /// An operator or a bracket.
     Symbol,
-    /// An operator whose word is a name elsewhere: `G`, `R`, `W`, `M`, `ensuring`.
+    /// An operator written as a word. Some of the words are names elsewhere: `G`, `R`, `ensuring`.
     Operator,
     /// A bracket around the bound of an operator: `F[0, 3]`.
     Bound,
@@ -39,27 +39,16 @@ impl Token<'_> {
     /// call or an index.
     pub(super) fn ends_operand(&self) -> bool {
         match self.kind {
-            Kind::Word => !self.is_operator_word(),
+            Kind::Word | Kind::Rust | Kind::Unit => true,
             Kind::Symbol => matches!(self.text, ")" | "]" | "⊤" | "⊥"),
-            Kind::Rust | Kind::Unit => true,
             Kind::Comment | Kind::Doc | Kind::Operator | Kind::Bound => false,
         }
-    }
-
-    /// Whether the token is an operator written as a word.
-    pub(super) fn is_operator_word(&self) -> bool {
-        self.kind == Kind::Operator
-            || self.kind == Kind::Word
-                && matches!(self.text, "F" | "X" | "U" | "T" | "not" | "and" | "or" | "in")
     }
 
     /// Whether the token is an operator that can have a bound.
     fn takes_bound(&self) -> bool {
         match self.kind {
-            Kind::Word | Kind::Operator => {
-                self.is_operator_word()
-                    && matches!(self.text, "F" | "X" | "U" | "T" | "G" | "R" | "W" | "M")
-            }
+            Kind::Operator => matches!(self.text, "F" | "X" | "U" | "T" | "G" | "R" | "W" | "M"),
             Kind::Symbol => matches!(self.text, "◇" | "<>" | "○" | "□" | "[]"),
             _ => false,
         }
@@ -119,24 +108,26 @@ fn one(rest: &str, first: char, before: &[Token<'_>]) -> (Kind, usize) {
     }
 }
 
-/// Whether a word that may be a name is an operator here, with `rest` after it: between operands,
-/// or, as `G`, before one.
+/// Whether a word is an operator here, with `rest` after it. `G` is one before an operand, `R` and its
+/// like are between two; after a dot all are names.
 fn is_operator(word: &str, rest: &str, before: &[Token<'_>]) -> bool {
     let last = before.iter().rev().find(|token| token.kind != Kind::Comment);
     let after_operand = last.is_some_and(Token::ends_operand);
-    let rest = rest.trim_start();
+    if last.is_some_and(|last| matches!(last.text, "." | "::")) {
+        return false;
+    }
     match word {
+        "F" | "X" | "U" | "T" | "not" | "and" | "or" | "in" => true,
         "R" | "W" | "M" | "ensuring" => after_operand,
-        "G" => {
-            !after_operand
-                && last.is_none_or(|last| !matches!(last.text, "." | "::"))
-                && (rest.starts_with("<>")
-                    || !rest.starts_with("!=")
-                        && rest
-                            .starts_with(|c: char| c.is_alphanumeric() || "_!¬(◇○□[⊤⊥".contains(c)))
-        }
+        "G" => !after_operand && starts_operand(rest.trim_start()),
         _ => false,
     }
+}
+
+/// Whether a text starts as what `G` can stand before.
+fn starts_operand(rest: &str) -> bool {
+    let starts = |c: char| c.is_alphanumeric() || "_!¬(◇○□[⊤⊥".contains(c);
+    rest.starts_with("<>") || rest.starts_with(starts) && !rest.starts_with("!=")
 }
 
 /// Whether a bracket stands around a bound: it follows an operator, or ends what does.
