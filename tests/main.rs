@@ -11,6 +11,7 @@ mod factored;
 mod foreign;
 mod forms;
 mod front;
+mod fuzzed;
 mod grammar;
 mod hoa;
 mod hostile;
@@ -20,7 +21,6 @@ mod network;
 mod policies;
 mod possible;
 mod properties;
-mod random;
 mod rowwise;
 mod semantics;
 #[rustfmt::skip]
@@ -32,3 +32,5 @@ mod tables;
 mod tasks;
 mod ui;
 mod units;
+
+use tltl_fuzz::random;

@@ -318,4 +318,5 @@ fn escaped(rest: &mut std::str::Chars<'_>) -> Option<char> {
 }
 
 #[cfg(test)]
+#[path = "tokens/tests.rs"]
 mod tests;

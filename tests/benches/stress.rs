@@ -4,18 +4,15 @@
 //! `cargo bench -p tltl-tests --bench stress [-- COUNT [SEED [OPERATORS]]]`, by default 20,000
 //! formulas of up to 30 operators. A difference becomes a row of the corpus.
 
-#[path = "../random.rs"]
-mod random;
-
 use std::time::Instant;
 
-use random::{Choices, NAMES, Seeded};
 use tltl_compiler::check;
 use tltl_compiler::dfa::Dfa;
 use tltl_compiler::minimize::minimize;
 use tltl_compiler::source::Source;
 use tltl_compiler::spec::Spec;
 use tltl_compiler::translate::{Budget, translate};
+use tltl_fuzz::random::{self, Choices, NAMES, Seeded};
 use tltlc::semantics;
 
 const TRACES: u32 = 6;

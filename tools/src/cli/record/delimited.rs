@@ -122,7 +122,7 @@ struct Rows<'a> {
 
 impl<'a> Rows<'a> {
     /// Rows whose delimiter is the one that the first line names, or else the first of `,`, `;` and
-    /// tab that it has.
+    /// tab that it has outside quotes.
     fn new(mut lines: Lines<'a>) -> Result<Self, String> {
         let mut first = Vec::new();
         lines.append(&mut first)?;
@@ -132,7 +132,8 @@ impl<'a> Rows<'a> {
             b"sep=" => Some(b'\t'),
             _ => None,
         };
-        let has = |delimiter: &u8| first.contains(delimiter);
+        let unquoted = first.split(|byte| *byte == b'"').step_by(2);
+        let has = |delimiter: &u8| unquoted.clone().any(|part| part.contains(delimiter));
         let delimiter = named.or_else(|| [b',', b';', b'\t'].into_iter().find(has));
         if named.is_none() {
             lines.give_back(first);
@@ -171,7 +172,7 @@ impl<'a> Rows<'a> {
             if byte == self.delimiter && !open {
                 self.fields.push(start..at);
                 start = at + 1;
-            } else if byte == b'"' && self.text[start] == b'"' {
+            } else if byte == b'"' && self.text[start..].trim_ascii_start().starts_with(b"\"") {
                 open = !open;
             }
         }
@@ -248,6 +249,8 @@ mod tests {
         ];
         assert_eq!(found, expected.map(|row| row.map(|(l, c, f)| (l, c, f.to_owned())).to_vec()));
         assert_eq!(fields("a;b\n1,5;2").unwrap()[1][0].2, "1,5");
+        let quoted = fields("a; \"b, c\"\n1; \"x; \"\"y\"\"\"").unwrap();
+        assert_eq!((&*quoted[0][1].2, &*quoted[1][1].2), ("b, c", "x; \"y\""));
         assert_eq!(fields("a\tb\r\n1\t2\r\n").unwrap()[1][1], (2, 3, "2".to_owned()));
         assert_eq!(fields("a,b\r1,2\r\r3,4").unwrap()[2][1], (4, 3, "4".to_owned()));
     }
