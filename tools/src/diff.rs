@@ -163,7 +163,7 @@ impl Side<'_> {
 /// let Difference::Trace { states, first, second, .. } = of_definitions(one, two) else {
 ///     panic!("they differ");
 /// };
-/// assert_eq!(states, [[("x".to_owned(), "3".to_owned())]]);
+/// assert_eq!(states, [[("x".to_owned(), "2.5".to_owned())]]);
 /// assert_eq!((first, second), (true, false));
 /// ```
 #[must_use]

@@ -11,12 +11,12 @@ mod words;
 
 use std::fmt;
 
-use crate::emit::sum::{Notation, Sum, label};
+use crate::emit::sum::Sum;
 use crate::emit::text;
 use crate::task::Verdict;
 use crate::trace::{Trace, shortest};
 use tltl_compiler::bdd::Bdd;
-use tltl_compiler::dfa::{Dfa, Edge, Guards, Size, State};
+use tltl_compiler::dfa::{Dfa, Guards, Size, State};
 use tltl_compiler::spec::Spec;
 
 /// A task explained. It prints as the text of `tltlc explain`, without the line of the title.
@@ -113,39 +113,47 @@ pub fn explain(spec: &Spec, dfa: &Dfa) -> Explanation {
 /// ```
 #[must_use]
 pub fn explain_automaton(dfa: &Dfa) -> Explanation {
-    let edges = dfa.edges();
+    let mut guards = Guards::new(dfa);
     let accepts = |q: State| dfa.accepting == Some(q);
     let distances = dfa.distances();
-    let falls = edges.iter().filter(|edge| dfa.trap == Some(edge.to) && !edge.is_loop());
+    let states = dfa.states().take(MOST_STATES);
     Explanation {
         words: Vec::new(),
         size: dfa.size(),
         satisfying: shortest(dfa, 0, &accepts),
         losing: dfa.trap.and_then(|trap| shortest(dfa, 0, &|q| q == trap)),
         unsatisfying: shortest(dfa, 0, &|q| !accepts(q)),
-        states: (dfa.states().take(MOST_STATES))
-            .map(|q| state(dfa, &edges, &distances, q))
-            .collect(),
-        falls: falls.map(|edge| (edge.from, label(dfa, edge, Notation::Ascii))).collect(),
+        states: states.map(|q| state(dfa, &mut guards, &distances, q)).collect(),
+        falls: dfa.states().filter_map(|q| Some((q, fall(dfa, &mut guards, q)?))).collect(),
     }
 }
 
+/// The guard of the edge into the trap, if there is one.
+fn fall(dfa: &Dfa, guards: &mut Guards<'_>, q: State) -> Option<String> {
+    let cubes = guards.edge(q, dfa.trap.filter(|trap| *trap != q)?);
+    (!cubes.is_empty()).then(|| Sum::new(&dfa.propositions, &cubes).to_string())
+}
+
 /// The explanation of one state.
-fn state(dfa: &Dfa, edges: &[Edge], distances: &[Option<u32>], q: State) -> StateExplanation {
+fn state(
+    dfa: &Dfa,
+    guards: &mut Guards<'_>,
+    distances: &[Option<u32>],
+    q: State,
+) -> StateExplanation {
     let verdict = match q {
         _ if dfa.accepting == Some(q) => Verdict::Satisfied,
         _ if dfa.trap == Some(q) => Verdict::Lost,
         _ => Verdict::Open,
     };
-    let fall = edges.iter().find(|edge| edge.from == q && dfa.trap == Some(edge.to));
     let open = verdict == Verdict::Open;
     StateExplanation {
         state: q,
         verdict,
         moves: distances[q as usize],
         needs: if open { needs(dfa, q) } else { Vec::new() },
-        way: if open { way(dfa, edges, distances, q) } else { Vec::new() },
-        avoid: fall.filter(|_| open).map(|edge| label(dfa, edge, Notation::Ascii)),
+        way: if open { way(dfa, guards, distances, q) } else { Vec::new() },
+        avoid: fall(dfa, guards, q).filter(|_| open),
     }
 }
 
@@ -194,20 +202,21 @@ fn reaches(dfa: &Dfa, q: State, (proposition, value): (u32, bool)) -> bool {
 
 /// The guards along a shortest way from `q` to acceptance. Of several edges, and of several
 /// products of a guard, the one with the fewest literals is shown.
-fn way(dfa: &Dfa, edges: &[Edge], distances: &[Option<u32>], mut q: State) -> Vec<String> {
-    let mut guards = Vec::new();
+fn way(dfa: &Dfa, guards: &mut Guards<'_>, distances: &[Option<u32>], mut q: State) -> Vec<String> {
+    let mut way = Vec::new();
     while let Some(left) = distances[q as usize].filter(|&left| left > 0) {
-        let nearer = |edge: &&Edge| {
-            edge.from == q && distances[edge.to as usize].is_some_and(|moves| moves < left)
-        };
-        let asks = |edge: &&Edge| edge.guard.iter().map(Vec::len).min();
-        let Some(edge) = edges.iter().filter(nearer).min_by_key(asks) else { break };
-        let least = edge.guard.iter().min_by_key(|cube| cube.len()).cloned();
-        let cubes: Vec<_> = least.into_iter().collect();
-        guards.push(Sum::new(&dfa.propositions, &cubes).to_string());
-        q = edge.to;
+        let edges = guards.edges(q).into_iter();
+        let nearer =
+            edges.filter(|(to, _)| distances[*to as usize].is_some_and(|moves| moves < left));
+        let shortest = nearer.filter_map(|(to, guard)| {
+            let cube = guards.cubes(guard).into_iter().min_by_key(Vec::len)?;
+            Some((to, cube))
+        });
+        let Some((to, cube)) = shortest.min_by_key(|(_, cube)| cube.len()) else { break };
+        way.push(Sum::new(&dfa.propositions, &[cube]).to_string());
+        q = to;
     }
-    guards
+    way
 }
 
 /// The guard D_φ^q as text: the condition on a state of the world under which the automaton leaves

@@ -12,7 +12,7 @@ use tltl_compiler::dfa::{Dfa, State};
 /// use tltl_compiler::translate::Budget;
 ///
 /// let task = tltlc::task::compile("a T b", Budget::default())?;
-/// let dot = tltlc::emit::dot::automaton("order", task.dfa()?);
+/// let dot = tltlc::emit::dot::automaton("order", task.dfa())?;
 /// assert!(dot.starts_with("digraph \"order\" {"));
 /// assert!(dot.contains("  0 -> 1 [label=\"a\"];"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -25,7 +25,7 @@ use tltl_compiler::dfa::{Dfa, State};
 /// use tltl_compiler::translate::Budget;
 ///
 /// let task = tltlc::task::compile("F a", Budget::default())?;
-/// let hoa = tltlc::emit::hoa::automaton("reach", task.dfa()?);
+/// let hoa = tltlc::emit::hoa::automaton("reach", task.dfa())?;
 /// assert!(hoa.ends_with("State: 0\n[!0] 0\n[0] 1\nState: 1 {0}\n[t] 1\n--END--\n"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

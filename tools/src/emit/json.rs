@@ -137,7 +137,7 @@ pub fn explicit(formula: &str, dfa: &Dfa) -> Result<String, Error> {
 /// use tltl_compiler::translate::Budget;
 ///
 /// let task = tltlc::task::compile("a T b", Budget::default())?;
-/// let json = tltlc::emit::json::automaton("a T b", task.dfa()?);
+/// let json = tltlc::emit::json::automaton("a T b", task.dfa())?;
 /// let read: serde_json::Value = serde_json::from_str(&json)?;
 /// assert_eq!(read["states"], 3);
 /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -15,7 +15,7 @@ use tltl_compiler::dfa::{Dfa, State};
 /// use tltl_compiler::translate::Budget;
 ///
 /// let task = tltlc::task::compile("a T b", Budget::default())?;
-/// let chart = tltlc::emit::mermaid::automaton("order", task.dfa()?);
+/// let chart = tltlc::emit::mermaid::automaton("order", task.dfa())?;
 /// assert!(chart.contains("flowchart LR\n"));
 /// assert!(chart.contains("  q0 -->|\"a\"| q1\n"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
