@@ -48,7 +48,7 @@ pub fn formula(choices: &mut impl Choices, names: u32, operators: u32) -> String
         return leaf(choices, names);
     }
     let rest = operators - 1;
-    match choices.choose(10) {
+    match choices.choose(15) {
         0 => leaf(choices, names),
         1 => format!("!({})", condition(choices, names, rest)),
         2 => format!("X ({})", formula(choices, names, rest)),
@@ -58,13 +58,37 @@ pub fn formula(choices: &mut impl Choices, names: u32, operators: u32) -> String
             let before = condition(choices, names, left);
             format!("({before}) => ({})", formula(choices, names, rest - left))
         }
-        other => {
-            let operator = ["U", "T", "&&", "||"][other as usize - 6];
+        6 | 7 => {
+            let operator = ["F", "G"][choices.choose(2) as usize];
+            let (first, last) = steps(choices, 0);
+            format!("{operator}[{first},{last}] ({})", formula(choices, names, rest))
+        }
+        8 => {
             let left = choices.choose(rest + 1);
             let before = formula(choices, names, left);
-            format!("({before}) {operator} ({})", formula(choices, names, rest - left))
+            format!("(({before}) ensuring {})", condition(choices, names, rest - left))
         }
+        9 | 10 => {
+            let operator = choices.choose(2);
+            let (first, last) = steps(choices, operator);
+            let operator = ["U", "T"][operator as usize];
+            binary(choices, names, rest, &format!("{operator}[{first},{last}]"))
+        }
+        other => binary(choices, names, rest, ["U", "T", "&&", "||"][other as usize - 11]),
     }
+}
+
+/// An operator between two formulas.
+fn binary(choices: &mut impl Choices, names: u32, operators: u32, operator: &str) -> String {
+    let left = choices.choose(operators + 1);
+    let before = formula(choices, names, left);
+    format!("({before}) {operator} ({})", formula(choices, names, operators - left))
+}
+
+/// The ends of a bound, the first at least `least`.
+fn steps(choices: &mut impl Choices, least: u32) -> (u32, u32) {
+    let first = least + choices.choose(3);
+    (first, first + choices.choose(3))
 }
 
 /// A formula of one state.
