@@ -45,6 +45,13 @@ fn every_spelling_means_what_it_must() {
     }
 }
 
+#[test]
+fn a_block_of_the_macro_may_begin_with_its_step() {
+    let text = "step 0.1 s; state s: S; predicate a = s.x > 1; task t = F[0.1 s, 0.35 s] a;";
+    let compiled = compile::fragment(&Source::new("tltl!", text), Budget::default()).unwrap();
+    assert_eq!(compiled.module.tasks[0].spec.to_string(), "F[1,3] a");
+}
+
 /// A trajectory: the propositions `a`, `b`, `c` of each state.
 type Trace = [[bool; 3]];
 

@@ -149,12 +149,13 @@ pub(crate) fn mentions(text: &str, name: &str) -> bool {
     Tokens::new(text, 0).any(is_named)
 }
 
-/// Whether the token is the word of an item: a name follows it.
+/// Whether the token is the word of an item: a name follows it, or, after `step`, a number.
 fn begins_item(text: &str, token: Span) -> bool {
-    ITEM_WORDS.contains(&&text[token.start..token.end])
-        && Tokens::new(text, token.end)
-            .next()
-            .is_some_and(|next| text[next.start..].starts_with(is_word_start))
+    let word = &text[token.start..token.end];
+    let Some(next) = Tokens::new(text, token.end).next() else { return false };
+    let next = &text[next.start..];
+    ITEM_WORDS.contains(&word) && next.starts_with(is_word_start)
+        || word == "step" && next.starts_with(|c: char| c.is_ascii_digit())
 }
 
 /// The tokens of a text from some byte on. Comments are skipped; a doc comment is one token, `///`

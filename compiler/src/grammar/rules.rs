@@ -337,7 +337,14 @@ pub(super) static RULES: [(Kind, Peg); 109] = [
     ),
     (
         Pair,
-        Sequence(&[Call(Rule::word_step), Call(Rule::amount), Call(Rule::identifier)]),
+        Sequence(
+            &[
+                Call(Rule::word_step),
+                Call(Rule::amount),
+                Not(&Sequence(&[Call(Rule::item_word), Call(Rule::identifier)])),
+                Call(Rule::identifier),
+            ],
+        ),
     ),
     (
         Pair,

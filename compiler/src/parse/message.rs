@@ -75,6 +75,9 @@ impl<'a> Found<'a> {
 pub(super) fn sentence(source: &Source, from: usize, stopped: &Stopped) -> Error {
     let found = Found::new(source.text(), from, from + stopped.at);
     let expected = &stopped.expected[..];
+    if let Some(error) = broken_step(&found, from) {
+        return error;
+    }
     if let Some(error) = open_bound(&found, from).or_else(|| unsupported_here(&found)) {
         return error;
     }
@@ -88,6 +91,17 @@ pub(super) fn sentence(source: &Source, from: usize, stopped: &Stopped) -> Error
     } else {
         other(&found, expected)
     }
+}
+
+/// A mistake in `step 0.1 s`, after its number.
+fn broken_step(found: &Found<'_>, from: usize) -> Option<Error> {
+    let mut words = Tokens::new(found.text, from).map(|token| &found.text[token.start..token.end]);
+    let is_step =
+        words.next() == Some("step") && words.next()?.starts_with(|c: char| c.is_ascii_digit());
+    is_step.then(|| {
+        let message = "`step` takes a number and a unit, such as `step 0.1 s`";
+        Error::new(Kind::Syntax, message, found.here_or_end())
+    })
 }
 
 /// An operator of another logic at the place where parsing stopped, or just before it.
