@@ -45,7 +45,9 @@ fn is_of_the_language(text: &str, input: TokenStream) -> bool {
     // A dot and a number are `.5` for tokens, empty brackets `[]`, whatever stood between them.
     let dots = !parted(text, '.', |c| c.is_ascii_digit());
     let brackets = !parted(text, '[', |c| c == ']');
-    apart && blanks && dots && brackets && input.into_iter().all(|tree| is_token(&tree))
+    // `F ::a` is `F::a` for tokens, a name of Rust.
+    let paths = !['F', 'X', 'G'].iter().any(|&word| parted(text, word, |c| c == ':'));
+    apart && blanks && dots && brackets && paths && input.into_iter().all(|tree| is_token(&tree))
 }
 
 /// Whether blanks stand between the two characters somewhere.
