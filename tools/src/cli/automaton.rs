@@ -14,15 +14,20 @@ use super::{Automaton, Exit, Format, Outcome, Report, Streams, subject};
 
 /// Shows the automaton that the arguments name, in the form that they ask for.
 pub(super) fn run(arguments: &Automaton, streams: &mut Streams<'_>) -> Outcome {
+    // What becomes Rust is within the limits of the macros.
+    let budget = match arguments.format {
+        Format::Rust => arguments.limits.over(Budget::EMITTED),
+        _ => arguments.limits.shown(),
+    };
     if let Some(list) = &arguments.formulas {
         let list = streams.read(list)?;
-        return formulas(arguments, &list, streams);
+        return formulas(arguments, &list, budget, streams);
     }
     if let Some(formula) = &arguments.formula {
-        return single(arguments, formula, streams);
+        return single(arguments, formula, budget, streams);
     }
     let Some(path) = &arguments.file else { return Err("there is no formula and no file".into()) };
-    match input::file(path, streams)? {
+    match input::file(path, budget, streams)? {
         // Rust is of the file as a whole.
         Some(File::Tasks(file)) if arguments.format == Format::Rust => {
             streams.print(&rust::file(file.compiled()))
@@ -50,8 +55,13 @@ pub(super) fn run(arguments: &Automaton, streams: &mut Streams<'_>) -> Outcome {
 }
 
 /// One formula, in any form. With `--format json` a mistake is JSON too, since a program reads it.
-fn single(arguments: &Automaton, formula: &str, streams: &mut Streams<'_>) -> Outcome {
-    let result = TaskFile::of_formula(formula, Budget::SHOWN);
+fn single(
+    arguments: &Automaton,
+    formula: &str,
+    budget: Budget,
+    streams: &mut Streams<'_>,
+) -> Outcome {
+    let result = TaskFile::of_formula(formula, budget);
     if let (Format::Json, Err(error)) = (arguments.format, &result) {
         streams.print(&json::failure(formula, error.errors().first()))?;
         return Ok(Exit::Mistaken);
@@ -64,7 +74,12 @@ fn single(arguments: &Automaton, formula: &str, streams: &mut Streams<'_>) -> Ou
 
 /// A list of formulas, one a line, without its empty lines and comments (`#`, `//`). A bad one is
 /// reported in its place and the rest goes on, so that in JSON there is a line for each formula.
-fn formulas(arguments: &Automaton, list: &str, streams: &mut Streams<'_>) -> Outcome {
+fn formulas(
+    arguments: &Automaton,
+    list: &str,
+    budget: Budget,
+    streams: &mut Streams<'_>,
+) -> Outcome {
     if !matches!(arguments.format, Format::Json | Format::Text) {
         return Err("a list of formulas is shown with `--format json` or `--format text`".into());
     }
@@ -72,7 +87,7 @@ fn formulas(arguments: &Automaton, list: &str, streams: &mut Streams<'_>) -> Out
     let is_formula =
         |line: &&str| !line.trim().is_empty() && !line.trim_start().starts_with(['#', '/']);
     for formula in list.lines().filter(is_formula) {
-        let shown = one_of_many(arguments, formula);
+        let shown = one_of_many(arguments, formula, budget);
         all_well &= shown.is_ok();
         streams.print(&shown.unwrap_or_else(|failure| failure))?;
     }
@@ -80,9 +95,9 @@ fn formulas(arguments: &Automaton, list: &str, streams: &mut Streams<'_>) -> Out
 }
 
 /// One formula of a list; `Err` is the report of a mistake.
-fn one_of_many(arguments: &Automaton, formula: &str) -> Result<String, String> {
+fn one_of_many(arguments: &Automaton, formula: &str, budget: Budget) -> Result<String, String> {
     let json = arguments.format == Format::Json;
-    let file = TaskFile::of_formula(formula, Budget::SHOWN).map_err(|error| {
+    let file = TaskFile::of_formula(formula, budget).map_err(|error| {
         let first = error.errors().first();
         if json {
             json::failure(formula, first)

@@ -31,18 +31,27 @@ pub(super) struct Foreign {
 }
 
 /// Reads a file and reports its mistakes and warnings; `None` if there are mistakes.
-pub(super) fn file(path: &Path, streams: &mut Streams<'_>) -> Result<Option<File>, String> {
+pub(super) fn file(
+    path: &Path,
+    budget: Budget,
+    streams: &mut Streams<'_>,
+) -> Result<Option<File>, String> {
     let source = Source::new(path.display().to_string(), streams.read(path)?);
-    compiled(path, source, Report::Human, streams)
+    compiled(path, source, budget, Report::Human, streams)
 }
 
 /// Checks each file; the exit code says whether all are free of mistakes. Warnings are reported and
 /// do not count.
-pub(super) fn check(paths: &[PathBuf], report: Report, streams: &mut Streams<'_>) -> Outcome {
+pub(super) fn check(
+    paths: &[PathBuf],
+    budget: Budget,
+    report: Report,
+    streams: &mut Streams<'_>,
+) -> Outcome {
     let mut all_well = true;
     for path in paths {
         let source = Source::new(path.display().to_string(), streams.read(path)?);
-        all_well &= compiled(path, source, report, streams)?.is_some();
+        all_well &= compiled(path, source, budget, report, streams)?.is_some();
     }
     Ok(Exit::of(all_well))
 }
@@ -51,6 +60,7 @@ pub(super) fn check(paths: &[PathBuf], report: Report, streams: &mut Streams<'_>
 fn compiled(
     path: &Path,
     source: Source,
+    budget: Budget,
     report: Report,
     streams: &mut Streams<'_>,
 ) -> Result<Option<File>, String> {
@@ -63,7 +73,7 @@ fn compiled(
             |read: hoa::Automaton| Foreign { name: read.name.unwrap_or_else(stem), dfa: read.dfa };
         return Ok(read.map(named).map(Box::new).map(File::Automaton));
     }
-    let tasks = reported(TaskFile::new(source, Budget::default()), report, streams)?;
+    let tasks = reported(TaskFile::new(source, budget), report, streams)?;
     Ok(tasks.map(File::Tasks))
 }
 

@@ -15,6 +15,7 @@ mod arguments;
 mod automaton;
 mod input;
 mod layout;
+mod limits;
 mod record;
 mod run;
 mod streams;
@@ -28,8 +29,11 @@ use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use tltl_compiler::error::Style;
+use tltl_compiler::translate::Budget;
 
 use crate::emit::policy;
+
+use limits::Limits;
 
 pub use streams::{Output, Streams, style};
 
@@ -89,6 +93,8 @@ enum Command {
         /// How to report.
         #[arg(long, value_enum, default_value_t = Report::Human)]
         format: Report,
+        #[command(flatten)]
+        limits: Limits,
     },
     /// Tells in plain English what a task asks for, and what each automaton state still does.
     Explain {
@@ -98,6 +104,8 @@ enum Command {
         /// The task of the file; may be left out if there is only one.
         #[arg(long)]
         task: Option<String>,
+        #[command(flatten)]
+        limits: Limits,
     },
     /// Tells whether two tasks mean the same; if not, shows a shortest trajectory between them.
     ///
@@ -111,6 +119,8 @@ enum Command {
         /// The other one.
         #[arg(value_name = "FORMULA|FILE[:TASK]")]
         second: String,
+        #[command(flatten)]
+        limits: Limits,
     },
     /// Runs recorded trajectories: verdict, robustness, and the automaton row by row.
     ///
@@ -169,6 +179,8 @@ struct Automaton {
     /// Take all predicates for free propositions, as other tools do.
     #[arg(long)]
     propositional: bool,
+    #[command(flatten)]
+    limits: Limits,
 }
 
 #[derive(Args)]
@@ -198,6 +210,8 @@ struct Run {
     /// The form to write.
     #[arg(long, value_enum, default_value_t = RowFormat::Text)]
     format: RowFormat,
+    #[command(flatten)]
+    limits: Limits,
 }
 
 /// The forms of a run.
@@ -265,9 +279,15 @@ where
 /// Runs a command. This is the list of all commands with the functions behind them.
 fn run(command: Command, streams: &mut Streams<'_>) -> Outcome {
     match command {
-        Command::Check { files, format } => input::check(&files, format, streams),
-        Command::Explain { subject, task } => tell::explain(&subject, task.as_deref(), streams),
-        Command::Diff { first, second } => tell::difference(&first, &second, streams),
+        Command::Check { files, format, limits } => {
+            input::check(&files, limits.over(Budget::EMITTED), format, streams)
+        }
+        Command::Explain { subject, task, limits } => {
+            tell::explain(&subject, task.as_deref(), limits.shown(), streams)
+        }
+        Command::Diff { first, second, limits } => {
+            tell::difference(&first, &second, limits.shown(), streams)
+        }
         Command::Run(arguments) => run::run(&arguments, streams),
         Command::Fmt { files, check } => layout::run(&files, check, streams),
         Command::Automaton(arguments) => automaton::run(&arguments, streams),

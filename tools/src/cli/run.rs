@@ -11,6 +11,8 @@ mod written;
 use rustc_hash::FxHashMap;
 use tltl_compiler::translate::Budget;
 
+use crate::emit::sum::MOST_PRODUCTS;
+
 use crate::evaluate::{Input, Scratch};
 use crate::online::Online;
 use crate::task::{Bound, Running};
@@ -63,8 +65,9 @@ fn reading(run: &Run, streams: &mut Streams<'_>) -> Result<Option<Reading>, Stri
         Some(task) => arguments::split(task).map(|(name, given)| (Some(name), given))?,
         None => (None, None),
     };
-    // Guards are needed, as in what becomes Rust.
-    let entry = match subject::read(subject, name, Budget::EMITTED, streams)? {
+    // Guards are needed, so edges and products count.
+    let budget = run.limits.over(Budget { edges: MOST_PRODUCTS, ..Budget::SHOWN });
+    let entry = match subject::read(subject, name, budget, streams)? {
         None => return Ok(None),
         Some(Subject::Task(entry)) => entry,
         Some(Subject::Automaton(automaton)) => {

@@ -21,8 +21,8 @@ pub(super) enum Subject {
     Automaton(Box<Foreign>),
 }
 
-/// Reads `FILE`, `FILE:TASK` or a formula, and reports its mistakes; `None` if it has any. The
-/// budget is for formulas; files have the one that they declare.
+/// Reads `FILE`, `FILE:TASK` or a formula, and reports its mistakes; `None` if it has any. A task
+/// that declares a budget has that one.
 pub(super) fn read(
     text: &str,
     task: Option<&str>,
@@ -31,7 +31,7 @@ pub(super) fn read(
 ) -> Result<Option<Subject>, String> {
     let (path, named) = split(text);
     if exists(path) || looks_like_file(path) || task.is_some() {
-        return file(path, named.or(task), streams);
+        return file(path, named.or(task), budget, streams);
     }
     let formula = TaskFile::of_formula(text, budget);
     let formula = input::reported(formula, Report::Human, streams)?;
@@ -64,9 +64,10 @@ fn looks_like_file(path: &str) -> bool {
 fn file(
     path: &str,
     name: Option<&str>,
+    budget: Budget,
     streams: &mut Streams<'_>,
 ) -> Result<Option<Subject>, String> {
-    Ok(match input::file(Path::new(path), streams)? {
+    Ok(match input::file(Path::new(path), budget, streams)? {
         None => None,
         Some(File::Tasks(file)) => Some(Subject::Task(choose(&file, name)?)),
         Some(File::Automaton(_)) if name.is_some() => {

@@ -11,8 +11,13 @@ use super::subject::{self, Subject};
 use super::{Exit, Outcome, Streams};
 
 /// Explains a task, under its formula as title.
-pub(super) fn explain(text: &str, task: Option<&str>, streams: &mut Streams<'_>) -> Outcome {
-    match subject::read(text, task, Budget::SHOWN, streams)? {
+pub(super) fn explain(
+    text: &str,
+    task: Option<&str>,
+    budget: Budget,
+    streams: &mut Streams<'_>,
+) -> Outcome {
+    match subject::read(text, task, budget, streams)? {
         None => Ok(Exit::Mistaken),
         Some(Subject::Automaton(automaton)) => {
             let told = explain_automaton(&automaton.dfa);
@@ -36,10 +41,14 @@ fn told_under(title: &str, told: &Explanation, streams: &mut Streams<'_>) -> Out
 }
 
 /// Compares two subjects, and shows a shortest trajectory on which they differ.
-pub(super) fn difference(first: &str, second: &str, streams: &mut Streams<'_>) -> Outcome {
-    let first = subject::read(first, None, Budget::SHOWN, streams)?;
-    let (Some(first), Some(second)) = (first, subject::read(second, None, Budget::SHOWN, streams)?)
-    else {
+pub(super) fn difference(
+    first: &str,
+    second: &str,
+    budget: Budget,
+    streams: &mut Streams<'_>,
+) -> Outcome {
+    let first = subject::read(first, None, budget, streams)?;
+    let (Some(first), Some(second)) = (first, subject::read(second, None, budget, streams)?) else {
         return Ok(Exit::Mistaken);
     };
     let found = of_definitions(side(&first)?, side(&second)?);
