@@ -82,7 +82,7 @@ fn what_users_build_is_counted() {
 const ORDER: [(&str, &str); 4] = [
     (
         "compiler",
-        "source error intern arena reserved token ast unit proposition bdd dfa grammar parse spec predicate linear \
+        "intern source error arena reserved token ast unit proposition bdd dfa grammar parse spec predicate linear \
          arithmetic resolve check translate minimize factor judge compile hoa tables emit",
     ),
     ("macros", "tokens expand"),

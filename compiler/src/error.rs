@@ -32,6 +32,7 @@ use std::fmt;
 
 pub use render::Style;
 
+use crate::intern::order;
 use crate::source::{Source, Span};
 
 /// The kind of a mistake. Its [`name`](Kind::name) is part of the output for machines and stays the
@@ -321,14 +322,12 @@ impl Errors {
     ///
     /// # Errors
     /// If there is one among them.
-    pub fn check(mut mistakes: Vec<Error>) -> Result<(), Self> {
-        // Stable: mistakes at one place stay in the order in which they were found.
-        mistakes.sort_by_key(Error::span);
+    pub fn check(mistakes: Vec<Error>) -> Result<(), Self> {
         let mut distinct: Vec<Error> = Vec::new();
-        for mistake in mistakes {
+        for mistake in sorted(&mistakes) {
             let mut here = distinct.iter().rev().take_while(|known| known.span == mistake.span);
-            if !here.any(|known| *known == mistake) {
-                distinct.push(mistake);
+            if !here.any(|known| known == mistake) {
+                distinct.push(mistake.clone());
             }
         }
         distinct.truncate(MOST);
@@ -344,8 +343,7 @@ impl Errors {
     #[must_use]
     pub fn with(mut self, warnings: Vec<Error>) -> Self {
         self.0.extend(warnings);
-        self.0.sort_by_key(Error::span);
-        self
+        Self(sorted(&self.0).cloned().collect())
     }
 
     /// The first error; warnings are passed over.
@@ -360,6 +358,12 @@ impl Errors {
         let reports: Vec<_> = self.0.iter().map(|error| error.render(source, style)).collect();
         reports.join("\n")
     }
+}
+
+/// Mistakes by their place; those at one place stay in the order in which they were found.
+fn sorted(mistakes: &[Error]) -> impl Iterator<Item = &Error> {
+    let spans = mistakes.iter().map(|mistake| (mistake.span.start, mistake.span.end));
+    order(spans).into_iter().map(|place| &mistakes[place])
 }
 
 impl From<Error> for Errors {

@@ -25,6 +25,7 @@
 //! ```
 
 use crate::arena;
+use crate::intern::order;
 use crate::spec::{Formula, FormulaId, Spec};
 use crate::translate::{Budget, Exceeded, translate};
 
@@ -109,13 +110,15 @@ fn groups(spec: &Spec) -> Vec<Vec<FormulaId>> {
 
 /// The conjuncts: the operands of the outermost chain of `&&`, in source order, each once.
 fn conjuncts(spec: &Spec) -> Vec<FormulaId> {
-    let mut conjuncts = Vec::new();
-    arena::needed(vec![spec.root().0], &mut |id, open| match spec.formula(FormulaId(id)) {
-        Formula::And(a, b) => open.extend([a.0, b.0]),
-        _ => conjuncts.push(FormulaId(id)),
+    let mut conjuncts = arena::needed(vec![spec.root().0], &mut |id, open| {
+        if let Formula::And(a, b) = spec.formula(FormulaId(id)) {
+            open.extend([a.0, b.0]);
+        }
     });
-    conjuncts.sort_unstable_by_key(|&id| (spec.span(id), id));
-    conjuncts
+    conjuncts.retain(|&id| !matches!(spec.formula(FormulaId(id)), Formula::And(..)));
+    let spans = conjuncts.iter().map(|&id| spec.span(FormulaId(id)));
+    let places = order(spans.map(|span| (span.start, span.end)));
+    places.into_iter().map(|place| FormulaId(conjuncts[place])).collect()
 }
 
 /// All subformulas of some formulas, operands first.

@@ -188,7 +188,7 @@ fn part_text(module: &Module, part: ConditionId, holds: bool) -> String {
     let text = match (module.arena.condition(part), holds) {
         (_, true) => module.display(part).to_string(),
         (Condition::Compare(op, a, b), false) => {
-            let [a, b] = [a, b].map(|term| module.display_term(*term));
+            let (a, b) = (module.display_term(*a), module.display_term(*b));
             format!("{a} {} {b}", op.negated().symbol())
         }
         (Condition::Bool(_) | Condition::Value { .. }, false) => {

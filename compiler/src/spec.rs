@@ -98,14 +98,14 @@ impl Formula {
     /// assert_eq!(Formula::True.operands().count(), 0);
     /// ```
     pub fn operands(self) -> impl DoubleEndedIterator<Item = FormulaId> {
-        let pair = match self {
-            Self::True | Self::False | Self::Literal { .. } => [None, None],
-            Self::Next(a) | Self::Delay(_, a) | Self::Eventually(a) => [Some(a), None],
-            Self::Within(_, a) | Self::Throughout(_, a) => [Some(a), None],
-            Self::And(a, b) | Self::Or(a, b) => [Some(a), Some(b)],
-            Self::Until(a, b) | Self::UntilWithin(_, a, b) | Self::Then(a, b) => [Some(a), Some(b)],
+        let (first, second) = match self {
+            Self::True | Self::False | Self::Literal { .. } => (None, None),
+            Self::Next(a) | Self::Delay(_, a) | Self::Eventually(a) => (Some(a), None),
+            Self::Within(_, a) | Self::Throughout(_, a) => (Some(a), None),
+            Self::And(a, b) | Self::Or(a, b) => (Some(a), Some(b)),
+            Self::Until(a, b) | Self::UntilWithin(_, a, b) | Self::Then(a, b) => (Some(a), Some(b)),
         };
-        pair.into_iter().flatten()
+        first.into_iter().chain(second)
     }
 
     /// Whether the operator relates instants.

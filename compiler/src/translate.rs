@@ -436,7 +436,8 @@ impl<'a> Translation<'a> {
                 }
                 Formula::UntilWithin(n, a, b) => {
                     let conditions = self.is_condition(a) && self.is_condition(b);
-                    let [hold, done] = [a, b].map(|part| self.expansion[part.0 as usize]);
+                    let of = |part: FormulaId| self.expansion[part.0 as usize];
+                    let (hold, done) = (of(a), of(b));
                     let waits = conditions && self.functions.minus(hold, done) != Bdd::FALSE;
                     return waits.then_some(states + u64::from(n));
                 }

@@ -54,9 +54,9 @@ impl Atoms<'_, '_> {
                     Infix::And => arena.and(left, right),
                     Infix::Or => arena.or(left, right),
                     Infix::Iff => {
-                        let neither = [left, right].map(|side| arena.not(side));
-                        let (both, neither) =
-                            (arena.and(left, right), arena.and(neither[0], neither[1]));
+                        let (not_left, not_right) = (arena.not(left), arena.not(right));
+                        let both = arena.and(left, right);
+                        let neither = arena.and(not_left, not_right);
                         arena.or(both, neither)
                     }
                     _ => {

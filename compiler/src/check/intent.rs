@@ -42,7 +42,8 @@ pub(super) fn always_beside(
 ) -> Option<Error> {
     let Expression::Prefix(Prefix::Always, kept) = resolved[always].expression else { return None };
     let ast = resolved.ast;
-    let [node, goals, kept] = [always, goals, kept].map(|id| resolved[id].node);
+    let node = |id| resolved[id].node;
+    let (node, goals, kept) = (node(always), node(goals), node(kept));
     if ast.entry(node).bound.is_some() || !is_of_a_state(ast, kept) || !can_be_goals(ast, goals) {
         return None;
     }

@@ -240,9 +240,9 @@ impl Builder<'_, '_> {
         negated: bool,
         span: Span,
     ) -> FormulaId {
-        let [not_a, not_b] = [a, b].map(|side| self.negation(side, span));
-        let (one, two) = if negated { ([a, not_b], [not_a, b]) } else { ([a, b], [not_a, not_b]) };
-        let [one, two] = [one, two].map(|[a, b]| self.spec.and(a, b, span));
+        let (not_a, not_b) = (self.negation(a, span), self.negation(b, span));
+        let (b, not_b) = if negated { (not_b, b) } else { (b, not_b) };
+        let (one, two) = (self.spec.and(a, b, span), self.spec.and(not_a, not_b, span));
         self.spec.or(one, two, span)
     }
 

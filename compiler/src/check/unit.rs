@@ -226,7 +226,7 @@ impl Measuring<'_> {
         (b, second): &(ExpressionId, Unit),
         purpose: &str,
     ) -> Error {
-        let [place, other] = [a, b].map(|side| self.resolved[*side].outer);
+        let (place, other) = (self.resolved[*a].outer, self.resolved[*b].outer);
         let (one, two) = (self.resolved.quote(*a), self.resolved.quote(*b));
         let (is, other_is) = (self.is_in(first), self.is_in(second));
         let message = format!("`{one}` {is}, but `{two}` {other_is}: {purpose}");
@@ -355,7 +355,8 @@ impl Measuring<'_> {
         let Some((to, from)) = wanted.over(found).and_then(|factor| factor.ratio()) else {
             return error;
         };
-        let [to, from] = [to, from].map(|name| self.resolved.scope.units.text_of(name));
+        let units = &self.resolved.scope.units;
+        let (to, from) = (units.text_of(to), units.text_of(from));
         let constant = format!("{to}_per_{from}").replace("r#", "");
         let product = format!("{} * {constant}", self.factor(id));
         error.help(format!(

@@ -116,12 +116,12 @@ impl<'a> Scope<'a> {
 
 /// The conditions that a condition is made of, other predicates left out.
 fn operands(condition: &Condition) -> impl Iterator<Item = ConditionId> {
-    let pair = match *condition {
-        Condition::Not(a) => [Some(a), None],
-        Condition::And(a, b) | Condition::Or(a, b) => [Some(a), Some(b)],
-        _ => [None, None],
+    let (first, second) = match *condition {
+        Condition::Not(a) => (Some(a), None),
+        Condition::And(a, b) | Condition::Or(a, b) => (Some(a), Some(b)),
+        _ => (None, None),
     };
-    pair.into_iter().flatten()
+    first.into_iter().chain(second)
 }
 
 /// An expression and its depth.
@@ -348,14 +348,14 @@ impl Writer<'_> {
     /// Whether two values of an enumeration or two truth values are equal, with robustness ±1. If
     /// one side may be absent, both are compared as options.
     fn value_comparison(&mut self, comparison: Comparison, a: TermId, b: TermId) -> Written {
-        let optional = [a, b].map(|side| self.is_optional(side));
-        let [a, b] = [(a, optional[1]), (b, optional[0])].map(|(side, other)| {
+        let mut beside = |side, other| {
             let value = self.leaf(side);
-            match other && !self.is_optional(side) {
+            match self.is_optional(other) && !self.is_optional(side) {
                 true => quote! { ::core::option::Option::Some(#value) },
                 false => value,
             }
-        });
+        };
+        let (a, b) = (beside(a, b), beside(b, a));
         let code = match comparison {
             Comparison::Unequal => quote! { (#a != #b) },
             _ => quote! { (#a == #b) },

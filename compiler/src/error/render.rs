@@ -10,6 +10,7 @@
 use std::fmt::Write;
 
 use super::{Error, Severity};
+use crate::intern::order;
 use crate::source::{Source, Span, is_hidden, visible};
 
 /// The look of a report.
@@ -113,7 +114,9 @@ fn snippets(out: &mut String, error: &Error, source: &Source, style: Style, colo
     let mut labels = vec![Label { span: error.span, text: &error.label, primary: true }];
     let related = error.related.iter();
     labels.extend(related.map(|(span, text)| Label { span: *span, text, primary: false }));
-    labels.sort_by_key(|label| (source.line(label.span.start).start, !label.primary));
+    let lines = labels.iter().map(|label| source.line(label.span.start).start);
+    let places = order(lines.zip(labels.iter().map(|label| usize::from(!label.primary))));
+    let labels: Vec<&Label<'_>> = places.into_iter().map(|place| &labels[place]).collect();
     let bar = style.paint(BLUE, "|");
     let mut shown: Option<(Span, usize)> = None;
     for label in &labels {

@@ -103,9 +103,13 @@ pub(crate) fn parse(rule: Rule, text: &str) -> Result<Tree<'_>, Stopped> {
     if machine.rule(rule) {
         return Ok(Tree { text, nodes: machine.nodes });
     }
-    let mut expected = machine.expected;
-    expected.sort_by_key(|rule| *rule as u8);
-    expected.dedup();
+    let mut expected = Vec::new();
+    for rule in machine.expected {
+        let place = expected.partition_point(|known: &Rule| (*known as u8) < rule as u8);
+        if expected.get(place) != Some(&rule) {
+            expected.insert(place, rule);
+        }
+    }
     Err(Stopped { at: machine.farthest, expected })
 }
 

@@ -196,12 +196,12 @@ impl Above {
     /// Collects the parents of every node of `order` and of every state by counting sort: one pass
     /// counts them, one writes them.
     fn new(dfa: &Dfa, order: &[u32]) -> Self {
-        let nodes = order.iter().flat_map(|&index| {
-            let node = dfa.diagram.nodes()[index as usize];
-            [node.low, node.high].map(|child| (child, Bdd::node(index)))
-        });
         let roots = (0..).zip(&dfa.transitions).map(|(q, &root)| (root, Bdd::leaf(q)));
-        let pairs: Vec<_> = roots.chain(nodes).collect();
+        let mut pairs: Vec<_> = roots.collect();
+        for &index in order {
+            let (node, parent) = (dfa.diagram.nodes()[index as usize], Bdd::node(index));
+            pairs.extend([(node.low, parent), (node.high, parent)]);
+        }
         let states = dfa.len();
         let mut starts = vec![0; states + dfa.diagram.nodes().len() + 1];
         pairs.iter().for_each(|&(child, _)| starts[Self::place(states, child)] += 1);

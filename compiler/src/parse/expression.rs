@@ -248,7 +248,8 @@ impl Yard<'_> {
             }
             _ => return Ok(()),
         };
-        let [one, two] = [*place, span].map(|span| self.ast.source().slice(span));
+        let source = self.ast.source();
+        let (one, two) = (source.slice(*place), source.slice(span));
         let message = format!("`{one}` and `{two}` do not follow each other without brackets");
         Err(Error::new(Kind::Syntax, message, span).related(*place, "the first").help(brackets))
     }
