@@ -129,8 +129,13 @@ impl Builder<'_, '_> {
         match leaf {
             Some(Leaf::Conditions(all)) => self.conditions(&all, negated.is_some(), span),
             Some(Leaf::Task(task, literals)) => {
-                if let (Some(by), Some(temporal)) = (state.or(negated), temporal(&task.spec)) {
-                    let temporal = task.spec.span(temporal);
+                let temporal = || {
+                    let operator = temporal(&task.spec).map(|temporal| task.spec.span(temporal));
+                    operator.or_else(|| ensuring(resolved, id))
+                };
+                if let Some(by) = state.or(negated)
+                    && let Some(temporal) = temporal()
+                {
                     return self.lowering.refuse(temporal_task(resolved, id, by, temporal));
                 }
                 Some(self.import(&task.spec, &literals, negated.is_some(), span))
@@ -342,6 +347,21 @@ fn temporal(spec: &Spec) -> Option<FormulaId> {
     formulas.find(|(_, formula)| formula.is_temporal()).map(|(id, _)| id)
 }
 
+/// An `ensuring` in the task that `id` names. It makes a task of a state formula too, though nothing
+/// of it is left in the spec then.
+fn ensuring(resolved: &Resolved<'_>, id: ExpressionId) -> Option<Span> {
+    let item = match &resolved[id].expression {
+        Expression::Name(Name::Item(item, _)) => *item,
+        Expression::Call(callee, _) => callee.item?,
+        _ => return None,
+    };
+    let (first, root) = resolved.expressions[item]?;
+    let is_one = |id: &ExpressionId| {
+        matches!(resolved[*id].expression, Expression::Infix(Infix::Ensuring, ..))
+    };
+    (first.0..=root.0).map(ExpressionId).find(is_one).map(|id| resolved.operator(id))
+}
+
 /// The error for a task with a temporal operator under `by`, which negates it or needs a formula of
 /// one state.
 fn temporal_task(
@@ -418,6 +438,7 @@ mod tests {
         predicate lit(r: Room) = t[r]
         task away = F x > 1
         task reach(d: f64) = F near(d)
+        task kept = on ensuring x < 1
         ";
 
     /// The formula of the last task; or the first mistake.
@@ -442,6 +463,8 @@ mod tests {
             ("reach(2) && away", "F near(2) && F (x > 1)"),
             ("for all r in Room: r != hall => F lit(r)", "F lit(attic)"),
             ("for some i in 0..2: X a[i]", "X a[0] || X a[1]"),
+            ("kept", "on && x < 1"),
+            ("!kept", "the task `kept` is negated, and it has a temporal operator"),
             ("!away", "the task `away` is negated, and it has a temporal operator"),
             ("lit(x)", "`x` is a number, but a value of an enumeration is needed here"),
             ("near(on)", "`on` is true or false, but a number is needed here"),
