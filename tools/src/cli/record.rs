@@ -143,9 +143,12 @@ fn truth(text: &str) -> Option<f64> {
 
 /// A number of the Rust type `ty`, as the arithmetic of the predicates reads it.
 fn typed(text: &str, ty: &str) -> Option<f64> {
+    // Rust reads `1e400` as infinity, which nobody has written.
+    let is_written =
+        |value: &f64| value.is_finite() || !text.contains(|c: char| c.is_ascii_digit());
     let (least, most) = match ty {
-        "f64" => return text.parse().ok(),
-        "f32" => return text.parse::<f32>().ok().map(f64::from),
+        "f64" => return text.parse().ok().filter(is_written),
+        "f32" => return text.parse::<f32>().ok().map(f64::from).filter(is_written),
         _ => Scalar::named(ty)?.whole()?,
     };
     // Other programs write whole numbers as `3.0`.
