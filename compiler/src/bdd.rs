@@ -201,8 +201,9 @@ impl Diagram {
 
     /// The steps that operations may make for each node of the limit. Where the cache forgets, they
     /// go over the same pairs again. The families of the translation bench take 0.8 to 1.5 steps a
-    /// node, and the formulas that would take minutes to run out of nodes more than 100.
-    const STEPS: usize = 2;
+    /// node, 500 comparisons of one variable in any order between 2 and 4, and the formulas that
+    /// would take minutes to run out of nodes more than 100.
+    const STEPS: usize = 4;
 
     /// A diagram without nodes that stops growing soon after `limit` of them, or after as many steps
     /// as such a diagram takes: from then on, results are arbitrary and

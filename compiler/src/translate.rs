@@ -96,7 +96,7 @@ use obligation::Obligations;
 pub struct Budget {
     /// States of the automaton before minimization.
     pub states: usize,
-    /// Nodes of decision diagrams, and half the steps of the operations that make them: a
+    /// Nodes of decision diagrams, and a quarter of the steps of the operations that make them: a
     /// measure of both memory and time.
     pub nodes: usize,
     /// Edges of the minimal automaton. Each gets a guard where the automaton is written out.
