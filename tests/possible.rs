@@ -199,6 +199,15 @@ fn hundreds_of_related_comparisons_are_answered() {
     }
 }
 
+/// A file of many tasks over one field: each asks only for its own comparisons.
+#[test]
+fn a_thousand_tasks_are_answered() {
+    let tasks = joined(1000, "\n", |i| format!("task t{i} = F x > {i}"));
+    let text = format!("state S {{ x: f64 }}\n{tasks}\n");
+    let compiled = compile::file(&Source::new("t.tltl", text), Budget::EMITTED).unwrap();
+    assert!(compiled.automata.iter().all(|automata| automata.dfa.len() == 2));
+}
+
 /// The search for the reason of a contradiction does not write out guards that are too large.
 #[test]
 fn a_contradiction_of_large_guards_has_a_reason() {

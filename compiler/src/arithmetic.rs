@@ -100,7 +100,7 @@ pub fn possible(module: &Module, task: &Task) -> Possible {
 /// ```
 #[must_use]
 pub fn possible_conditions(module: &Module, roots: &[ConditionId]) -> Possible {
-    let analysis = Analysis::new(module);
+    let analysis = Analysis::new(module, roots);
     let (propositions, diagram) = (roots.len(), Diagram::default());
     let mut possible = Possible { propositions, diagram, letters: Bdd::TRUE };
     for component in analysis.components(roots) {

@@ -250,26 +250,45 @@ fn small(value: i128) -> Option<i128> {
     (value.abs() < SMALL).then_some(value)
 }
 
-/// Every term of a module as a linear combination of terms that are not linear themselves. One pass
-/// over the arena, operands first.
-pub(super) fn linear_terms(module: &Module) -> Vec<Linear> {
-    let mut linear: Vec<Linear> = Vec::with_capacity(module.arena.terms().len());
-    for (index, term) in module.arena.terms().iter().enumerate() {
-        let of = |id: &TermId| &linear[id.0 as usize];
-        let combined = match term {
+/// Some terms as linear combinations of terms that are not linear themselves.
+pub(super) struct LinearTerms {
+    /// The terms, rising.
+    terms: Vec<TermId>,
+    /// Each of them as a combination.
+    linear: Vec<Linear>,
+}
+
+impl LinearTerms {
+    /// These terms, rising, with the operands of each among them: one pass, operands first.
+    pub(super) fn new(module: &Module, terms: Vec<TermId>) -> Self {
+        let mut known = Self { linear: Vec::with_capacity(terms.len()), terms };
+        for place in 0..known.terms.len() {
+            let id = known.terms[place];
+            let combined = known.combined(module.arena.term(id));
+            known.linear.push(combined.unwrap_or_else(|| Linear::variable(id)));
+        }
+        known
+    }
+
+    /// A term as a combination, those of its operands known; `None` if it is a variable.
+    fn combined(&self, term: &Term) -> Option<Linear> {
+        match term {
             Term::Number(number) => Linear::number(number.0),
             Term::Variant { number, .. } => Linear::number(f64::from(*number)),
             Term::Absent => Linear::number(-1.0),
-            Term::Negate(a) => Linear::number(0.0).and_then(|zero| zero.plus(-1, of(a))),
-            Term::Calculate(Arithmetic::Add, a, b) => of(a).plus(1, of(b)),
-            Term::Calculate(Arithmetic::Subtract, a, b) => of(a).plus(-1, of(b)),
-            Term::Calculate(Arithmetic::Multiply, a, b) => of(a).times(of(b)),
-            Term::Calculate(Arithmetic::Divide, a, b) => of(a).over(of(b)),
+            Term::Negate(a) => Linear::number(0.0)?.plus(-1, self.of(*a)),
+            Term::Calculate(Arithmetic::Add, a, b) => self.of(*a).plus(1, self.of(*b)),
+            Term::Calculate(Arithmetic::Subtract, a, b) => self.of(*a).plus(-1, self.of(*b)),
+            Term::Calculate(Arithmetic::Multiply, a, b) => self.of(*a).times(self.of(*b)),
+            Term::Calculate(Arithmetic::Divide, a, b) => self.of(*a).over(self.of(*b)),
             _ => None,
-        };
-        linear.push(combined.unwrap_or_else(|| Linear::variable(TermId(index as u32))));
+        }
     }
-    linear
+
+    /// The combination that a term is.
+    pub(super) fn of(&self, term: TermId) -> &Linear {
+        &self.linear[self.terms.binary_search(&term).expect("a term that is needed")]
+    }
 }
 
 /// A comparison of two linear terms as an atom; `None` if its numbers are too large for exact

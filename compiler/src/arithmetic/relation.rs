@@ -27,29 +27,37 @@ use crate::bdd::{Bdd, Diagram};
 use crate::linear::{Form, Inequality, circuits, feasible};
 use crate::predicate::{Condition, ConditionId, Module, TermId};
 
-use super::form::{Atom, Cut, Range, Rational, atom, bounds, inequalities, linear_terms};
+use super::form::{Atom, Cut, LinearTerms, Range, Rational, atom, bounds, inequalities};
 use super::{NODE_LIMIT, WORK_LIMIT};
 
-/// The comparisons of a module as atoms, computed once.
+/// The comparisons of some conditions as atoms, computed once. Only of those conditions: a file may
+/// have a thousand tasks, and each asks for its own.
 pub(super) struct Analysis<'a> {
     module: &'a Module,
-    /// The atom of each condition of the module; [`Atom::Opaque`] for those that are not
-    /// comparisons.
+    /// The conditions that are needed, rising.
+    needed: Vec<ConditionId>,
+    /// The atom of each of them; [`Atom::Opaque`] for those that are not comparisons.
     atoms: Vec<Atom>,
 }
 
 impl<'a> Analysis<'a> {
-    /// The atoms of all conditions of a module.
-    pub(super) fn new(module: &'a Module) -> Self {
-        let linear = linear_terms(module);
-        let atoms = module.arena.conditions().iter().map(|condition| match condition {
+    /// The atoms of all conditions that `roots` are made of.
+    pub(super) fn new(module: &'a Module, roots: &[ConditionId]) -> Self {
+        let needed = module.conditions_of(roots.to_vec());
+        let linear = LinearTerms::new(module, module.terms_of(&needed));
+        let atom = |id: &ConditionId| match module.arena.condition(*id) {
             Condition::Compare(comparison, a, b) => {
-                atom(module, *comparison, &linear[a.0 as usize], &linear[b.0 as usize])
-                    .unwrap_or(Atom::Opaque)
+                atom(module, *comparison, linear.of(*a), linear.of(*b)).unwrap_or(Atom::Opaque)
             }
             _ => Atom::Opaque,
-        });
-        Self { module, atoms: atoms.collect() }
+        };
+        let atoms = needed.iter().map(atom).collect();
+        Self { module, needed, atoms }
+    }
+
+    /// The atom of a condition that is needed.
+    fn atom(&self, id: ConditionId) -> &Atom {
+        &self.atoms[self.needed.binary_search(&id).expect("a condition that is needed")]
     }
 
     /// The groups of propositions that share ties, as sets of places in `roots`.
@@ -63,7 +71,7 @@ impl<'a> Analysis<'a> {
     fn ties(&self, root: ConditionId) -> Vec<u32> {
         let mut ties = Vec::new();
         for id in self.module.conditions_of(vec![root]) {
-            match &self.atoms[id.0 as usize] {
+            match self.atom(id) {
                 Atom::Below(form, _)
                 | Atom::Above(form, _)
                 | Atom::At(form, _)
@@ -139,7 +147,7 @@ impl<'a> Relation<'a> {
         let mut chains: Vec<Chain> = Vec::new();
         let mut opaque = Vec::new();
         for &id in needed {
-            match &analysis.atoms[id.0 as usize] {
+            match analysis.atom(id) {
                 Atom::Below(form, cut) | Atom::Above(form, cut) => add(&mut chains, form, &[*cut]),
                 Atom::At(form, at) | Atom::Off(form, at) => {
                     add(&mut chains, form, &[(*at, false), (*at, true)]);
@@ -212,7 +220,7 @@ impl<'a> Relation<'a> {
     /// The meaning of a leaf.
     fn atom(&mut self, id: ConditionId) -> Bdd {
         let analysis = self.analysis;
-        match &analysis.atoms[id.0 as usize] {
+        match analysis.atom(id) {
             Atom::Constant(value) => [Bdd::FALSE, Bdd::TRUE][usize::from(*value)],
             Atom::Below(form, cut) => self.cut(form, *cut),
             Atom::Above(form, cut) => {

@@ -32,9 +32,11 @@ pub(super) fn run(arguments: &Automaton, streams: &mut Streams<'_>) -> Outcome {
         Some(File::Tasks(file)) if arguments.format == Format::Rust => {
             streams.print(&rust::file(file.compiled()))
         }
-        Some(File::Tasks(file)) => {
-            write(arguments, &subject::choose(&file, arguments.task.as_deref())?, streams)
-        }
+        Some(File::Tasks(file)) => write(
+            arguments,
+            &subject::choose(&file, arguments.task.as_deref(), " with --task")?,
+            streams,
+        ),
         Some(File::Automaton(_)) if arguments.task.is_some() => {
             Err(format!("{} is an automaton: it has no tasks with names", path.display()))
         }
@@ -67,7 +69,7 @@ fn single(
         return Ok(Exit::Mistaken);
     }
     match input::reported(result, Report::Human, streams)? {
-        Some(file) => write(arguments, &subject::choose(&file, None)?, streams),
+        Some(file) => write(arguments, &subject::choose(&file, None, "")?, streams),
         None => Ok(Exit::Mistaken),
     }
 }
@@ -105,7 +107,7 @@ fn one_of_many(arguments: &Automaton, formula: &str, budget: Budget) -> Result<S
             first.render(error.source_text(), Style::Plain)
         }
     })?;
-    let entry = subject::choose(&file, None)?;
+    let entry = subject::choose(&file, None, "")?;
     let dfa = selected(arguments, subject::automata(&entry)?);
     match (arguments.format, arguments.explicit) {
         (Format::Json, true) => {

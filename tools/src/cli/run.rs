@@ -61,7 +61,7 @@ pub(super) fn run(run: &Run, streams: &mut Streams<'_>) -> Outcome {
 /// has mistakes.
 fn reading(run: &Run, streams: &mut Streams<'_>) -> Result<Option<Reading>, String> {
     let (subject, task) = subject::split(&run.subject);
-    let (name, given) = match task.or(run.task.as_deref()) {
+    let (name, given) = match subject::once(task, run.task.as_deref())? {
         Some(task) => arguments::split(task).map(|(name, given)| (Some(name), given))?,
         None => (None, None),
     };

@@ -31,11 +31,11 @@ pub(super) fn read(
 ) -> Result<Option<Subject>, String> {
     let (path, named) = split(text);
     if exists(path) || looks_like_file(path) || task.is_some() {
-        return file(path, named.or(task), budget, streams);
+        return file(path, once(named, task)?, budget, streams);
     }
     let formula = TaskFile::of_formula(text, budget);
     let formula = input::reported(formula, Report::Human, streams)?;
-    formula.map(|formula| choose(&formula, None).map(Subject::Task)).transpose()
+    formula.map(|formula| choose(&formula, None, "").map(Subject::Task)).transpose()
 }
 
 /// `FILE:TASK` in its two parts; any other text is the first of them. Arguments may follow the task
@@ -47,6 +47,19 @@ pub(super) fn split(text: &str) -> (&str, Option<&str>) {
             (&text[..colon], Some(&text[colon + 1..]))
         }
         _ => (text, None),
+    }
+}
+
+/// The task that is named behind the file or by `--task`, but not by both.
+pub(super) fn once<'t>(
+    behind: Option<&'t str>,
+    option: Option<&'t str>,
+) -> Result<Option<&'t str>, String> {
+    match (behind, option) {
+        (Some(one), Some(other)) => {
+            Err(format!("the task is named twice: `{one}` behind the file, and `--task {other}`"))
+        }
+        (one, other) => Ok(one.or(other)),
     }
 }
 
@@ -69,7 +82,7 @@ fn file(
 ) -> Result<Option<Subject>, String> {
     Ok(match input::file(Path::new(path), budget, streams)? {
         None => None,
-        Some(File::Tasks(file)) => Some(Subject::Task(choose(&file, name)?)),
+        Some(File::Tasks(file)) => Some(Subject::Task(choose(&file, name, " as FILE:TASK")?)),
         Some(File::Automaton(_)) if name.is_some() => {
             return Err(format!("{path} is an automaton: it has no tasks with names"));
         }
@@ -77,13 +90,12 @@ fn file(
     })
 }
 
-/// The task of that name, or the only one if no name is given. The message names the option that
-/// chooses.
-pub(super) fn choose(file: &TaskFile, name: Option<&str>) -> Result<Entry, String> {
+/// The task of that name, or the only one if no name is given. `how` tells how to name one.
+pub(super) fn choose(file: &TaskFile, name: Option<&str>, how: &str) -> Result<Entry, String> {
     file.find(name).map_err(|error| match error {
         NoSuchTask::Several(names) => {
             let names = names.join(", ");
-            format!("the file has several tasks; choose one with --task: {names}")
+            format!("the file has several tasks; choose one{how}: {names}")
         }
         error => error.to_string(),
     })
