@@ -499,9 +499,22 @@ fn unsupported_reason(word: &str) -> Option<(&'static str, &'static str, &'stati
     })
 }
 
+/// What to write instead of an operator with a bound, which a finite trajectory can establish.
+fn bounded_rewrite(word: &str) -> Option<&'static str> {
+    match letter(word) {
+        "R" => Some("for `a R[0,5] b` write `G[0,5] b || b U[0,5] (a && b)`"),
+        "W" => Some("for `a W[0,5] b` write `G[0,5] a || a U[0,5] b`"),
+        "M" => Some("for `a M[0,5] b` write `b U[0,5] (a && b)`"),
+        _ => None,
+    }
+}
+
 /// The error for the operator `word` of another temporal logic, which the source has as `text`.
 pub(crate) fn unsupported(word: &str, text: &str, span: Span) -> Error {
-    let (meaning, reason, rewrite) = unsupported_reason(word).unwrap_or(("", "", ""));
+    let (meaning, mut reason, mut rewrite) = unsupported_reason(word).unwrap_or(("", "", ""));
+    if let Some(bounded) = text.ends_with(']').then(|| bounded_rewrite(word)).flatten() {
+        (reason, rewrite) = ("with a bound it is `U` and `G` in other words", bounded);
+    }
     let message = format!("`{text}` (\"{meaning}\") is not an operator of this language: {reason}");
     Error::new(Kind::UnsupportedOperator, message, span).help(rewrite)
 }
