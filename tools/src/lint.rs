@@ -207,7 +207,9 @@ mod tests {
             ("F (h > 4 && v < 1) T (h <= 0)", "(h > 4 && v < 1) T (h <= 0)"),
             ("((p && q) T (q || r)) T (p || r)", "(p && q) T ((q || r) T (p || r))"),
             ("(a T X b) T[<=3] c", "a T ((X b) T[<=3] c)"),
-            ("F[0,2] a T[1,2] (b => c)", "a T[1,2] (b => c)"),
+            ("F a T[1,2] (b => c)", "a T[1,2] (b => c)"),
+            ("(a T[1,2] b) T (c && d)", "a T[1,2] (b && X F (c && d))"),
+            ("(a T[1,2] b) T[<=3] c", "a T[1,2] (b && F[1,3] c)"),
             ("(a || b) U F (c && d)", "(a || b) U (c && d)"),
             ("a U[1,2] F x < 3", "a U[1,2] (x < 3)"),
         ] {
@@ -216,5 +218,7 @@ mod tests {
             assert!(parse::formula(&Source::new("written", written)).is_ok());
         }
         assert_eq!(asked("a U F[0,3] b"), [""; 0]);
+        // No suggestion loses a bound.
+        assert_eq!(asked("F[0,2] a T b"), ["to keep this meaning, write the brackets"]);
     }
 }

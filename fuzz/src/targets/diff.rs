@@ -9,8 +9,11 @@ use super::BUDGET;
 use crate::random::{Bytes, Choices};
 use crate::written::{Row, Style, Tree};
 
+/// What a name stands for, given `x` and `y`.
+type Meaning = fn(f64, f64) -> bool;
+
 /// What a name may stand for, and whether that holds where x and y have these values.
-const MEANINGS: [(&str, fn(f64, f64) -> bool); 10] = [
+const MEANINGS: [(&str, Meaning); 10] = [
     ("x < 3", |x, _| x < 3.0),
     ("x > 5", |x, _| x > 5.0),
     ("x <= 3", |x, _| x <= 3.0),

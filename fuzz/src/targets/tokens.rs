@@ -15,8 +15,12 @@ pub fn run(bytes: &[u8]) {
     let Ok(input) = text.parse::<TokenStream>() else { return };
     // rustc reads a field of any number, and says that there is none; syn does not read it.
     let long = text.replace('_', "").split(|c: char| !c.is_ascii_digit()).any(|n| n.len() > 9);
-    let own_rust =
-        text.contains(['{', '[', '|', '(', ':']) || long || mentions_keyword(input.clone());
+    // Nor does syn read a field that is called like half a number, `a.4.`.
+    let halves = text.split(|c: char| !c.is_ascii_digit() && c != '.').any(|n| n.ends_with('.'));
+    let own_rust = text.contains(['{', '[', '|', '(', ':'])
+        || long
+        || halves
+        || mentions_keyword(input.clone());
     let alike = is_of_the_language(text, input.clone());
     let output = crate::expand::inline(input);
     let shown = output.to_string();
