@@ -100,7 +100,7 @@ const ORDER: [(&str, &str); 4] = [
 
 /// The rooms of the runtime that only programs that learn call.
 const LEARNING: &str = "augmented certificate checkpoint compose controller env estimate experience \
-     file learn model network policy product q shield solve";
+     factored file learn model network policy product q reward shield solve task";
 
 /// The functions that rustc makes code of where they are defined, whether or not anybody calls them.
 #[derive(Default)]

@@ -85,6 +85,7 @@ pub struct Factored<P> {
 
 /// Name, formula and sizes: predicates are code.
 impl<P> fmt::Debug for Factored<P> {
+    #[inline]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Factored")
             .field("name", &self.name)
@@ -129,6 +130,7 @@ impl<P> Factored<P> {
     /// # Ok::<(), tltl::automaton::TableError>(())
     /// ```
     #[cfg(feature = "alloc")]
+    #[inline]
     pub fn new(
         name: impl Into<Shared<str>>,
         text: impl Into<Shared<str>>,
@@ -160,6 +162,7 @@ impl<P> Factored<P> {
 
     /// The task's name; its formula if it has none.
     #[must_use]
+    #[inline]
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -172,12 +175,14 @@ impl<P> Factored<P> {
 
     /// The number of parts, which is the length of a state.
     #[must_use]
+    #[inline]
     pub fn len(&self) -> usize {
         self.parts.len()
     }
 
     /// Whether there are no parts; never so for a compiled task.
     #[must_use]
+    #[inline]
     pub fn is_empty(&self) -> bool {
         self.parts.is_empty()
     }
@@ -202,6 +207,7 @@ impl<P> Factored<P> {
     /// # }
     /// ```
     #[must_use]
+    #[inline]
     pub fn part(&self, i: usize) -> Task<Select<'_, P>> {
         let part = &self.parts[i];
         Task::trusted(
@@ -232,6 +238,7 @@ impl<P> Factored<P> {
 
     /// Whether all parts accept.
     #[must_use]
+    #[inline]
     pub fn is_accepting(&self, q: &[u32]) -> bool {
         self.automata().zip(q).all(|(automaton, &q)| automaton.is_accepting(q))
     }
@@ -248,6 +255,7 @@ impl<P> Factored<P> {
     /// # Ok::<(), tltl::task::Error>(())
     /// ```
     #[must_use]
+    #[inline]
     pub fn is_lost(&self, q: &[u32]) -> bool {
         self.automata().zip(q).any(|(automaton, &q)| automaton.is_trap(q))
     }
@@ -280,10 +288,12 @@ impl<P> Factored<P> {
         Ok(true)
     }
 
+    #[inline]
     fn automata(&self) -> impl Iterator<Item = &Automaton> {
         self.parts.iter().map(|part| &part.automaton)
     }
 
+    #[inline]
     fn readers(&self) -> impl Iterator<Item = Reader<'_, Select<'_, P>>> {
         self.parts.iter().map(|part| self.reader(part))
     }
@@ -307,12 +317,14 @@ pub struct Select<'a, P> {
 }
 
 impl<P> fmt::Debug for Select<'_, P> {
+    #[inline]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Select").field("chosen", &self.chosen).finish_non_exhaustive()
     }
 }
 
 impl<P> Clone for Select<'_, P> {
+    #[inline]
     fn clone(&self) -> Self {
         *self
     }

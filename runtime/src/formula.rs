@@ -78,6 +78,7 @@ impl Formula {
     /// # Ok::<(), tltl::automaton::TableError>(())
     /// ```
     #[cfg(feature = "alloc")]
+    #[inline]
     pub fn new(
         text: impl Into<Shared<str>>,
         operators: impl Into<Shared<[Op]>>,
@@ -97,6 +98,7 @@ impl Formula {
 
     /// The formula as its author wrote it.
     #[must_use]
+    #[inline]
     pub fn text(&self) -> &str {
         &self.text
     }
@@ -104,6 +106,7 @@ impl Formula {
     /// The operators in negation normal form; the last one is the whole formula. None: the
     /// automaton came without a formula.
     #[must_use]
+    #[inline]
     pub fn operators(&self) -> &[Op] {
         &self.operators
     }
@@ -112,6 +115,7 @@ impl Formula {
 /// Whether operators are a formula over so many propositions: every operator comes after its
 /// operands, so one pass in order has the operands' values when it needs them.
 #[cfg(feature = "alloc")]
+#[inline]
 pub(crate) fn check_operators(ops: &[Op], propositions: usize) -> Result<(), TableError> {
     for (k, op) in ops.iter().enumerate() {
         let limited = |value: u32, limit: usize| check_limit("operators", k, value.into(), limit);

@@ -17,9 +17,9 @@
 //! | `deep` | experience of worlds whose states have no numbers into networks, and networks into new ones |
 //! | `policy`, `network`, `controller`, `shield`, `checkpoint`, `file` | results into what runs, is safe, and is kept |
 //!
-//! Every function of the rooms that learn is `#[inline]`, long ones too: rustc then makes its code
-//! where it is called, and not in each cold build of a crate that only monitors (two fifths of the
-//! CPU time of building this crate).
+//! Every function of the rooms that learn, or that few tasks need, is `#[inline]`, long ones too:
+//! rustc then makes its code where it is called, and not in each cold build of a crate that only
+//! monitors (two fifths of the CPU time of building this crate).
 //!
 //! Features: `std` and `macros` are on; `alloc` is all that owns tables; `serde` saves and loads;
 //! `libm` has `sqrt` and the like without `std`; `deep` learns with networks (Rust 1.95); `hoa` lets

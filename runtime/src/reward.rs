@@ -75,6 +75,7 @@ pub struct Rewards {
 
 impl Default for Rewards {
     /// [`Rewards::progress`].
+    #[inline]
     fn default() -> Self {
         Self::progress()
     }
@@ -86,6 +87,7 @@ impl Rewards {
 
     /// The same with a γ that is known to be in range.
     #[cfg(feature = "deep")]
+    #[inline]
     pub(crate) const fn with_known_gamma(self, gamma: f64) -> Self {
         Self { gamma, ..self }
     }
@@ -93,6 +95,7 @@ impl Rewards {
     /// `mode` alone: γ 0.95, bound 1, no penalties, nothing from the environment. (0.95 is the
     /// paper's γ.)
     #[must_use]
+    #[inline]
     pub const fn of(mode: Mode) -> Self {
         let (trap_penalty, step_penalty, environment) = (0.0, 0.0, 0.0);
         Self { mode, gamma: 0.95, bound: 1.0, trap_penalty, step_penalty, environment }
@@ -100,18 +103,21 @@ impl Rewards {
 
     /// [`Mode::Progress`] alone, the paper's reward.
     #[must_use]
+    #[inline]
     pub const fn progress() -> Self {
         Self::of(Mode::Progress)
     }
 
     /// [`Mode::Acceptance`] alone: what the task wants, if γ is near 1.
     #[must_use]
+    #[inline]
     pub const fn acceptance() -> Self {
         Self::of(Mode::Acceptance)
     }
 
     /// What a move of the automaton pays.
     #[must_use]
+    #[inline]
     pub const fn mode(&self) -> Mode {
         self.mode
     }
@@ -154,6 +160,7 @@ impl Rewards {
     /// If the columns are not of the length of `out` (those that may be empty, if not empty), or as
     /// [`Self::pay`].
     #[track_caller]
+    #[inline]
     pub fn pay_all(&self, ends: &Ends, arrivals: &Arrivals<'_>, out: &mut [f64]) {
         arrivals.check(out.len());
         for (i, paid) in out.iter_mut().enumerate() {
@@ -164,6 +171,7 @@ impl Rewards {
     /// What the task pays for the move, the environment's own reward left aside. Penalties come last,
     /// so that they are the same under every mode.
     #[track_caller]
+    #[inline]
     pub(crate) fn pay_for_move(&self, ends: &Ends, arrival: &Arrival) -> f64 {
         let Arrival { q, to, robustness, terminated, .. } = *arrival;
         let entered = |end| ends.end(q).is_none() && ends.end(to) == Some(end);
@@ -191,6 +199,7 @@ impl Rewards {
     /// assert!(!Rewards::progress().needs_robustness() && !Rewards::acceptance().needs_robustness());
     /// ```
     #[must_use]
+    #[inline]
     pub const fn needs_robustness(&self) -> bool {
         matches!(self.mode, Mode::Robustness)
     }
@@ -249,6 +258,7 @@ impl Ends {
     /// If there is not one of both for each state.
     #[must_use]
     #[track_caller]
+    #[inline]
     pub fn new(of: Vec<Option<End>>, distance: Vec<Option<u32>>) -> Self {
         assert_eq!(of.len(), distance.len(), "an end and a distance for each automaton state");
         let farthest = distance.iter().copied().flatten().max().unwrap_or(0);
@@ -257,6 +267,7 @@ impl Ends {
 
     /// Those of a task. All its states are asked once, so make them once for many moves.
     #[must_use]
+    #[inline]
     pub fn of(task: &(impl Acceptor + ?Sized)) -> Self {
         let end = |q| match (task.is_accepting(q), task.is_trap(q)) {
             (true, _) => Some(End::Accepted),
@@ -270,22 +281,26 @@ impl Ends {
 
     /// The number of automaton states.
     #[must_use]
+    #[inline]
     pub fn states(&self) -> u32 {
         self.of.len() as u32
     }
 
     /// The accepting state; the first, if there are several.
     #[must_use]
+    #[inline]
     pub fn accepting(&self) -> Option<u32> {
         self.first(End::Accepted)
     }
 
     /// The trap; the first, if there are several.
     #[must_use]
+    #[inline]
     pub fn trap(&self) -> Option<u32> {
         self.first(End::Lost)
     }
 
+    #[inline]
     fn first(&self, end: End) -> Option<u32> {
         (0..self.states()).find(|&q| self.end(q) == Some(end))
     }
@@ -302,6 +317,7 @@ impl Ends {
     }
 
     /// The automaton states in which the task goes on.
+    #[inline]
     pub fn live(&self) -> impl Iterator<Item = u32> + use<> {
         let of = self.of.clone();
         (0..of.len() as u32).filter(move |&q| of[q as usize].is_none())
@@ -310,6 +326,7 @@ impl Ends {
     /// The potential Φ of [`Mode::Shaped`]. Divided by one more than the largest distance, so that
     /// even the farthest live state has some, and the move into a state without a way loses it.
     #[track_caller]
+    #[inline]
     fn potential(&self, q: u32) -> f64 {
         match (self.end(q), self.distance[q as usize]) {
             (None, Some(distance)) => 1.0 - f64::from(distance) / f64::from(self.farthest + 1),
@@ -350,6 +367,7 @@ impl Arrival {
     /// A move from `q` to `to` with nothing beside it: no robustness, no reward of the environment,
     /// and the episode goes on.
     #[must_use]
+    #[inline]
     pub const fn at(q: u32, to: u32) -> Self {
         Self { q, to, robustness: 0.0, reward: 0.0, terminated: false }
     }
@@ -373,6 +391,7 @@ pub struct Arrivals<'a> {
 
 impl Arrivals<'_> {
     #[track_caller]
+    #[inline]
     fn check(&self, length: usize) {
         assert_eq!(self.q.len(), length, "a state before each move");
         assert_eq!(self.to.len(), length, "a state after each move");
@@ -382,6 +401,7 @@ impl Arrivals<'_> {
         assert!(fits(self.terminated.len()), "an end of the environment for each move, or none");
     }
 
+    #[inline]
     fn get(&self, i: usize) -> Arrival {
         Arrival {
             q: self.q[i],
@@ -417,6 +437,7 @@ enum SavedMode {
 
 #[cfg(feature = "serde")]
 impl From<Rewards> for Saved {
+    #[inline]
     fn from(rewards: Rewards) -> Self {
         let Rewards { mode, bound, trap_penalty, step_penalty, environment, .. } = rewards;
         let mode = match mode {
@@ -433,6 +454,7 @@ impl From<Rewards> for Saved {
 #[cfg(feature = "serde")]
 impl Saved {
     /// The rewards that were saved beside `gamma`.
+    #[inline]
     pub(crate) fn with_gamma(self, gamma: f64) -> Result<Rewards, crate::range::OutOfRange> {
         let rewards = match self.mode {
             SavedMode::Progress => Rewards::of(Mode::Progress),

@@ -50,6 +50,7 @@ pub struct Task<P> {
 
 /// Name, formula and size: predicates are code.
 impl<P> fmt::Debug for Task<P> {
+    #[inline]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Task")
             .field("name", &self.name)
@@ -85,6 +86,7 @@ impl<P> Task<P> {
     /// # Ok::<(), tltl::automaton::TableError>(())
     /// ```
     #[cfg(feature = "alloc")]
+    #[inline]
     pub fn new(
         name: impl Into<Shared<str>>,
         formula: impl Into<Shared<Formula>>,
@@ -110,6 +112,7 @@ impl<P> Task<P> {
 
     /// The minimal automaton.
     #[must_use]
+    #[inline]
     pub fn automaton(&self) -> &Automaton {
         &self.automaton
     }
@@ -225,6 +228,7 @@ impl<P> Task<P> {
 }
 
 impl<P> Acceptor for Task<P> {
+    #[inline]
     fn states(&self) -> u32 {
         self.automaton.states()
     }
@@ -239,18 +243,22 @@ impl<P> Acceptor for Task<P> {
         self.automaton.is_trap(q)
     }
 
+    #[inline]
     fn distance(&self, q: u32) -> Option<u32> {
         self.automaton.distance(q)
     }
 
+    #[inline]
     fn successors(&self, q: u32, visit: &mut dyn FnMut(u32)) {
         self.automaton.successors(q, visit);
     }
 
+    #[inline]
     fn name(&self) -> &str {
         &self.name
     }
 
+    #[inline]
     fn formula(&self) -> &Formula {
         &self.formula
     }
@@ -262,14 +270,17 @@ impl<S: ?Sized, P: Predicates<S>> Monitor<S> for Task<P> {
         self.reader().next(q, s)
     }
 
+    #[inline]
     fn progress_robustness(&self, q: u32, s: &S) -> Result<f64, Error> {
         self.reader().progress(q, s)
     }
 
+    #[inline]
     fn trap_robustness(&self, q: u32, s: &S) -> Result<f64, Error> {
         self.reader().trap(q, s)
     }
 
+    #[inline]
     fn trajectory_robustness(&self, trajectory: &[S]) -> Result<f64, Error>
     where
         S: Sized,
@@ -368,6 +379,7 @@ impl<P> Reader<'_, P> {
     }
 
     #[cold]
+    #[inline]
     fn not_a_number(&self, i: usize) -> Error {
         Error { predicate: self.automaton.propositions()[i].clone(), instant: None }
     }

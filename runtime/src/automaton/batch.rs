@@ -31,12 +31,14 @@ pub enum Letters<'a> {
 }
 
 impl<'a> From<&'a [u64]> for Letters<'a> {
+    #[inline]
     fn from(bits: &'a [u64]) -> Self {
         Self::Bits(bits)
     }
 }
 
 impl<'a> From<&'a [bool]> for Letters<'a> {
+    #[inline]
     fn from(labels: &'a [bool]) -> Self {
         Self::Labels(labels)
     }
@@ -44,6 +46,7 @@ impl<'a> From<&'a [bool]> for Letters<'a> {
 
 impl Letters<'_> {
     #[track_caller]
+    #[inline]
     fn expect(self, rows: usize, propositions: usize) {
         match self {
             Self::Bits(bits) => {
@@ -104,6 +107,7 @@ impl Automaton {
     }
 
     #[track_caller]
+    #[inline]
     fn walk(&self, rows: usize, letters: Letters<'_>, walk: impl Walk) {
         let count = self.propositions().len();
         letters.expect(rows, count);

@@ -43,12 +43,14 @@ enum Kind {
 
 impl TableError {
     /// An entry breaks a rule, which `what` states.
+    #[inline]
     fn entry(table: &'static str, at: usize, what: &'static str) -> Self {
         Self(Kind::Entry { table, at, what })
     }
 }
 
 impl fmt::Display for TableError {
+    #[inline]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.0 {
             Kind::Length { table, found, expected } => {
@@ -67,6 +69,7 @@ impl core::error::Error for TableError {}
 type Result<T = ()> = core::result::Result<T, TableError>;
 
 /// Whether `tables` are an automaton.
+#[inline]
 pub(super) fn automaton(tables: &Tables) -> Result {
     ends(tables)?;
     transitions(tables)?;
@@ -76,6 +79,7 @@ pub(super) fn automaton(tables: &Tables) -> Result {
 }
 
 /// Whether a table has as many entries as it should have.
+#[inline]
 pub(crate) fn length(table: &'static str, found: usize, expected: usize) -> Result {
     if found == expected {
         Ok(())
@@ -85,18 +89,21 @@ pub(crate) fn length(table: &'static str, found: usize, expected: usize) -> Resu
 }
 
 /// Whether an index is below the limit.
+#[inline]
 pub(crate) fn limit_of(table: &'static str, at: usize, found: u64, limit: usize) -> Result {
     let limit = limit as u64;
     if found < limit { Ok(()) } else { Err(TableError(Kind::Limit { table, at, found, limit })) }
 }
 
 /// Whether all entries of a table are below the limit.
+#[inline]
 fn all_below(table: &'static str, entries: &[u32], limit: u32) -> Result {
     let mut entries = entries.iter().enumerate();
     entries.try_for_each(|(at, &found)| limit_of(table, at, found.into(), limit as usize))
 }
 
 /// There are states, and the two ends are states, not the same one.
+#[inline]
 fn ends(tables: &Tables) -> Result {
     let Tables { states, accepting, trap, .. } = *tables;
     limit_of("states", 0, 0, states as usize)?;
@@ -112,6 +119,7 @@ fn ends(tables: &Tables) -> Result {
 
 /// δ is total and leads to states: a dense table has an entry for each state and class, and a class
 /// for each valuation; in a diagram every node refers to states and to nodes before it.
+#[inline]
 fn transitions(tables: &Tables) -> Result {
     let (states, propositions) = (tables.states, tables.propositions.len());
     match &tables.transitions {
@@ -145,6 +153,7 @@ fn transitions(tables: &Tables) -> Result {
 
 /// The offsets lead to edges and guards, the literals to propositions, and every guard is a sequence
 /// of cubes, each with a 0 after it.
+#[inline]
 fn guards(tables: &Tables) -> Result {
     let Tables { edges, targets, guards, literals, .. } = tables;
     let states = tables.states as usize;
@@ -165,6 +174,7 @@ fn guards(tables: &Tables) -> Result {
 
 /// Offsets of `items` items in a table of `end` entries: from 0 to `end` without a fall, so that the
 /// range of every item lies in the table.
+#[inline]
 fn offsets(table: &'static str, offsets: &[u32], items: usize, end: usize) -> Result {
     length(table, offsets.len(), items + 1)?;
     let falls = offsets.windows(2).position(|pair| pair[0] > pair[1]);
@@ -182,6 +192,7 @@ fn offsets(table: &'static str, offsets: &[u32], items: usize, end: usize) -> Re
 }
 
 /// The edges are those of δ, and the ends have a self-loop only: an episode that has ended stays so.
+#[inline]
 fn successors(tables: &Tables) -> Result {
     let mut leaves = Leaves::new(tables);
     for q in 0..tables.states {
@@ -211,6 +222,7 @@ struct Leaves<'a> {
 }
 
 impl<'a> Leaves<'a> {
+    #[inline]
     fn new(tables: &'a Tables) -> Self {
         let nodes = match &tables.transitions {
             Transitions::Table { .. } => 0,
@@ -220,6 +232,7 @@ impl<'a> Leaves<'a> {
     }
 
     /// The states that `q` moves to under some valuation, ascending.
+    #[inline]
     fn of(&mut self, q: u32) -> &[u32] {
         self.found.clear();
         match &self.tables.transitions {
@@ -252,6 +265,7 @@ impl<'a> Leaves<'a> {
 /// it moves to. Only the distance has this property, so nothing is computed to compare with: along
 /// the nearest states it falls to 0 in as many moves as it says, and along no way can it fall
 /// faster.
+#[inline]
 fn distances(tables: &Tables) -> Result {
     let Tables { edges, targets, distance, .. } = tables;
     length("distance", distance.len(), tables.states as usize)?;

@@ -45,6 +45,7 @@ pub struct Numbered<P> {
 }
 
 impl<P> fmt::Debug for Numbered<P> {
+    #[inline]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Numbered").field("task", &self.task).field("states", &self.states).finish()
     }
@@ -61,6 +62,7 @@ pub struct TooManyStates {
 }
 
 impl fmt::Display for TooManyStates {
+    #[inline]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "the parts of `{}` have ", self.task)?;
         for (i, part) in self.parts.iter().enumerate() {

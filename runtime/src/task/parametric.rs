@@ -41,6 +41,7 @@ pub struct Parametric<P, F> {
 }
 
 impl<P, F> fmt::Debug for Parametric<P, F> {
+    #[inline]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Parametric").field("any", &self.any).finish_non_exhaustive()
     }
@@ -58,30 +59,37 @@ impl<P, F> Parametric<P, F> {
 }
 
 impl<P, F> Acceptor for Parametric<P, F> {
+    #[inline]
     fn states(&self) -> u32 {
         self.any.states()
     }
 
+    #[inline]
     fn is_accepting(&self, q: u32) -> bool {
         self.any.is_accepting(q)
     }
 
+    #[inline]
     fn is_trap(&self, q: u32) -> bool {
         self.any.is_trap(q)
     }
 
+    #[inline]
     fn distance(&self, q: u32) -> Option<u32> {
         self.any.distance(q)
     }
 
+    #[inline]
     fn successors(&self, q: u32, visit: &mut dyn FnMut(u32)) {
         self.any.successors(q, visit);
     }
 
+    #[inline]
     fn name(&self) -> &str {
         self.any.name()
     }
 
+    #[inline]
     fn formula(&self) -> &Formula {
         self.any.formula()
     }
@@ -93,15 +101,18 @@ impl<S: ?Sized, P: Predicates<S>, F: Fn(&S) -> Task<P>> Monitor<S> for Parametri
         (self.of)(s).next(q, s)
     }
 
+    #[inline]
     fn progress_robustness(&self, q: u32, s: &S) -> Result<f64, Error> {
         (self.of)(s).progress_robustness(q, s)
     }
 
+    #[inline]
     fn trap_robustness(&self, q: u32, s: &S) -> Result<f64, Error> {
         (self.of)(s).trap_robustness(q, s)
     }
 
     /// With the arguments of the first state.
+    #[inline]
     fn trajectory_robustness(&self, trajectory: &[S]) -> Result<f64, Error>
     where
         S: Sized,
