@@ -91,7 +91,7 @@ fn one(rest: &str, first: char, before: &[Token<'_>]) -> (Kind, usize) {
         (Kind::Rust, rest.find([';', '\n', '=', '{']).unwrap_or(rest.len()).max(1))
     } else if first == '{' && !declares(before) {
         (Kind::Rust, braces(rest))
-    } else if (first.is_alphanumeric() || first == '_') && unit_goes_on(first, before) {
+    } else if goes_on(first) && unit_goes_on(first, before) {
         (Kind::Unit, word(rest))
     } else if first.is_ascii_digit() || first == '.' && starts_fraction(rest, before) {
         (Kind::Word, number(rest, before))
@@ -177,7 +177,7 @@ fn declares_unit(before: &[Token<'_>]) -> bool {
 
 /// The length of a name or of digits.
 fn word(rest: &str) -> usize {
-    let name = |c: char| !c.is_alphanumeric() && c != '_';
+    let name = |c: char| !goes_on(c);
     let raw = if rest.starts_with("r#") { 2 } else { 0 };
     raw + rest[raw..].find(name).unwrap_or(rest.len() - raw)
 }
@@ -213,7 +213,7 @@ fn number(rest: &str, before: &[Token<'_>]) -> usize {
         let sign = matches!(c, '+' | '-') && matches!(last, 'e' | 'E') && length > 1;
         let dot = c == '.' && !position && !rest[length + 1..].starts_with('.');
         let method = dot && rest[length + 1..].starts_with(|c: char| c.is_alphabetic() || c == '_');
-        if !(c.is_alphanumeric() || c == '_' || sign || dot && !method) {
+        if !(goes_on(c) || sign || dot && !method) {
             break;
         }
         length += c.len_utf8();
@@ -260,4 +260,10 @@ fn quoted(rest: &str, quote: char) -> usize {
         escaped = c == '\\' && !escaped;
     }
     rest.len()
+}
+
+/// Whether a name or a number may have this character after its first: marks that combine with
+/// letters are part of names.
+fn goes_on(c: char) -> bool {
+    c.is_alphanumeric() || unicode_ident::is_xid_continue(c)
 }
