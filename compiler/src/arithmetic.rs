@@ -175,17 +175,15 @@ impl Possible {
         let mut seen = vec![false; self.diagram.nodes().len()];
         let mut open = vec![self.letters];
         while let Some(f) = open.pop() {
-            let Some(node) = self.diagram.get(f) else {
-                if f == Bdd::TRUE {
-                    return false;
+            match f.index() {
+                None if f == Bdd::TRUE => return false,
+                Some(place) if !std::mem::replace(&mut seen[place as usize], true) => {
+                    let Node { level, low, high } = self.diagram.nodes()[place as usize];
+                    let value = fixed[level as usize];
+                    open.extend((value != Some(true)).then_some(low));
+                    open.extend((value != Some(false)).then_some(high));
                 }
-                continue;
-            };
-            let place = f.index().expect("a node has a place") as usize;
-            if !std::mem::replace(&mut seen[place], true) {
-                let value = fixed[node.level as usize];
-                open.extend((value != Some(true)).then_some(node.low));
-                open.extend((value != Some(false)).then_some(node.high));
+                _ => {}
             }
         }
         true

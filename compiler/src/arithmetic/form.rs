@@ -130,15 +130,11 @@ pub(super) fn inequalities(form: &Form, after: Option<Cut>, until: Option<Cut>) 
     above.into_iter().chain(until.map(|cut| row(cut, 1))).collect()
 }
 
-/// The inequalities that the types of a form's variables give.
-pub(super) fn bounds(module: &Module, form: &Form) -> Vec<Inequality> {
-    let bound = |&(term, _): &(TermId, i128)| {
-        integer_range(module, term).map(|(least, greatest)| {
-            let row = |sign, bound| Inequality { form: vec![(term, sign)], bound, strict: false };
-            [row(-1, -least), row(1, greatest)]
-        })
-    };
-    form.iter().filter_map(bound).flatten().collect()
+/// The inequalities that the type of a variable gives.
+pub(super) fn bounds(module: &Module, variable: TermId) -> Option<[Inequality; 2]> {
+    let (least, greatest) = integer_range(module, variable)?;
+    let row = |sign, bound| Inequality { form: vec![(variable, sign)], bound, strict: false };
+    Some([row(-1, -least), row(1, greatest)])
 }
 
 /// The least and the greatest value of a term with an integer type; `None` for other terms. The

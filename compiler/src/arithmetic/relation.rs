@@ -15,7 +15,7 @@
 //! use tltl_compiler::{arithmetic, check, source::Source};
 //!
 //! let module = check::formula(&Source::new("formula", "F (x < 1) && F (y < 1) && F (x + y > 3)"))?;
-//! let mut possible = arithmetic::possible(&module, &module.tasks[0]);
+//! let possible = arithmetic::possible(&module, &module.tasks[0]);
 //! // No two of the three exclude each other; all three do.
 //! assert!(!possible.excludes(&[(0, true), (1, true)]) && !possible.excludes(&[(0, true), (2, true)]));
 //! assert!(possible.excludes(&[(0, true), (1, true), (2, true)]));
@@ -160,9 +160,8 @@ impl<'a> Relation<'a> {
         let terms: Vec<TermId> =
             chains.iter().flat_map(|chain| &chain.form).map(|known| known.0).collect();
         for term in terms {
-            let variable = vec![(term, 1)];
-            if !bounds(analysis.module, &variable).is_empty() {
-                add(&mut chains, &variable, &[]);
+            if bounds(analysis.module, term).is_some() {
+                add(&mut chains, &vec![(term, 1)], &[]);
             }
         }
         let (mut level, mut ranges) = (0, Vec::new());
@@ -272,9 +271,12 @@ impl<'a> Relation<'a> {
     /// The combinations of cells of a group of forms that have a common point; `None` if finding
     /// them takes more than [`WORK_LIMIT`], or if there is only one form.
     fn related(&mut self, group: &[&Chain]) -> Option<Bdd> {
-        let variables = group.iter().filter(|chain| chain.form.len() == 1);
-        let module = self.analysis.module;
-        let mut system = variables.flat_map(|chain| bounds(module, &chain.form)).collect();
+        let mut system = Vec::new();
+        for chain in group {
+            if let [(variable, _)] = chain.form[..] {
+                system.extend(bounds(self.analysis.module, variable).into_iter().flatten());
+            }
+        }
         let mut work = WORK_LIMIT;
         (group.len() > 1).then(|| self.joint(group, &mut system, &mut work))?
     }
