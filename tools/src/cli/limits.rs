@@ -1,5 +1,6 @@
 //! The option `--budget`: limits of the work that replace the defaults of a command.
 
+use std::num::{IntErrorKind, ParseIntError};
 use std::str::FromStr;
 
 use tltl_compiler::translate::Budget;
@@ -69,7 +70,10 @@ impl FromStr for Limit {
                 ));
             }
         };
-        let most = most.trim().parse().map_err(|_| format!("`{most}` is not a whole number"))?;
+        let most = most.trim().parse().map_err(|error: ParseIntError| match error.kind() {
+            IntErrorKind::PosOverflow => format!("`{most}` is too large"),
+            _ => format!("`{most}` is not a whole number"),
+        })?;
         Ok(Self { what, most })
     }
 }
