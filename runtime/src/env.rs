@@ -370,8 +370,8 @@ impl Outcomes {
     }
 }
 
-/// A [`FiniteModel`] as an environment: it samples the model's outcomes, never terminates, and pays
-/// nothing of its own.
+/// A [`FiniteModel`] as an environment: it samples the model's outcomes, terminates by its
+/// [endings](FiniteModel::endings), and pays nothing of its own.
 ///
 /// ```
 /// use tltl::model;
@@ -440,12 +440,12 @@ impl<M: FiniteModel> ModelEnv<M> {
     /// Which half of a column is drawn nobody can predict, so the choice must not become a branch.
     #[inline]
     #[track_caller]
-    fn move_on<R: Rng + ?Sized>(&mut self, action: usize, rng: &mut R) -> usize {
+    fn move_on<R: Rng + ?Sized>(&mut self, action: usize, rng: &mut R) -> Step<usize> {
         let Outcomes { columns, width } = &self.outcomes;
         let word = rng.next_u64();
         let at = (((word >> 32) * *width as u64) >> 32) as usize;
         self.steps += 1;
-        self.state = if columns.is_empty() {
+        let arrival = if columns.is_empty() {
             self.compact(action, word)
         } else {
             assert!(action < self.dynamics.actions(), "an action of the model");
@@ -454,7 +454,9 @@ impl<M: FiniteModel> ModelEnv<M> {
             let (state, alias) = (state as usize, alias as usize);
             core::hint::select_unpredictable((word as u32) < threshold, state, alias)
         };
-        self.state
+        let terminated = arrival >= self.dynamics.states();
+        self.state = if terminated { self.dynamics.arrived(arrival) } else { arrival };
+        Step { terminated, ..Step::to(self.state) }
     }
 
     /// The same from the shared tables.
@@ -506,8 +508,8 @@ impl<M: FiniteModel> Env for ModelEnv<M> {
 
     #[inline]
     fn step<R: Rng + ?Sized>(&mut self, action: usize, rng: &mut R) -> Step<M::State> {
-        let s = self.move_on(action, rng);
-        Step::to(self.model.state(s))
+        let Step { state, reward, terminated, truncated } = self.move_on(action, rng);
+        Step { state: self.model.state(state), reward, terminated, truncated }
     }
 
     fn action_name(&self, a: usize) -> String {
@@ -537,6 +539,6 @@ impl<M: FiniteModel> FiniteEnv for ModelEnv<M> {
 
     #[inline]
     fn step_index<R: Rng + ?Sized>(&mut self, action: usize, rng: &mut R) -> Step<usize> {
-        Step::to(self.move_on(action, rng))
+        self.move_on(action, rng)
     }
 }

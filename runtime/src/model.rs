@@ -9,8 +9,10 @@
 //! slip has 9: inside, edges, corners). So a state costs about 30 bytes, and a backup reads each
 //! successor's value once for all actions.
 //!
-//! A model never pays rewards: they come from the task. A state in which the world ends is an
-//! absorbing one, whose actions all stay there.
+//! A model never pays rewards: they come from the task. Where the world itself ends an episode, the
+//! model says so by its [endings](FiniteModel::endings). In the tables an outcome that ends the episode
+//! is one of its own: a copy of the state that is entered, from which nothing follows. So only who
+//! gathers what arriving is worth needs to know of endings.
 
 use alloc::string::{String, ToString};
 use alloc::sync::Arc;
@@ -66,8 +68,56 @@ pub trait FiniteModel {
     fn state(&self, s: usize) -> Self::State;
 
     /// Calls `outcome(s', p)` for the outcomes of action `a` in state `s`. The same `s'` may come
-    /// more than once; the probabilities sum to one.
+    /// more than once; the probabilities, those of [`endings`](Self::endings) included, sum to one.
     fn transitions(&self, s: usize, a: usize, outcome: impl FnMut(usize, f64));
+
+    /// Calls `outcome(s', p)` for the outcomes of action `a` in state `s` with which the world ends
+    /// the episode: the task still reads s', and nothing after it. None unless overridden.
+    ///
+    /// The same `s'` may be entered both ways. (In Gymnasium's tables `P[s][a]` these are the outcomes
+    /// whose last entry, `terminated`, is true.)
+    ///
+    /// ```
+    /// use tltl::prelude::*;
+    ///
+    /// /// A walk of five cells; at cell 4 the episode is over.
+    /// struct Walk;
+    ///
+    /// impl FiniteModel for Walk {
+    ///     type State = usize;
+    ///     fn states(&self) -> usize {
+    ///         5
+    ///     }
+    ///     fn actions(&self) -> usize {
+    ///         1
+    ///     }
+    ///     fn state(&self, s: usize) -> usize {
+    ///         s
+    ///     }
+    ///     fn transitions(&self, s: usize, _: usize, mut outcome: impl FnMut(usize, f64)) {
+    ///         if s < 3 {
+    ///             outcome(s + 1, 1.0);
+    ///         }
+    ///     }
+    ///     fn endings(&self, s: usize, _: usize, mut outcome: impl FnMut(usize, f64)) {
+    ///         if s >= 3 {
+    ///             outcome(4, 1.0);
+    ///         }
+    ///     }
+    /// }
+    ///
+    /// // Cell 4 is reached; but no second state can be read there.
+    /// let dynamics = Dynamics::new(&Walk)?;
+    /// assert!(dynamics.endings(3, 0).eq([(4, 1.0)]));
+    /// let once = Labelled::of_model(&Walk, &tltl! { |s: &usize| F ({ *s } == 4) })?;
+    /// let twice = Labelled::of_model(&Walk, &tltl! { |s: &usize| F ({ *s } == 4 && X ({ *s } == 4)) })?;
+    /// assert_eq!(Problem::new(&dynamics, &once)?.largest_satisfied().at(0, 0), 1.0);
+    /// assert_eq!(Problem::new(&dynamics, &twice)?.largest_satisfied().at(0, 0), 0.0);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    fn endings(&self, s: usize, a: usize, outcome: impl FnMut(usize, f64)) {
+        let _ = (s, a, outcome);
+    }
 
     /// The weight with which an episode starts in `s`; equal weights unless overridden.
     fn start(&self, s: usize) -> f64 {
@@ -98,6 +148,10 @@ impl<M: FiniteModel> FiniteModel for &M {
 
     fn transitions(&self, s: usize, a: usize, outcome: impl FnMut(usize, f64)) {
         (**self).transitions(s, a, outcome);
+    }
+
+    fn endings(&self, s: usize, a: usize, outcome: impl FnMut(usize, f64)) {
+        (**self).endings(s, a, outcome);
     }
 
     fn start(&self, s: usize) -> f64 {
@@ -227,6 +281,9 @@ impl core::error::Error for ModelError {}
 /// Invariants: successors are sorted and distinct within a state; every row of probabilities sums
 /// to one. Cheap to clone: clones share the tables.
 ///
+/// A successor is an *arrival*: a state, or, from [`Self::states`] on, the copy of a state that is
+/// entered as the episode ends.
+///
 /// ```
 /// use tltl::model;
 /// use tltl::prelude::*;
@@ -258,6 +315,8 @@ struct Kernel {
     /// The distinct matrices, each with a row of as many numbers as successors for each action.
     probabilities: Vec<f64>,
     starts: Vec<f64>,
+    /// The states in which an episode can end, ascending: copy i is arrival `states + i`.
+    copied: Vec<u32>,
 }
 
 impl Dynamics {
@@ -267,10 +326,11 @@ impl Dynamics {
     /// If its outcomes or starts are not distributions, or it has no states or actions.
     pub fn new<M: FiniteModel>(model: &M) -> Result<Self, ModelError> {
         let (states, actions) = (model.states(), model.actions());
-        if states == 0 || actions == 0 || u32::try_from(states).is_err() {
+        let copied = endings(model);
+        if states == 0 || actions == 0 || u32::try_from(states + copied.len()).is_err() {
             return Err(ModelError::Size { states, actions });
         }
-        let mut builder = Builder::new(states, actions);
+        let mut builder = Builder::new(states, actions, copied);
         for s in 0..states {
             builder.push(model, s)?;
         }
@@ -292,19 +352,52 @@ impl Dynamics {
         self.0.actions
     }
 
-    /// The outcomes of action `a` in state `s` with their probabilities, ascending.
+    /// The outcomes of action `a` in state `s` with their probabilities: the states that are entered,
+    /// ascending, and after them those that are entered as the episode ends.
     ///
     /// # Panics
     /// If there is no such state or action.
     #[inline]
     pub fn outcomes(&self, s: usize, a: usize) -> impl Iterator<Item = (usize, f64)> {
+        self.row(s, a).map(|(to, p)| (self.arrived(to), p))
+    }
+
+    /// The outcomes with which the episode ends, ascending: see [`FiniteModel::endings`]. They are
+    /// among the [outcomes](Self::outcomes), and the last of them.
+    ///
+    /// # Panics
+    /// If there is no such state or action.
+    #[inline]
+    pub fn endings(&self, s: usize, a: usize) -> impl Iterator<Item = (usize, f64)> {
+        let endings = self.row(s, a).filter(|&(to, _)| to >= self.states());
+        endings.map(|(to, p)| (self.arrived(to), p))
+    }
+
+    /// The arrivals of action `a` in state `s`, with their probabilities.
+    #[inline]
+    fn row(&self, s: usize, a: usize) -> impl Iterator<Item = (usize, f64)> {
         let successors = self.successors(s);
         let row = &self.matrix(s)[a * successors.len()..][..successors.len()];
         let all = successors.iter().map(|&to| to as usize).zip(row.iter().copied());
         all.filter(|&(_, p)| p > 0.0)
     }
 
-    /// The states that some action leads to from `s`, ascending.
+    /// The number of arrivals: of states, and of copies of those in which an episode can end.
+    #[inline]
+    pub(crate) fn arrivals(&self) -> usize {
+        self.states() + self.0.copied.len()
+    }
+
+    /// The state that an arrival enters.
+    #[inline]
+    pub(crate) fn arrived(&self, arrival: usize) -> usize {
+        match arrival.checked_sub(self.states()) {
+            Some(copy) => self.0.copied[copy] as usize,
+            None => arrival,
+        }
+    }
+
+    /// The arrivals that some action leads to from `s`, ascending.
     #[inline]
     pub(crate) fn successors(&self, s: usize) -> &[u32] {
         &self.0.successors[self.0.first[s] as usize..self.0.first[s + 1] as usize]
@@ -337,10 +430,10 @@ impl Dynamics {
         &self.0.probabilities
     }
 
-    /// For each state those that some action leads to it from, as (first, list).
+    /// For each arrival the states that some action leads to it from, as (first, list).
     #[inline]
     pub(crate) fn predecessors(&self) -> (Vec<u32>, Vec<u32>) {
-        let mut first = alloc::vec![0; self.states() + 2];
+        let mut first = alloc::vec![0; self.arrivals() + 2];
         self.0.successors.iter().for_each(|&to| first[to as usize + 2] += 1);
         for s in 2..first.len() {
             first[s] += first[s - 1];
@@ -378,6 +471,20 @@ fn distribution(mut weights: Vec<f64>) -> Result<Vec<f64>, ModelError> {
     Ok(weights)
 }
 
+/// The states in which an episode of `model` can end, ascending. What is no state is left to the
+/// check of the outcomes.
+fn endings<M: FiniteModel>(model: &M) -> Vec<u32> {
+    let mut ends = alloc::vec![false; model.states()];
+    for (s, a) in (0..model.states()).flat_map(|s| (0..model.actions()).map(move |a| (s, a))) {
+        model.endings(s, a, |to, p| {
+            if let Some(ends) = ends.get_mut(to) {
+                *ends |= p > 0.0;
+            }
+        });
+    }
+    (0..ends.len()).filter(|&s| ends[s]).map(|s| s as u32).collect()
+}
+
 /// Collects the tables state by state.
 struct Builder {
     tables: Kernel,
@@ -391,11 +498,11 @@ struct Builder {
 
 impl Builder {
     #[inline]
-    fn new(states: usize, actions: usize) -> Self {
+    fn new(states: usize, actions: usize, copied: Vec<u32>) -> Self {
         let mut first = Vec::with_capacity(states + 1);
         first.push(0);
         let matrix = Vec::with_capacity(states);
-        let tables = Kernel { actions, first, matrix, ..Kernel::default() };
+        let tables = Kernel { actions, first, matrix, copied, ..Kernel::default() };
         Self { tables, matrices: Interner::new(), offsets: Vec::new(), outcomes: Vec::new() }
     }
 
@@ -426,13 +533,19 @@ impl Builder {
     }
 
     fn read<M: FiniteModel>(&mut self, model: &M, s: usize, a: usize) -> Result<(), ModelError> {
-        let (mut sum, mut valid) = (0.0, true);
-        model.transitions(s, a, |to, p| {
-            valid &= to < model.states() && p >= 0.0;
+        let (mut sum, mut valid, states) = (0.0, true, model.states());
+        let (outcomes, copied) = (&mut self.outcomes, &self.tables.copied);
+        let mut outcome = |to: usize, p: f64, arrival: usize| {
+            valid &= to < states && p >= 0.0;
             sum += p;
             if p > 0.0 {
-                self.outcomes.push((a, to as u32, p));
+                outcomes.push((a, arrival as u32, p));
             }
+        };
+        model.transitions(s, a, |to, p| outcome(to, p, to));
+        model.endings(s, a, |to, p| {
+            let copy = copied.partition_point(|&other| (other as usize) < to);
+            outcome(to, p, states + copy);
         });
         // Models compute their probabilities; a sum of a few differs from 1 by some 1e-16 each.
         if valid && f64::abs(sum - 1.0) < 1e-9 {

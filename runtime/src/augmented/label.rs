@@ -18,7 +18,7 @@ use crate::interner::Interner;
 use crate::mismatch::{self, Mismatch};
 use crate::model::FiniteModel;
 use crate::monitor::Monitor;
-use crate::reward::{Arrival, End, Ends, Rewards};
+use crate::reward::{Arrival, End, Ends, Mode, Rewards};
 use crate::task::Error;
 
 /// A task over a finite world, as tables: the class of each world state, and where each automaton
@@ -367,11 +367,14 @@ impl Labelled {
         &self.0
     }
 
-    /// What every move pays under `rewards`.
+    /// What every move pays under `rewards`, the last of an episode included.
     #[track_caller]
     #[inline]
     pub(crate) fn payment(&self, rewards: &Rewards) -> Payment {
-        self.payment_of(rewards, false)
+        // Only a potential depends on what follows.
+        let differs = rewards.mode() == Mode::Shaped;
+        let last = if differs { self.last_payment(rewards).table } else { Vec::new() };
+        Payment { last, ..self.payment_of(rewards, false) }
     }
 
     /// What every move pays that is the last one, for the environment terminates.
@@ -404,7 +407,7 @@ impl Labelled {
         for (i, &to) in next.iter().enumerate() {
             table.push(pays((i / classes) as u32, to));
         }
-        Payment { table, width: *classes, by_state: false }
+        Payment { table, last: Vec::new(), width: *classes, by_state: false }
     }
 
     /// A payment for each automaton state and state, as `pays(q, s')` says.
@@ -416,7 +419,7 @@ impl Labelled {
                 table.push(pays(q, s));
             }
         }
-        Payment { table, width: self.states(), by_state: true }
+        Payment { table, last: Vec::new(), width: self.states(), by_state: true }
     }
 
     /// Its name and its sizes, as errors show them.
@@ -572,6 +575,8 @@ fn at(s: usize, error: Error) -> LabelError {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Payment {
     table: Vec<f64>,
+    /// What the same moves pay when the world ends the episode with them; empty if they pay the same.
+    last: Vec<f64>,
     /// The length of a row: the number of classes, or of world states.
     width: usize,
     by_state: bool,
@@ -581,7 +586,19 @@ impl Payment {
     /// What reading `s` in `q` pays; `class` is the class of `s`.
     #[inline]
     pub(crate) fn get(&self, q: u32, s: usize, class: u32) -> f64 {
-        self.table[q as usize * self.width + if self.by_state { s } else { class as usize }]
+        self.table[self.at(q, s, class)]
+    }
+
+    /// What it pays when the world ends the episode with it.
+    #[inline]
+    pub(crate) fn get_last(&self, q: u32, s: usize, class: u32) -> f64 {
+        let at = self.at(q, s, class);
+        self.last.get(at).copied().unwrap_or(self.table[at])
+    }
+
+    #[inline]
+    fn at(&self, q: u32, s: usize, class: u32) -> usize {
+        q as usize * self.width + if self.by_state { s } else { class as usize }
     }
 }
 

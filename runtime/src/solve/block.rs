@@ -166,13 +166,10 @@ impl<'a> Block<'a> {
     pub(super) fn succeeds(&self, values: &mut [f64]) -> bool {
         let labelled = &self.problem.task;
         let exits_well = |&q: &u32| {
-            (0..self.states()).all(|s| {
-                let to = labelled.next(q, s);
-                // 1 exactly: such payments are 0 and 1, and the values behind were set here.
-                let inside = self.members.binary_search(&to).is_ok();
-                inside
-                    || self.problem.paid(self.payment, q, s) + values[labelled.pair(to, s)] == 1.0
-            })
+            let inside = |s| self.members.binary_search(&labelled.next(q, s)).is_ok();
+            // 1 exactly: such payments are 0 and 1, and the values behind were set here.
+            let well = |at| self.problem.worth(self.payment, 1.0, values, q, at) == 1.0;
+            (0..self.width()).all(|at| (at < self.states() && inside(at)) || well(at))
         };
         let sure = self.order.reached == self.order.pairs.len();
         let sure = sure && self.members.iter().all(exits_well);
@@ -220,6 +217,12 @@ impl<'a> Block<'a> {
         self.problem.task.states()
     }
 
+    /// The number of arrivals of each member.
+    #[inline]
+    pub(super) fn width(&self) -> usize {
+        self.problem.dynamics.arrivals()
+    }
+
     #[inline]
     pub(super) fn pair(&self, k: u32, s: u32) -> usize {
         self.problem.task.pair(self.members[k as usize], s as usize)
@@ -233,13 +236,14 @@ impl<'a> Block<'a> {
     /// What arriving in each state is worth to each member: payment plus discounted value.
     #[inline]
     pub(super) fn arrivals(&self, values: &[f64]) -> Vec<f64> {
-        let labelled = &self.problem.task;
-        let mut arrivals = Vec::with_capacity(self.members.len() * self.states());
+        let mut arrivals = Vec::with_capacity(self.members.len() * self.width());
         for &q in &self.members {
             for s in 0..self.states() {
-                let value = values[labelled.pair(self.next(q, s), s)];
+                let value = values[self.problem.task.pair(self.next(q, s), s)];
                 arrivals.push(self.problem.paid(self.payment, q, s) + self.discount * value);
             }
+            let last = self.states()..self.width();
+            arrivals.extend(last.map(|at| self.problem.paid_last(self.payment, q, at)));
         }
         arrivals
     }
@@ -338,7 +342,7 @@ impl<'a> Block<'a> {
     #[inline]
     fn spread(&self, at: usize, stale: &mut [bool]) {
         let (first, list) = &*self.problem.predecessors;
-        let (layer, s) = (at / self.states() * self.states(), at % self.states());
+        let (layer, s) = (at / self.width() * self.states(), at % self.width());
         for &from in &list[first[s] as usize..first[s + 1] as usize] {
             stale[layer + from as usize] = true;
         }
@@ -355,7 +359,7 @@ impl<'a> Block<'a> {
         rule: &Rule<'_>,
     ) -> f64 {
         let dynamics = &self.problem.dynamics;
-        let layer = &arrivals[k as usize * self.states()..];
+        let layer = &arrivals[k as usize * self.width()..];
         gathered.clear();
         gathered.extend(dynamics.successors(s as usize).iter().map(|&to| layer[to as usize]));
         let backup = Backup { matrix: dynamics.matrix(s as usize), arrivals: gathered };
@@ -405,7 +409,7 @@ impl<'a> Block<'a> {
         for (j, &member) in self.members.iter().enumerate() {
             if self.next(member, s) == q {
                 let paid = self.problem.paid(self.payment, member, s);
-                tell(j * self.states() + s, paid + self.discount * value);
+                tell(j * self.width() + s, paid + self.discount * value);
             }
         }
     }
@@ -470,7 +474,10 @@ impl<'a> Block<'a> {
         let p = &self.problem.dynamics.matrix(s as usize)[action as usize * successors.len()..];
         for (&to, p) in successors.iter().zip(p) {
             let to = to as usize;
-            row[n] += p * outside[k as usize * self.states() + to];
+            row[n] += p * outside[k as usize * self.width() + to];
+            if to >= self.states() {
+                continue;
+            }
             let q = self.next(self.members[k as usize], to);
             if let Ok(j) = self.members.binary_search(&q)
                 && let Some(unknown) = row[..n].get_mut(column[j * self.states() + to])

@@ -149,21 +149,26 @@ pub(super) fn order(problem: &Problem, members: &[u32], policy: Option<&[u32]>) 
     };
     let mut seen = alloc::vec![false; members.len() * states];
     let mut pairs: Vec<(u32, u32)> = Vec::with_capacity(seen.len());
-    // Finds the pairs that arrive at `s` under member `k`.
-    let mut arrive = |pairs: &mut Vec<(u32, u32)>, k: usize, s: usize| {
-        for &from in &list[first[s] as usize..first[s + 1] as usize] {
-            let at = k * states + from as usize;
-            if !seen[at] && uses(k, from as usize, s) {
-                seen[at] = true;
+    // Finds the pairs from which member `k` comes to an arrival.
+    let mut arrive = |pairs: &mut Vec<(u32, u32)>, k: usize, at: usize| {
+        for &from in &list[first[at] as usize..first[at + 1] as usize] {
+            let pair = k * states + from as usize;
+            if !seen[pair] && uses(k, from as usize, at) {
+                seen[pair] = true;
                 pairs.push((k as u32, from));
             }
         }
     };
     for (k, &member) in members.iter().enumerate() {
-        for s in 0..states {
-            let to = labelled.next(member, s);
-            if members.binary_search(&to).is_err() && labelled.end(to) != Some(End::Lost) {
-                arrive(&mut pairs, k, s);
+        for at in 0..dynamics.arrivals() {
+            let to = labelled.next(member, dynamics.arrived(at));
+            let leaves = if at < states {
+                members.binary_search(&to).is_err() && labelled.end(to) != Some(End::Lost)
+            } else {
+                labelled.end(to) == Some(End::Accepted)
+            };
+            if leaves {
+                arrive(&mut pairs, k, at);
             }
         }
     }

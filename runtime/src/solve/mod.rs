@@ -199,7 +199,13 @@ impl Problem {
         for q in self.task.live() {
             Block::fixed(self, q, &payment, gamma).sweep(&mut values, true, &Rule::Largest);
         }
-        self.action_values(&|q, s| self.paid(&payment, q, s) + gamma * values[self.task.pair(q, s)])
+        let states = self.task.states();
+        self.action_values(&|q, at| {
+            if at >= states {
+                return self.paid_last(&payment, q, at);
+            }
+            self.paid(&payment, q, at) + gamma * values[self.task.pair(q, at)]
+        })
     }
 
     /// The policy of the largest possible P(satisfied), and among those of the smallest possible
@@ -346,6 +352,13 @@ impl Problem {
         payment.get(q, s, self.task.tables().class[s])
     }
 
+    /// What the arrival `at` pays at `q`, the world ending the episode with it.
+    #[inline]
+    fn paid_last(&self, payment: &Payment, q: u32, at: usize) -> f64 {
+        let s = self.dynamics.arrived(at);
+        payment.get_last(q, s, self.task.tables().class[s])
+    }
+
     /// Pays 1 for entering the accepting state: its undiscounted value is P(satisfied), as that of
     /// reachability in a Markov decision process (Baier and Katoen 2008, chapter 10).
     #[inline]
@@ -450,7 +463,18 @@ impl Problem {
         safe
     }
 
-    /// What reading `s` at `q` is worth: payment plus discounted value.
+    /// What the arrival `at` is worth to `q`: payment plus discounted value, which is 0 where the
+    /// episode is over.
+    #[inline]
+    fn worth(&self, payment: &Payment, discount: f64, values: &[f64], q: u32, at: usize) -> f64 {
+        if at >= self.task.states() {
+            return self.paid_last(payment, q, at);
+        }
+        let to = self.task.pair(self.task.next(q, at), at);
+        self.paid(payment, q, at) + discount * values[to]
+    }
+
+    /// The same as a function of q and arrival.
     #[inline]
     fn arrivals(
         &self,
@@ -458,10 +482,7 @@ impl Problem {
         discount: f64,
         values: &[f64],
     ) -> impl Fn(u32, usize) -> f64 {
-        move |q, s| {
-            let to = self.task.pair(self.task.next(q, s), s);
-            self.paid(payment, q, s) + discount * values[to]
-        }
+        move |q, at| self.worth(payment, discount, values, q, at)
     }
 
     /// One backup of every action at every live pair: `visit(q, s, values)`. What arriving is worth is
@@ -474,7 +495,8 @@ impl Problem {
     ) {
         let mut actions = alloc::vec![0.0; self.dynamics.actions()];
         for q in self.task.live() {
-            let arrivals: Vec<f64> = (0..self.dynamics.states()).map(|s| arrival(q, s)).collect();
+            let all = 0..self.dynamics.arrivals();
+            let arrivals: Vec<f64> = all.map(|at| arrival(q, at)).collect();
             for s in 0..self.dynamics.states() {
                 let successors = self.dynamics.successors(s);
                 let rows = self.dynamics.matrix(s).chunks(successors.len());
@@ -487,7 +509,7 @@ impl Problem {
         }
     }
 
-    /// Q(s, q, a) = E\[arrival(q, s')\].
+    /// Q(s, q, a) = E\[what arriving is worth\].
     #[inline]
     fn action_values(&self, arrival: &dyn Fn(u32, usize) -> f64) -> QTable {
         let mut table = QTable::zeros(&self.task);

@@ -219,7 +219,7 @@ impl Front<'_> {
     fn relax(&mut self, (k, s): (u32, u32), values: &mut [f64]) {
         let block = self.block;
         let dynamics = &block.problem.dynamics;
-        let layer = &self.arrivals[k as usize * block.states()..];
+        let layer = &self.arrivals[k as usize * block.width()..];
         let successors = dynamics.successors(s as usize);
         self.gathered.clear();
         self.gathered.extend(successors.iter().map(|&to| layer[to as usize]));
