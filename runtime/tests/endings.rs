@@ -2,7 +2,7 @@
 
 use tltl::prelude::*;
 use tltl::rand::{Rng, SeedableRng, rngs::Xoshiro256PlusPlus};
-use tltl::reward::Mode;
+use tltl::reward::{End, Mode};
 
 /// Outcomes (s', p, whether the episode ends) of each `s * actions + a`, as Gymnasium has them.
 struct Table {
@@ -105,6 +105,53 @@ fn random(rng: &mut Xoshiro256PlusPlus) -> Table {
         vec![outcome(p), outcome(1.0 - p)]
     };
     Table { states: 6, rows: (0..6 * 3).map(|_| row()).collect() }
+}
+
+/// P(satisfied within so many steps) forwards: the distribution over pairs is moved step by step.
+fn forwards(model: &Table, task: &Labelled, policy: &Policy, start: usize, steps: u64) -> f64 {
+    let mut at = vec![(task.start(start), start, 1.0)];
+    for _ in 0..steps {
+        let mut next = Vec::new();
+        for &(q, s, p) in &at {
+            if task.end(q).is_some() {
+                next.push((q, s, p));
+                continue;
+            }
+            for &(to, chance, ends) in &model.rows[s * model.actions() + policy.act(q, s)] {
+                let q = task.next(q, to);
+                if !ends || task.end(q).is_some() {
+                    next.push((q, to, p * chance));
+                }
+            }
+        }
+        at = next;
+    }
+    let satisfied = at.iter().filter(|&&(q, ..)| task.end(q) == Some(End::Accepted));
+    satisfied.map(|&(_, _, p)| p).sum()
+}
+
+#[test]
+fn within_a_horizon() {
+    let formula = tltl! { |s: &usize| (F ({ *s } == 4) && F ({ *s } == 5)) ensuring ({ *s } != 3) };
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(3);
+    for _ in 0..20 {
+        let model = random(&mut rng);
+        let task = Labelled::of_model(&model, &formula).unwrap();
+        let problem = Problem::new(&Dynamics::new(&model).unwrap(), &task).unwrap();
+        let policy = Policy::from_fn(&task, |q, s| (q as usize + s) % 3).unwrap();
+        for steps in [0, 1, 2, 5] {
+            let within = problem.satisfied_within(&policy, steps).unwrap();
+            let largest = problem.largest_satisfied_within(steps);
+            for s in 0..6 {
+                let p = within.at(task.start(s), s);
+                assert!((p - forwards(&model, &task, &policy, s, steps)).abs() < 1e-12);
+                assert!(p <= largest.at(task.start(s), s), "no policy does better");
+            }
+        }
+        let (ever, long) =
+            (problem.largest_satisfied(), problem.largest_satisfied_within(1_000_000));
+        assert!((ever.mean() - long.mean()).abs() < 1e-9);
+    }
 }
 
 /// Ng, Harada and Russell 1999: with a potential of 0 where an episode ends, values differ by the

@@ -5,6 +5,16 @@
 
 use alloc::vec::Vec;
 
+/// Which of several policies is asked for.
+#[allow(dead_code, reason = "shields are certified by it")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Objective {
+    /// The one of the smallest value.
+    Smallest,
+    /// The one of the largest value.
+    Largest,
+}
+
 /// For each pair (q, s) a set of actions, as bits.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Actions {

@@ -34,11 +34,11 @@ use crate::model::Dynamics;
 use crate::policy::Policy;
 use crate::q::QTable;
 use crate::reward::{End, Rewards};
-pub(crate) use actions::Actions;
+pub(crate) use actions::{Actions, Objective};
 use block::Block;
 pub use evaluation::{Evaluation, Values};
 pub use optimum::Optimum;
-use rule::Rule;
+use rule::{Backup, Rule};
 
 /// The largest error of values, relative to them where they exceed 1.
 const TOLERANCE: f64 = 1e-11;
@@ -280,6 +280,79 @@ impl Problem {
         Ok(self.evaluation(policy.clone(), satisfied, &weighted))
     }
 
+    /// P(satisfied within so many steps) of a policy: 1 at the accepting state. Each step is one
+    /// backup of every pair.
+    ///
+    /// ```
+    /// use tltl::model;
+    /// use tltl::prelude::*;
+    ///
+    /// // A step to the goal succeeds one time in four, and else stays.
+    /// let try_hard = model::from_fn(2, 1, |s, _| if s == 0 { [(1, 0.25), (0, 0.75)] } else { [(1, 1.0), (0, 0.0)] });
+    /// let task = Labelled::of_model(&try_hard, &tltl! { |s: &usize| F ({ *s } == 1) })?;
+    /// let problem = Problem::new(&Dynamics::new(&try_hard)?, &task)?;
+    /// let policy = Policy::from_fn(&task, |_, _| 0)?;
+    /// assert_eq!(problem.satisfied_within(&policy, 0)?.at(0, 0), 0.0);
+    /// assert_eq!(problem.satisfied_within(&policy, 2)?.at(0, 0), 0.25 + 0.75 * 0.25);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If it is a policy for another task or another world.
+    #[inline]
+    pub fn satisfied_within(&self, policy: &Policy, steps: u64) -> Result<Values, Mismatch> {
+        policy.must_be_for(&self.task)?;
+        Ok(self.within(steps, &Rule::Follow(policy.table())))
+    }
+
+    /// The largest possible P(satisfied within so many steps): that of the best policy which knows how
+    /// many are left.
+    ///
+    /// ```
+    /// use tltl::model;
+    /// use tltl::prelude::*;
+    ///
+    /// // From 0 a leap that fails one time in two for ever, or a sure walk of two steps.
+    /// let ways = model::from_fn(4, 2, |s, a| match (s, a) {
+    ///     (0, 0) => vec![(2, 0.5), (3, 0.5)],
+    ///     (0, 1) => vec![(1, 1.0)],
+    ///     (1, _) => vec![(2, 1.0)],
+    ///     _ => vec![(s, 1.0)],
+    /// });
+    /// let task = Labelled::of_model(&ways, &tltl! { |s: &usize| F ({ *s } == 2) })?;
+    /// let problem = Problem::new(&Dynamics::new(&ways)?, &task)?;
+    /// assert!([0, 1, 2].map(|steps| problem.largest_satisfied_within(steps).at(0, 0)) == [0.0, 0.5, 1.0]);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    #[must_use]
+    #[inline]
+    pub fn largest_satisfied_within(&self, steps: u64) -> Values {
+        self.within(steps, &Rule::Largest)
+    }
+
+    /// Finite-horizon dynamic programming; it stops where a further step changes nothing.
+    #[inline]
+    fn within(&self, steps: u64, rule: &Rule<'_>) -> Values {
+        let (accept, mut values) = (self.acceptance(), self.zeros());
+        let mut next = values.clone();
+        for _ in 0..steps {
+            let mut change = false;
+            let arrival = self.arrivals(&accept, 1.0, &values);
+            self.gathered(&arrival, &mut |q, s, backup| {
+                let pair = self.task.pair(q, s);
+                next[pair] = rule.value(pair, backup);
+                change |= next[pair] > values[pair];
+            });
+            drop(arrival);
+            core::mem::swap(&mut values, &mut next);
+            if !change {
+                break;
+            }
+        }
+        self.set_end(End::Accepted, &mut values, 1.0);
+        Values::new(self, values)
+    }
+
     /// P(the trap is ever entered) under a policy; 1 at the trap. Where a policy may also go on for
     /// ever, this and P(satisfied) sum to less than 1.
     ///
@@ -316,6 +389,20 @@ impl Problem {
     #[inline]
     pub fn smallest_lost(&self) -> Values {
         let mut lost = self.lost_by(&self.entering(End::Lost), &Rule::Least);
+        self.set_end(End::Lost, &mut lost, 1.0);
+        Values::new(self, lost)
+    }
+
+    /// The smallest or the largest P(the trap is ever entered) among the policies that use allowed
+    /// actions only; 1 at the trap. Every live pair has an allowed action.
+    #[allow(dead_code, reason = "shields are certified by it")]
+    #[inline]
+    pub(crate) fn lost_within(&self, allowed: &Actions, objective: Objective) -> Values {
+        let rule = match objective {
+            Objective::Smallest => Rule::LeastOf(allowed),
+            Objective::Largest => Rule::LargestOf(allowed),
+        };
+        let mut lost = self.lost_by(&self.entering(End::Lost), &rule);
         self.set_end(End::Lost, &mut lost, 1.0);
         Values::new(self, lost)
     }
@@ -485,8 +572,27 @@ impl Problem {
         move |q, at| self.worth(payment, discount, values, q, at)
     }
 
-    /// One backup of every action at every live pair: `visit(q, s, values)`. What arriving is worth is
-    /// gathered once for each q, so that a pair reads its successors from one row.
+    /// What a backup of every live pair sees. What arriving is worth is gathered once for each q, so
+    /// that a pair reads its successors from one row.
+    #[inline]
+    fn gathered(
+        &self,
+        arrival: &dyn Fn(u32, usize) -> f64,
+        visit: &mut dyn FnMut(u32, usize, &Backup<'_>),
+    ) {
+        let mut arrivals = Vec::new();
+        for q in self.task.live() {
+            let all: Vec<f64> = (0..self.dynamics.arrivals()).map(|at| arrival(q, at)).collect();
+            for s in 0..self.dynamics.states() {
+                arrivals.clear();
+                arrivals.extend(self.dynamics.successors(s).iter().map(|&to| all[to as usize]));
+                let matrix = self.dynamics.matrix(s);
+                visit(q, s, &Backup { matrix, arrivals: &arrivals });
+            }
+        }
+    }
+
+    /// One backup of every action at every live pair: `visit(q, s, values)`.
     #[inline]
     fn backups(
         &self,
@@ -494,19 +600,10 @@ impl Problem {
         visit: &mut dyn FnMut(u32, usize, &[f64]),
     ) {
         let mut actions = alloc::vec![0.0; self.dynamics.actions()];
-        for q in self.task.live() {
-            let all = 0..self.dynamics.arrivals();
-            let arrivals: Vec<f64> = all.map(|at| arrival(q, at)).collect();
-            for s in 0..self.dynamics.states() {
-                let successors = self.dynamics.successors(s);
-                let rows = self.dynamics.matrix(s).chunks(successors.len());
-                for (value, row) in actions.iter_mut().zip(rows) {
-                    *value =
-                        row.iter().zip(successors).map(|(p, &to)| p * arrivals[to as usize]).sum();
-                }
-                visit(q, s, &actions);
-            }
-        }
+        self.gathered(arrival, &mut |q, s, backup| {
+            actions.iter_mut().zip(backup.values()).for_each(|(value, of)| *value = of);
+            visit(q, s, &actions);
+        });
     }
 
     /// Q(s, q, a) = E\[what arriving is worth\].

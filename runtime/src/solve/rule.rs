@@ -17,6 +17,10 @@ pub(super) enum Rule<'a> {
     Largest,
     /// The least.
     Least,
+    /// The largest of the actions that are allowed.
+    LargestOf(&'a Actions),
+    /// The least of the actions that are allowed.
+    LeastOf(&'a Actions),
     /// That of a policy's action.
     Follow(&'a [u32]),
     /// The pair's cost, and what the action of a policy costs from there on.
@@ -30,8 +34,10 @@ impl Rule<'_> {
     #[inline]
     pub(super) fn value(&self, pair: usize, backup: &Backup<'_>) -> f64 {
         match *self {
-            Self::Largest => backup.max(),
+            Self::Largest => backup.max_where(|_| true),
             Self::Least => backup.min_where(|_| true),
+            Self::LargestOf(allowed) => backup.max_where(|a| allowed.contains(pair, a)),
+            Self::LeastOf(allowed) => backup.min_where(|a| allowed.contains(pair, a)),
             Self::Follow(policy) => backup.of(policy[pair]),
             Self::Cost { costs, policy } => costs[pair] + backup.of(policy[pair]),
             Self::LeastCost { costs, safe } => {
@@ -44,8 +50,8 @@ impl Rule<'_> {
     #[inline]
     pub(super) fn guess(&self, pair: usize, known: &Lookahead<'_>, discount: f64) -> Guess {
         match *self {
-            Self::Largest => known.best(discount),
-            Self::Least => known.least(0.0, |_| true),
+            Self::Largest | Self::LargestOf(_) => known.best(discount),
+            Self::Least | Self::LeastOf(_) => known.least(0.0, |_| true),
             Self::Follow(policy) => known.discounted(policy[pair] as usize, discount),
             Self::Cost { costs, policy } => known.cost(policy[pair] as usize, costs[pair]),
             Self::LeastCost { costs, safe } => known.least(costs[pair], |a| safe.contains(pair, a)),
@@ -59,8 +65,8 @@ impl Rule<'_> {
     #[inline]
     pub(super) fn key(&self, pair: usize, value: f64) -> f64 {
         match *self {
-            Self::Largest | Self::Follow(_) => -value,
-            Self::Least => value,
+            Self::Largest | Self::LargestOf(_) | Self::Follow(_) => -value,
+            Self::Least | Self::LeastOf(_) => value,
             Self::Cost { costs, .. } | Self::LeastCost { costs, .. } => value / costs[pair],
         }
     }
@@ -78,7 +84,7 @@ pub(super) struct Backup<'a> {
 impl Backup<'_> {
     /// The values of the actions.
     #[inline]
-    fn values(&self) -> impl Iterator<Item = f64> {
+    pub(super) fn values(&self) -> impl Iterator<Item = f64> {
         self.matrix.chunks_exact(self.arrivals.len()).map(|row| mean(row, self.arrivals))
     }
 
@@ -89,10 +95,11 @@ impl Backup<'_> {
         mean(&self.matrix[action as usize * n..][..n], self.arrivals)
     }
 
-    /// The largest value.
+    /// The largest value of the actions that are `allowed`.
     #[inline]
-    fn max(&self) -> f64 {
-        self.values().fold(f64::NEG_INFINITY, |best, value| if value > best { value } else { best })
+    fn max_where(&self, allowed: impl Fn(usize) -> bool) -> f64 {
+        let values = self.values().enumerate().filter(|&(a, _)| allowed(a));
+        values.fold(f64::NEG_INFINITY, |best, (_, value)| if value > best { value } else { best })
     }
 
     /// The least value of the actions that are `allowed`.
