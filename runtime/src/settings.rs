@@ -43,8 +43,8 @@ pub enum Updates {
 
 /// What a learner keeps beside its table.
 ///
-/// Experience is counts, so it grows with the world and not with time: a list for each (s, a), with 8
-/// bytes for each s' that was seen. Without it a step is faster, and replay, masks that look one step ahead
+/// Experience is counts, so it grows with the world and not with time: 64 bytes for each (s, a) that was
+/// tried, or for each 7 outcomes of it. Without it a step is faster, and replay, masks that look one step ahead
 /// and composition from experience cannot be had.
 ///
 /// ```

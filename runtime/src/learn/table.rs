@@ -180,6 +180,14 @@ impl<W: Width, const PLAIN: bool> Tabular<'_, W, PLAIN> {
         self.settings.alpha().at(u64::from(before))
     }
 
+    #[inline(always)]
+    fn remember(&mut self, s: usize, action: usize, step: &Step<usize>) {
+        match step.terminated {
+            true => self.experience.push_ending(s, action, step.state),
+            false => self.experience.push(s, action, step.state),
+        }
+    }
+
     /// Q ← Q + α (r + γ max Q' − Q); the rows of terminal automaton states are 0.
     #[inline(always)]
     fn update(&mut self, q: u32, read: Move, transition: &Transition<'_, usize>, alpha: f64) {
@@ -228,7 +236,7 @@ impl<W: Width, const PLAIN: bool> Agent for Tabular<'_, W, PLAIN> {
             return Err(TrainError::Reward(0));
         }
         if !PLAIN && self.settings.remembers() {
-            self.experience.push(*s, action, step.state);
+            self.remember(*s, action, step);
         }
         let alpha = self.alpha(transition);
         if PLAIN || !self.settings.is_counterfactual() {
