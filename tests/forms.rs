@@ -1,12 +1,15 @@
 //! The forms in which automata are shown: snapshots of a few, and what holds of all.
 
+use std::fmt::Write as _;
+
 use tltl_compiler::compile;
-use tltl_compiler::dfa::Dfa;
+use tltl_compiler::dfa::{Dfa, Edge};
 use tltl_compiler::minimize;
 use tltl_compiler::proposition::{Proposition, Shape};
 use tltl_compiler::source::Source;
 use tltl_compiler::translate::Budget;
 use tltlc::diff;
+use tltlc::emit::labels::{Labelled, Labels};
 use tltlc::emit::{dot, hoa, json, mermaid, sum, svg, text};
 use tltlc::explain::explain;
 
@@ -29,12 +32,18 @@ fn every_form_of_a_few_automata() {
         let dfa = automaton(formula);
         let title = formula;
         insta::assert_snapshot!(format!("{name}_text"), text::automaton(title, &dfa));
-        insta::assert_snapshot!(format!("{name}_dot"), dot::automaton(title, &dfa).unwrap());
+        insta::assert_snapshot!(
+            format!("{name}_dot"),
+            dot::automaton(title, &dfa).unwrap().to_string()
+        );
         insta::assert_snapshot!(
             format!("{name}_mermaid"),
-            mermaid::automaton(title, &dfa).unwrap()
+            mermaid::automaton(title, &dfa).unwrap().to_string()
         );
-        insta::assert_snapshot!(format!("{name}_hoa"), hoa::automaton(title, &dfa).unwrap());
+        insta::assert_snapshot!(
+            format!("{name}_hoa"),
+            hoa::automaton(title, &dfa).unwrap().to_string()
+        );
         insta::assert_snapshot!(format!("{name}_svg"), svg::automaton(title, &dfa));
     }
 }
@@ -135,22 +144,38 @@ fn json_keeps_its_contract() {
     insta::assert_snapshot!(json::explicit("!c U a", &dfa).unwrap(), @r#"{"formula":"!c U a","propositions":["c","a"],"states":3,"initial":0,"accepting":[1],"trap":2,"edges":2,"self_loops":3,"transitions":[[0,2,1,1],[1,1,1,1],[2,2,2,2]]}"#);
 }
 
-/// The labels that are put together from texts of literals are those of the edges one by one, also
-/// where letters cannot occur.
+/// The labels that are put together on the way through the diagram are those of the edges one by
+/// one: where each edge is one path, where one or all of them are several, and where letters cannot
+/// occur.
 #[test]
 fn labels_are_the_guards() {
-    for formula in ["true", "a U b", "(a T b) && !c U d", "F (x < 1 || x > 3) && F (x < 0)"] {
+    for formula in [
+        "true",
+        "F a && F b && F c",
+        "a U b",
+        "(!h U a) && (!h U b) && !h U c",
+        "(a T b) && !c U d",
+        "a && b || !a && c || X (b <=> c)",
+        "F (x < 1 || x > 3) && F (x < 0)",
+    ] {
         let dfa = automaton(formula);
         for notation in [sum::Notation::Ascii, sum::Notation::Mathematical, sum::Notation::Numbered]
         {
-            let mut labels = Vec::new();
-            sum::Labels::new(&dfa, notation, &str::to_owned)
-                .unwrap()
-                .visit(&mut |from, to, label| labels.push((from, to, label.to_owned())));
-            let edges = dfa.edges();
-            let expected =
-                edges.iter().map(|edge| (edge.from, edge.to, sum::label(&dfa, edge, notation)));
-            assert!(labels.into_iter().eq(expected), "{formula}");
+            let labels = Labels::new(&dfa, notation, &str::to_owned).unwrap();
+            let (mut written, mut expected) = (String::new(), String::new());
+            let line = |text: &mut String, edge: Labelled<'_>| {
+                let Labelled { from, to, ends: [number, into], guard, is_first } = edge;
+                writeln!(text, "{from}={number} {to}={into} {guard} {is_first}").unwrap();
+            };
+            labels.write(&mut written, &line).unwrap();
+            let mut last = None;
+            for edge in dfa.edges() {
+                let Edge { from, to, .. } = edge;
+                let is_first = last.replace(from) != Some(from);
+                let guard = sum::label(&dfa, &edge, notation);
+                writeln!(expected, "{from}={from} {to}={to} {guard} {is_first}").unwrap();
+            }
+            assert_eq!(written, expected, "{formula}");
         }
     }
 }
@@ -162,13 +187,19 @@ fn names_from_elsewhere_are_escaped() {
     let names = [("x < 3 \"&\"", Shape::Compound), ("p|1]#;\\", Shape::Foreign)];
     dfa.propositions = names.map(named).to_vec();
     let title = "<a> & \"b\" --> ]]";
-    insta::assert_snapshot!("escaped_dot", dot::automaton(title, &dfa).unwrap());
-    insta::assert_snapshot!("escaped_mermaid", mermaid::automaton(title, &dfa).unwrap());
-    insta::assert_snapshot!("escaped_hoa", hoa::automaton(title, &dfa).unwrap());
+    insta::assert_snapshot!("escaped_dot", dot::automaton(title, &dfa).unwrap().to_string());
+    insta::assert_snapshot!(
+        "escaped_mermaid",
+        mermaid::automaton(title, &dfa).unwrap().to_string()
+    );
+    insta::assert_snapshot!("escaped_hoa", hoa::automaton(title, &dfa).unwrap().to_string());
     let svg = svg::automaton(title, &dfa);
     assert!(!svg.contains("<a>") && svg.contains("&lt;a&gt; &amp; "));
-    let read =
-        tltl_compiler::hoa::read(&Source::new("x", hoa::automaton(title, &dfa).unwrap())).unwrap();
+    let read = tltl_compiler::hoa::read(&Source::new(
+        "x",
+        hoa::automaton(title, &dfa).unwrap().to_string(),
+    ))
+    .unwrap();
     assert_eq!(read.name.as_deref(), Some(title));
     assert_eq!(read.dfa.propositions, dfa.propositions);
 }

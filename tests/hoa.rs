@@ -30,7 +30,7 @@ fn automaton(formula: &str) -> Dfa {
 
 /// Equal automata have equal texts, down to the order of the states.
 fn written(dfa: &Dfa) -> String {
-    emit::hoa::automaton("", dfa).unwrap()
+    emit::hoa::automaton("", dfa).unwrap().to_string()
 }
 
 /// A complete automaton with labels left implicit.
@@ -321,7 +321,7 @@ fn deep_and_huge_texts_do_not_crash() {
 
 /// What is written keeps the rules of the format, and is the automaton.
 fn keeps_the_rules(title: &str, dfa: &Dfa) -> Result<(), String> {
-    let strict = rules::read(&emit::hoa::automaton(title, dfa).unwrap())?;
+    let strict = rules::read(&emit::hoa::automaton(title, dfa).unwrap().to_string())?;
     let names: Vec<_> = strict.propositions.iter().map(String::as_str).collect();
     assert_eq!(dfa.propositions, names);
     assert_eq!((strict.start, strict.accepting.len()), (0, dfa.len()));
@@ -358,7 +358,7 @@ fn what_is_written_keeps_the_rules() {
 
 #[test]
 fn the_rules_are_strict() {
-    let text = emit::hoa::automaton("t", &automaton("!c U a")).unwrap();
+    let text = emit::hoa::automaton("t", &automaton("!c U a")).unwrap().to_string();
     rules::read(&text).unwrap();
     for (from, to) in [
         ("HOA: v1", "HOA: v2"),

@@ -98,7 +98,7 @@ fn every_engine_gives_the_verdicts_of_the_corpus() {
         let spec = &compiled.module.tasks[0].spec;
         let minimal = &compiled.automata[0].dfa;
         let raw = translate(spec, Budget::default()).unwrap();
-        let written = emit_hoa::automaton(&row.formula, minimal).unwrap();
+        let written = emit_hoa::automaton(&row.formula, minimal).unwrap().to_string();
         let read = hoa::read(&Source::new("hoa", written)).unwrap();
         let places = places(&row, spec.propositions());
         for Trace { letters, accept, first_accept: expected } in &row.traces {

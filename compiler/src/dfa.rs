@@ -172,6 +172,24 @@ impl Dfa {
     /// The size of the automaton.
     #[must_use]
     pub fn size(&self) -> Size {
+        self.survey(&mut |_| {})
+    }
+
+    /// The [size](Self::size) of the automaton. `again` gets each node and each leaf that some
+    /// state reaches in more than one way, except those that it reaches only through another of
+    /// them; it may get one several times.
+    ///
+    /// ```
+    /// # use tltl_compiler::{bdd::Bdd, compile, source::Source, translate::Budget};
+    /// let source = Source::new("formula", "F (a && b)");
+    /// let dfa = &compile::formula(&source, Budget::EMITTED)?.automata[0].dfa;
+    /// let mut again = Vec::new();
+    /// assert_eq!(dfa.survey(&mut |f| again.push(f)), dfa.size());
+    /// // State 0 stays where it is without `a`, and with `a` but without `b`.
+    /// assert_eq!(again, [Bdd::leaf(0)]);
+    /// # Ok::<(), tltl_compiler::error::Errors>(())
+    /// ```
+    pub fn survey(&self, again: &mut dyn FnMut(Bdd)) -> Size {
         let mut size = Size {
             states: self.len(),
             edges: 0,
@@ -179,36 +197,38 @@ impl Dfa {
             into_trap: 0,
             trap: self.trap.is_some(),
         };
-        self.each_edge(&mut |q, to| {
+        let mut edge = |q, to| {
             size.self_loops += usize::from(to == q);
             size.edges += usize::from(to != q);
             size.into_trap += usize::from(to != q && self.trap == Some(to));
-        });
+        };
+        self.each_edge(&mut edge, again);
         size
     }
 
-    /// Visits each pair of a state and a successor once, states rising. One mark for each node and
-    /// each state serves all walks: some automata have ten thousand times more edges than nodes.
-    fn each_edge(&self, edge: &mut dyn FnMut(State, State)) {
+    /// Visits each pair of a state and a successor once, states rising, and hands what the walk of
+    /// one state meets once more to `again`. One mark for each node and each state serves all
+    /// walks: some automata have ten thousand times more edges than nodes.
+    fn each_edge(&self, edge: &mut dyn FnMut(State, State), again: &mut dyn FnMut(Bdd)) {
         let mut passed = vec![State::MAX; self.diagram.nodes().len()];
         let mut entered = vec![State::MAX; self.len()];
         let nodes = self.diagram.nodes();
         let mut stack = Vec::new();
         for q in self.states() {
-            let mut next = Some(self.transitions[q as usize]);
-            while let Some(f) = next {
-                next = match (f.index(), f.value()) {
-                    (Some(node), _) if std::mem::replace(&mut passed[node as usize], q) != q => {
-                        let Node { low, high, .. } = nodes[node as usize];
-                        stack.push(high);
-                        Some(low)
-                    }
-                    (_, Some(to)) if std::mem::replace(&mut entered[to as usize], q) != q => {
-                        edge(q, to);
-                        stack.pop()
-                    }
-                    _ => stack.pop(),
+            stack.push(self.transitions[q as usize]);
+            while let Some(f) = stack.pop() {
+                let (marks, at) = match f.value() {
+                    Some(to) => (&mut entered, to as usize),
+                    None => (&mut passed, f.code() as usize),
                 };
+                if std::mem::replace(&mut marks[at], q) == q {
+                    again(f);
+                } else if let Some(to) = f.value() {
+                    edge(q, to);
+                } else {
+                    let Node { low, high, .. } = nodes[at];
+                    stack.extend([high, low]);
+                }
             }
         }
     }
@@ -218,7 +238,7 @@ impl Dfa {
     #[must_use]
     pub fn distances(&self) -> Vec<Option<u32>> {
         let mut predecessors = vec![Vec::new(); self.len()];
-        self.each_edge(&mut |q, to| predecessors[to as usize].push(q));
+        self.each_edge(&mut |q, to| predecessors[to as usize].push(q), &mut |_| {});
         let mut distances = vec![None; self.len()];
         let mut queue: std::collections::VecDeque<_> = self.accepting.into_iter().collect();
         queue.iter().for_each(|&q| distances[q as usize] = Some(0));
@@ -267,9 +287,20 @@ impl<'a> Guards<'a> {
     /// The guards of `dfa`. Costs the number of pairs of a node and a state that it leads to.
     #[must_use]
     pub fn new(dfa: &'a Dfa) -> Self {
+        Self::into_some(dfa, dfa.possible, &|_| true)
+    }
+
+    /// The guards of the edges into some states only, where `possible` holds the letters that can
+    /// occur. Costs the number of pairs of a node and such a state that it leads to.
+    #[must_use]
+    pub fn into_some(
+        dfa: &'a Dfa,
+        possible: Option<Bdd>,
+        is_wanted: &dyn Fn(State) -> bool,
+    ) -> Self {
         let mut diagram = Diagram::default();
-        let possible = dfa.possible.map_or(Bdd::TRUE, |f| diagram.import(&dfa.diagram, f));
-        let moves = dfa.diagram.leaf_covers(&dfa.transitions, &mut diagram);
+        let possible = possible.map_or(Bdd::TRUE, |f| diagram.import(&dfa.diagram, f));
+        let moves = dfa.diagram.leaf_covers(&dfa.transitions, is_wanted, &mut diagram);
         Self { dfa, diagram, possible, moves }
     }
 
@@ -342,15 +373,10 @@ impl<'a> Guards<'a> {
         })
     }
 
-    /// The number of products of all edges together, saturating.
-    pub fn products(&mut self) -> usize {
-        let mut products = 0_usize;
-        for q in self.dfa.states() {
-            for (_, guard) in self.edges(q) {
-                products = products.saturating_add(self.diagram.products(guard));
-            }
-        }
-        products
+    /// The number of products of a guard, saturating; see [`Diagram::products`].
+    #[must_use]
+    pub fn products(&self, guard: Cover) -> usize {
+        self.diagram.products(guard)
     }
 
     /// The letters under which `q` moves to `to`; none if it does not.

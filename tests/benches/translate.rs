@@ -1,5 +1,6 @@
 //! From formula to minimal automaton: families that grow, their states asserted, the time beside
-//! what others measured, and how it grows.
+//! what others measured, and how it grows. Then from automaton to text, in each form that lists all
+//! edges, the edges asserted.
 //!
 //! `cargo bench -p tltl-tests --bench translate`. Times are the least of some repetitions on this
 //! machine. The figures for Spot are *from elsewhere*: its finite-trace translation, in process, on
@@ -10,9 +11,11 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use tltl_compiler::check;
+use tltl_compiler::compile;
 use tltl_compiler::minimize::minimize;
 use tltl_compiler::source::Source;
 use tltl_compiler::translate::{Budget, translate};
+use tltlc::emit::{dot, hoa, json, mermaid};
 
 struct Case {
     family: &'static str,
@@ -54,6 +57,57 @@ fn main() {
         before = Some((case.family, case.n, all));
     }
     println!("\npeak memory {} MiB", peak());
+    written();
+}
+
+/// The time that it takes to write an automaton, beside that of making it, in milliseconds.
+fn written() {
+    println!("\n{:<22}{:>5}{:>9}", "family", "n", "edges");
+    let is_large = |case: &Case| ["unordered goals", "reach-avoid"].contains(&case.family);
+    for case in cases().into_iter().filter(|case| is_large(case) && case.n <= 12) {
+        let source = Source::new("formula", case.formula.as_str());
+        let dfa = compile::formula(&source, Budget::SHOWN)
+            .expect("it is a formula")
+            .automata
+            .remove(0)
+            .dfa;
+        let size = dfa.size();
+        let edges = size.edges + size.self_loops;
+        print!("{:<22}{:>5}{edges:>9}", case.family, case.n);
+        for form in ["json", "hoa", "dot", "mermaid"] {
+            let made = || {
+                let text = match form {
+                    "json" => json::automaton("", &dfa),
+                    "hoa" => hoa::automaton("", &dfa),
+                    "dot" => dot::automaton("", &dfa),
+                    _ => mermaid::automaton("", &dfa),
+                };
+                text.expect("it is small enough")
+            };
+            let lines = made().to_string().lines().count();
+            assert!((edges..edges + 2 * dfa.len()).contains(&lines), "{form} has {lines} lines");
+            let (mut least, mut bytes) = (f64::INFINITY, Bytes::default());
+            for _ in 0..5 {
+                bytes.0 = 0;
+                let start = Instant::now();
+                write!(bytes, "{}", made()).expect("nothing fails");
+                least = least.min(start.elapsed().as_secs_f64() * 1e3);
+            }
+            print!("{form:>9} {least:.1} ms, {:.1} MB", bytes.0 as f64 / 1e6);
+        }
+        println!();
+    }
+}
+
+/// How much was written.
+#[derive(Default)]
+struct Bytes(usize);
+
+impl std::fmt::Write for Bytes {
+    fn write_str(&mut self, piece: &str) -> std::fmt::Result {
+        self.0 += piece.len();
+        Ok(())
+    }
 }
 
 /// The milliseconds of parsing and checking, translation and minimisation.

@@ -99,9 +99,11 @@ impl Covers {
             _ => {
                 let Parts { level, parts: [low, high, rest], .. } = self.get(cover);
                 for (value, part) in [(true, high), (false, low)] {
-                    prefix.push((level, value));
-                    self.visit(part, prefix, visit);
-                    prefix.pop();
+                    if part != Cover::FALSE {
+                        prefix.push((level, value));
+                        self.visit(part, prefix, visit);
+                        prefix.pop();
+                    }
                 }
                 self.visit(rest, prefix, visit);
             }
@@ -209,8 +211,8 @@ impl Diagram {
         cover
     }
 
-    /// For each of `roots` its leaves, rising, each with the sum of products, in `into`, that is
-    /// true where the root leads to the leaf.
+    /// For each of `roots` its leaves that are wanted, rising, each with the sum of products, in
+    /// `into`, that is true where the root leads to the leaf.
     ///
     /// All sums are built in one pass from those of the children; asking for each leaf by itself
     /// would walk the diagram once a leaf. Cost: the number of pairs of a node and a leaf that it
@@ -222,24 +224,30 @@ impl Diagram {
     /// let mut diagram = Diagram::default();
     /// let f = diagram.node(0, Bdd::leaf(9), Bdd::leaf(4));
     /// let mut guards = Diagram::default();
-    /// let [(four, when), (nine, _)] = diagram.leaf_covers(&[f], &mut guards)[0][..] else { panic!() };
+    /// let [(four, when), (nine, _)] = diagram.leaf_covers(&[f], &|_| true, &mut guards)[0][..] else { panic!() };
     /// assert_eq!((four, nine), (4, 9));
     /// assert_eq!(guards.cubes(when), [[(0, true)]]);
     /// ```
     #[must_use]
-    pub fn leaf_covers(&self, roots: &[Bdd], into: &mut Self) -> Vec<Vec<(u32, Cover)>> {
+    pub fn leaf_covers(
+        &self,
+        roots: &[Bdd],
+        is_wanted: &dyn Fn(u32) -> bool,
+        into: &mut Self,
+    ) -> Vec<Vec<(u32, Cover)>> {
         into.prepare();
         let mut known: Vec<Vec<(u32, Cover)>> = vec![Vec::new(); self.nodes.len()];
-        let leaf = |f: Bdd| [(f.0 & !Bdd::LEAF, Cover::TRUE)];
+        let leaf =
+            |f: Bdd| f.value().filter(|&leaf| is_wanted(leaf)).map(|leaf| (leaf, Cover::TRUE));
         for place in self.postorder(roots) {
             let Node { level, low, high } = self.nodes[place as usize];
             let (on_low, on_high) = (leaf(low), leaf(high));
-            let low = known.get(low.0 as usize).map_or(&on_low[..], Vec::as_slice);
-            let high = known.get(high.0 as usize).map_or(&on_high[..], Vec::as_slice);
+            let low = known.get(low.0 as usize).map_or(on_low.as_slice(), Vec::as_slice);
+            let high = known.get(high.0 as usize).map_or(on_high.as_slice(), Vec::as_slice);
             known[place as usize] = into.merge(level, low, high);
         }
         let of = |root: &Bdd| known.get(root.0 as usize).cloned();
-        roots.iter().map(|root| of(root).unwrap_or_else(|| leaf(*root).to_vec())).collect()
+        roots.iter().map(|root| of(root).unwrap_or_else(|| Vec::from_iter(leaf(*root)))).collect()
     }
 
     /// The sums of a node from those of its children: a merge of two rising lists.

@@ -132,7 +132,7 @@ fn leaves_are_numbers() {
     }
 
     let mut guards = Diagram::default();
-    let of_count = &diagram.leaf_covers(&[count], &mut guards)[0];
+    let of_count = &diagram.leaf_covers(&[count], &|_| true, &mut guards)[0];
     assert_eq!(of_count.iter().map(|(leaf, _)| *leaf).collect::<Vec<_>>(), diagram.leaves(count));
     for &(leaf, cover) in of_count {
         let function = guards.function(cover);

@@ -14,10 +14,12 @@ pub fn run(bytes: &[u8]) {
             if automaton.dfa.len() > 1_000 {
                 return;
             }
-            let written = emit::hoa::automaton("", &automaton.dfa).unwrap();
+            let written = emit::hoa::automaton("", &automaton.dfa).unwrap().to_string();
             let again = Source::new("<written>", written.as_str());
             match read(&again) {
-                Ok(read) => assert_eq!(emit::hoa::automaton("", &read.dfa).unwrap(), written),
+                Ok(read) => {
+                    assert_eq!(emit::hoa::automaton("", &read.dfa).unwrap().to_string(), written)
+                }
                 Err(error) => panic!("{}\n{written}", error.render(&again, Style::Plain)),
             }
         }

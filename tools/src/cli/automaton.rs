@@ -1,6 +1,8 @@
 //! `tltlc automaton`: the automaton of a formula, of each formula of a list, or of a task, in one
 //! of the forms of [`emit`](crate::emit).
 
+use std::fmt::Display;
+
 use tltl_compiler::dfa::{Automata, Dfa};
 use tltl_compiler::error::{Error, Kind, Style};
 use tltl_compiler::source::Span;
@@ -45,7 +47,7 @@ pub(super) fn run(arguments: &Automaton, streams: &mut Streams<'_>) -> Outcome {
             let text = || text::automaton(&name, &dfa);
             let rust = || rust::foreign(&name, &dfa);
             match formatted(arguments, [&name, &name], &dfa, Span::default(), [&text, &rust]) {
-                Ok(text) => streams.print(&text),
+                Ok(text) => streams.out.write(&text),
                 Err(error) => {
                     streams.complain(&format!("{}: {}", path.display(), error.message()));
                     Ok(Exit::Mistaken)
@@ -127,7 +129,7 @@ fn selected<'a>(arguments: &Automaton, automata: &'a Automata) -> &'a Dfa {
 fn write(arguments: &Automaton, entry: &Entry, streams: &mut Streams<'_>) -> Outcome {
     let automata = subject::automata(entry)?;
     match shown(arguments, entry, automata) {
-        Ok(text) => streams.print(&text),
+        Ok(text) => streams.out.write(&text),
         Err(error) => {
             let source = entry.file().source();
             input::judged::<()>(source, Err(error.into()), Report::Human, streams)?;
@@ -137,7 +139,11 @@ fn write(arguments: &Automaton, entry: &Entry, streams: &mut Streams<'_>) -> Out
 }
 
 /// A task in the form that the arguments ask for.
-fn shown(arguments: &Automaton, entry: &Entry, automata: &Automata) -> Result<String, Error> {
+fn shown<'a>(
+    arguments: &Automaton,
+    entry: &Entry,
+    automata: &'a Automata,
+) -> Result<Box<dyn Display + 'a>, Error> {
     let task = entry.task();
     let title = task.name.as_deref().unwrap_or(&task.text);
     let text = || sizes(arguments, &task.text, automata);
@@ -148,26 +154,29 @@ fn shown(arguments: &Automaton, entry: &Entry, automata: &Automata) -> Result<St
 
 /// An automaton in the form that the arguments ask for; the table of text and the Rust are made by
 /// the functions. `Err` says at `span` that it is too large for the form.
-fn formatted(
+fn formatted<'a>(
     arguments: &Automaton,
     [title, formula]: [&str; 2],
-    dfa: &Dfa,
+    dfa: &'a Dfa,
     span: Span,
     [text, rust]: [&dyn Fn() -> String; 2],
-) -> Result<String, Error> {
+) -> Result<Box<dyn Display + 'a>, Error> {
     let written = match arguments.format {
-        Format::Text => return Ok(text()),
+        Format::Text => return Ok(Box::new(text())),
         Format::Json if arguments.explicit => {
-            return json::explicit(formula, dfa);
+            return Ok(Box::new(json::explicit(formula, dfa)?));
         }
         Format::Json => json::automaton(formula, dfa),
         Format::Dot => dot::automaton(title, dfa),
-        Format::Svg => return Ok(svg::automaton(title, dfa)),
+        Format::Svg => return Ok(Box::new(svg::automaton(title, dfa))),
         Format::Mermaid => mermaid::automaton(title, dfa),
         Format::Hoa => hoa::automaton(title, dfa),
-        Format::Rust => return Ok(rust()),
+        Format::Rust => return Ok(Box::new(rust())),
     };
-    written.map_err(|too_large| Error::new(Kind::Budget, too_large.to_string(), span))
+    match written {
+        Ok(text) => Ok(Box::new(text)),
+        Err(too_large) => Err(Error::new(Kind::Budget, too_large.to_string(), span)),
+    }
 }
 
 /// The table of the automaton; if arithmetic has made it smaller, with both sizes.

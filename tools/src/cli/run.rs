@@ -11,7 +11,7 @@ mod written;
 use rustc_hash::FxHashMap;
 use tltl_compiler::translate::Budget;
 
-use crate::emit::sum::MOST_PRODUCTS;
+use crate::emit::labels::MOST_PRODUCTS;
 
 use crate::evaluate::{Input, Scratch};
 use crate::online::Online;

@@ -1,8 +1,9 @@
 //! The streams of a run: those of the process, or others in their place.
 
 use std::borrow::Cow;
+use std::fmt;
 use std::fs::File;
-use std::io::{BufRead, BufReader, ErrorKind, IsTerminal, Read, Write};
+use std::io::{self, BufRead, BufReader, ErrorKind, IsTerminal, Read, Write};
 use std::path::Path;
 
 use tltl::file;
@@ -67,16 +68,50 @@ impl Output<'_> {
         self.print_raw(&shown(text))
     }
 
+    /// Writes a result piece by piece as it is made, with a line break at its end. What a terminal
+    /// would obey is shown.
+    pub(super) fn write(&mut self, text: &dyn fmt::Display) -> Outcome {
+        let mut pieces = Pieces { stream: self.stream, failed: Ok(()), ends: true };
+        // An error of the stream is kept; the text itself has none.
+        let _ = fmt::Write::write_fmt(&mut pieces, format_args!("{text}"));
+        let Pieces { failed, ends, .. } = pieces;
+        ended(
+            failed.and_then(|()| write!(self.stream, "{}", if ends { "" } else { "\n" })),
+            self.stream,
+        )
+    }
+
     /// Writes a result as it is: a source that must not change, or a text with colours. A reader
     /// that has gone away, as `head` does, is no fault.
     pub(super) fn print_raw(&mut self, text: &str) -> Outcome {
         let end = if text.ends_with('\n') || text.is_empty() { "" } else { "\n" };
-        match write!(self.stream, "{text}{end}").and_then(|()| self.stream.flush()) {
-            Err(error) if error.kind() != ErrorKind::BrokenPipe => {
-                Err(format!("cannot write: {error}"))
-            }
-            _ => Ok(Exit::Success),
+        ended(write!(self.stream, "{text}{end}"), self.stream)
+    }
+}
+
+/// The end of a result.
+fn ended(written: io::Result<()>, stream: &mut dyn Write) -> Outcome {
+    match written.and_then(|()| stream.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(format!("cannot write: {error}"))
         }
+        _ => Ok(Exit::Success),
+    }
+}
+
+/// A stream that takes a text piece by piece.
+struct Pieces<'a> {
+    stream: &'a mut dyn Write,
+    failed: io::Result<()>,
+    /// Whether the text so far ends with a line break, or is empty.
+    ends: bool,
+}
+
+impl fmt::Write for Pieces<'_> {
+    fn write_str(&mut self, piece: &str) -> fmt::Result {
+        self.ends = if piece.is_empty() { self.ends } else { piece.ends_with('\n') };
+        self.failed = self.stream.write_all(shown(piece).as_bytes());
+        if self.failed.is_ok() { Ok(()) } else { Err(fmt::Error) }
     }
 }
 

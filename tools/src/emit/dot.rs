@@ -2,7 +2,8 @@
 
 use std::fmt::Write as _;
 
-use crate::emit::sum::{Labels, Notation, TooLarge, escaped, quoted};
+use crate::emit::labels::{Labelled, Labels, Text, TooLarge};
+use crate::emit::sum::{Notation, escaped, quoted};
 use tltl_compiler::dfa::{Dfa, State};
 
 /// A digraph, laid out from left to right: the accepting state has two circles, the trap and the
@@ -12,15 +13,31 @@ use tltl_compiler::dfa::{Dfa, State};
 /// use tltl_compiler::translate::Budget;
 ///
 /// let task = tltlc::task::compile("a T b", Budget::default())?;
-/// let dot = tltlc::emit::dot::automaton("order", task.dfa())?;
+/// let dot = tltlc::emit::dot::automaton("order", task.dfa())?.to_string();
 /// assert!(dot.starts_with("digraph \"order\" {"));
 /// assert!(dot.contains("  0 -> 1 [label=\"a\"];"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
 /// # Errors
-/// If the guards have more than [`MOST_PRODUCTS`](super::sum::MOST_PRODUCTS).
-pub fn automaton(title: &str, dfa: &Dfa) -> Result<String, TooLarge> {
+/// If the guards have more than [`MOST_PRODUCTS`](super::labels::MOST_PRODUCTS).
+pub fn automaton<'a>(title: &str, dfa: &'a Dfa) -> Result<Text<'a>, TooLarge> {
+    let (head, labels) = (head(title, dfa), Labels::new(dfa, Notation::Ascii, &escaped)?);
+    Ok(Text::new(move |out| {
+        out.write_str(&head)?;
+        labels.write(out, &|text, Labelled { to, ends: [from, into], guard, .. }| {
+            let into_trap = dfa.trap == Some(to);
+            let colour = if into_trap { ", color=gray40, fontcolor=gray40" } else { "" };
+            for part in ["  ", from, " -> ", into, " [label=\"", guard, "\"", colour, "];\n"] {
+                text.push_str(part);
+            }
+        })?;
+        out.write_str("}\n")
+    }))
+}
+
+/// Everything before the edges.
+fn head(title: &str, dfa: &Dfa) -> String {
     let mut dot = format!("digraph {} {{\n", quoted(title));
     dot.push_str("  rankdir=LR;\n");
     dot.push_str("  node [shape=circle, fontname=\"Helvetica\"];\n");
@@ -31,13 +48,7 @@ pub fn automaton(title: &str, dfa: &Dfa) -> Result<String, TooLarge> {
         let _ = writeln!(dot, "  {q}{};", attributes(dfa, q));
     }
     dot.push_str("  start -> 0;\n");
-    Labels::new(dfa, Notation::Ascii, &escaped)?.visit(&mut |from, to, label| {
-        let into_trap = dfa.trap == Some(to);
-        let colour = if into_trap { ", color=gray40, fontcolor=gray40" } else { "" };
-        let _ = writeln!(dot, "  {from} -> {to} [label=\"{label}\"{colour}];");
-    });
-    dot.push_str("}\n");
-    Ok(dot)
+    dot
 }
 
 /// The attributes by which the verdict of a state is seen.

@@ -12,7 +12,8 @@
 
 use std::fmt::Write as _;
 
-use crate::emit::sum::{Labels, Notation, TooLarge, quoted};
+use crate::emit::labels::{Labelled, Labels, Text, TooLarge};
+use crate::emit::sum::{Notation, quoted};
 use tltl_compiler::dfa::{Dfa, State};
 
 /// The automaton in HOA v1, with one label for each pair of states.
@@ -25,25 +26,31 @@ use tltl_compiler::dfa::{Dfa, State};
 /// use tltl_compiler::translate::Budget;
 ///
 /// let task = tltlc::task::compile("F a", Budget::default())?;
-/// let hoa = tltlc::emit::hoa::automaton("reach", task.dfa())?;
+/// let hoa = tltlc::emit::hoa::automaton("reach", task.dfa())?.to_string();
 /// assert!(hoa.ends_with("State: 0\n[!0] 0\n[0] 1\nState: 1 {0}\n[t] 1\n--END--\n"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
 /// # Errors
-/// If the guards have more than [`MOST_PRODUCTS`](super::sum::MOST_PRODUCTS).
-pub fn automaton(title: &str, dfa: &Dfa) -> Result<String, TooLarge> {
-    let free = Dfa { possible: None, ..dfa.clone() };
-    let mut hoa = header(title, dfa);
-    let mut last = None;
-    Labels::new(&free, Notation::Numbered, &str::to_owned)?.visit(&mut |from, to, label| {
-        if last.replace(from) != Some(from) {
-            let _ = writeln!(hoa, "State: {from}{}", mark(dfa, from));
-        }
-        let _ = writeln!(hoa, "[{label}] {to}");
-    });
-    hoa.push_str("--END--\n");
-    Ok(hoa)
+/// If the guards have more than [`MOST_PRODUCTS`](super::labels::MOST_PRODUCTS).
+pub fn automaton<'a>(title: &str, dfa: &'a Dfa) -> Result<Text<'a>, TooLarge> {
+    let header = header(title, dfa);
+    let labels = Labels::of_all_letters(dfa, Notation::Numbered, &str::to_owned)?;
+    Ok(Text::new(move |out| {
+        out.write_str(&header)?;
+        labels.write(
+            out,
+            &|text, Labelled { from, ends: [number, to], guard, is_first, .. }| {
+                if is_first {
+                    let _ = writeln!(text, "State: {number}{}", mark(dfa, from));
+                }
+                for part in ["[", guard, "] ", to, "\n"] {
+                    text.push_str(part);
+                }
+            },
+        )?;
+        out.write_str("--END--\n")
+    }))
 }
 
 /// Everything before the states. `terminal` says that accepting states are absorbing.

@@ -12,8 +12,9 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
-use crate::emit::sum::{Labels, Notation, TooLarge};
-use tltl_compiler::dfa::{Dfa, State};
+use crate::emit::labels::{Labelled, Labels, Text, TooLarge};
+use crate::emit::sum::Notation;
+use tltl_compiler::dfa::{Dfa, Size, State};
 use tltl_compiler::error::{Error, Kind};
 use tltl_compiler::source::{Source, Span, is_hidden};
 
@@ -68,8 +69,7 @@ struct Related<'a> {
 }
 
 impl<'a> Automaton<'a> {
-    fn new(formula: &'a str, dfa: &'a Dfa) -> Self {
-        let size = dfa.size();
+    fn new(formula: &'a str, dfa: &'a Dfa, size: Size) -> Self {
         Self {
             formula,
             propositions: dfa.propositions.iter().map(|one| one.name.as_str()).collect(),
@@ -98,7 +98,7 @@ impl<'a> Automaton<'a> {
 /// ```
 #[must_use]
 pub fn summary(formula: &str, dfa: &Dfa) -> String {
-    line(&Automaton::new(formula, dfa))
+    line(&Automaton::new(formula, dfa, dfa.size()))
 }
 
 /// The automaton with the table of all its transitions, on one line.
@@ -127,7 +127,7 @@ pub fn explicit(formula: &str, dfa: &Dfa) -> Result<String, Error> {
     }
     let row = |q| (0..1_u32 << count).map(|v| dfa.next(q, |p| v >> p & 1 == 1)).collect();
     let transitions = Some(dfa.states().map(row).collect());
-    Ok(line(&Automaton { transitions, ..Automaton::new(formula, dfa) }))
+    Ok(line(&Automaton { transitions, ..Automaton::new(formula, dfa, dfa.size()) }))
 }
 
 /// The automaton with the guards of its edges, self-loops included, one a line. A guard is a
@@ -137,29 +137,34 @@ pub fn explicit(formula: &str, dfa: &Dfa) -> Result<String, Error> {
 /// use tltl_compiler::translate::Budget;
 ///
 /// let task = tltlc::task::compile("a T b", Budget::default())?;
-/// let json = tltlc::emit::json::automaton("a T b", task.dfa())?;
+/// let json = tltlc::emit::json::automaton("a T b", task.dfa())?.to_string();
 /// let read: serde_json::Value = serde_json::from_str(&json)?;
 /// assert_eq!(read["states"], 3);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
 /// # Errors
-/// If the guards have more than [`MOST_PRODUCTS`](super::sum::MOST_PRODUCTS).
-pub fn automaton(formula: &str, dfa: &Dfa) -> Result<String, TooLarge> {
-    let head = pretty(&Automaton::new(formula, dfa));
-    let head = head.strip_suffix("\n}\n").expect("an object over several lines");
-    let mut json = format!("{head},\n  \"guards\": [");
+/// If the guards have more than [`MOST_PRODUCTS`](super::labels::MOST_PRODUCTS).
+pub fn automaton<'a>(formula: &str, dfa: &'a Dfa) -> Result<Text<'a>, TooLarge> {
     let escaped = |text: &str| line(&text).trim_matches('"').to_owned();
-    let mut separator = "\n";
-    Labels::new(dfa, Notation::Ascii, &escaped)?.visit(&mut |from, to, guard| {
-        let _ = write!(
-            json,
-            "{separator}    {{\"from\": {from}, \"to\": {to}, \"guard\": \"{guard}\"}}"
-        );
-        separator = ",\n";
-    });
-    json.push_str("\n  ]\n}\n");
-    Ok(json)
+    let labels = Labels::new(dfa, Notation::Ascii, &escaped)?;
+    let mut head = pretty(&Automaton::new(formula, dfa, labels.size));
+    head.truncate(head.len() - "\n}\n".len());
+    Ok(Text::new(move |out| {
+        write!(out, "{head},\n  \"guards\": [")?;
+        labels.write(
+            out,
+            &|text, Labelled { from, ends: [number, to], guard, is_first, .. }| {
+                let separator = if is_first && from == 0 { "\n" } else { ",\n" };
+                let [from, to] =
+                    [[separator, "    {\"from\": ", number], [", \"to\": ", to, ", \"guard\": \""]];
+                for part in [from, to, [guard, "\"}", ""]].as_flattened() {
+                    text.push_str(part);
+                }
+            },
+        )?;
+        out.write_str("\n  ]\n}\n")
+    }))
 }
 
 /// A mistake of a formula, on one line: the form in which a list of formulas reports one of them.

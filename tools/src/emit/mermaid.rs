@@ -5,7 +5,8 @@
 
 use std::fmt::Write as _;
 
-use crate::emit::sum::{Labels, Notation, TooLarge, quoted};
+use crate::emit::labels::{Labelled, Labels, Text, TooLarge};
+use crate::emit::sum::{Notation, quoted};
 use tltl_compiler::dfa::{Dfa, State};
 
 /// A flowchart, from left to right: the accepting state has two circles, the trap and the edges
@@ -15,27 +16,37 @@ use tltl_compiler::dfa::{Dfa, State};
 /// use tltl_compiler::translate::Budget;
 ///
 /// let task = tltlc::task::compile("a T b", Budget::default())?;
-/// let chart = tltlc::emit::mermaid::automaton("order", task.dfa())?;
+/// let chart = tltlc::emit::mermaid::automaton("order", task.dfa())?.to_string();
 /// assert!(chart.contains("flowchart LR\n"));
 /// assert!(chart.contains("  q0 -->|\"a\"| q1\n"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
 /// # Errors
-/// If the guards have more than [`MOST_PRODUCTS`](super::sum::MOST_PRODUCTS).
-pub fn automaton(title: &str, dfa: &Dfa) -> Result<String, TooLarge> {
+/// If the guards have more than [`MOST_PRODUCTS`](super::labels::MOST_PRODUCTS).
+pub fn automaton<'a>(title: &str, dfa: &'a Dfa) -> Result<Text<'a>, TooLarge> {
+    let (head, labels) = (head(title, dfa), Labels::new(dfa, Notation::Ascii, &escape)?);
+    Ok(Text::new(move |out| {
+        out.write_str(&head)?;
+        labels.write(out, &|text, Labelled { to, ends: [from, into], guard, .. }| {
+            let arrow = if dfa.trap == Some(to) { " -.->|\"" } else { " -->|\"" };
+            for part in ["  q", from, arrow, guard, "\"| q", into, "\n"] {
+                text.push_str(part);
+            }
+        })?;
+        out.write_str("  classDef start fill:none,stroke:none\n")?;
+        out.write_str("  classDef trap stroke-dasharray:4 3\n")
+    }))
+}
+
+/// Everything before the edges.
+fn head(title: &str, dfa: &Dfa) -> String {
     let mut text = format!("---\ntitle: {}\n---\nflowchart LR\n", quoted(title));
     text.push_str("  start[\" \"]:::start --> q0\n");
     for q in dfa.states() {
         let _ = writeln!(text, "  {}", node(dfa, q));
     }
-    Labels::new(dfa, Notation::Ascii, &escape)?.visit(&mut |from, to, label| {
-        let arrow = if dfa.trap == Some(to) { "-.->" } else { "-->" };
-        let _ = writeln!(text, "  q{from} {arrow}|\"{label}\"| q{to}");
-    });
-    text.push_str("  classDef start fill:none,stroke:none\n");
-    text.push_str("  classDef trap stroke-dasharray:4 3\n");
-    Ok(text)
+    text
 }
 
 /// A state in the shape of its verdict.

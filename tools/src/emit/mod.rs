@@ -11,13 +11,14 @@
 //! | [`mod@rust`] | Rust | a reader who wants to see what a macro generates |
 //! | [`policy`], [`network`] | Rust that stands alone | a robot without an allocator |
 //!
-//! [`sum`] prints the guards for all of them. Every function depends on its arguments alone: the
+//! [`sum`] prints the guards for all of them, [`labels`] those of all edges in one go. Every function depends on its arguments alone: the
 //! same automaton gives the same bytes. Guards are exact in every form; only the picture moves long
 //! ones into a legend.
 
 pub mod dot;
 pub mod hoa;
 pub mod json;
+pub mod labels;
 mod layout;
 pub mod mermaid;
 pub mod network;

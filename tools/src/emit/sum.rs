@@ -1,9 +1,10 @@
 //! Guards as text: sums of products over the names of the propositions.
 //!
 //! Every form of an automaton prints its guards through [`Sum`], or all edges in one go through
-//! [`Labels`]. In [`Notation::Ascii`] the text is a formula of the language again: a proposition may be a comparison (`x < 3`), and gets brackets
-//! where the language needs them. Automata of other tools may name a proposition in a way that no
-//! formula can (`p 1`); such names are quoted.
+//! [`Labels`](super::labels::Labels). In [`Notation::Ascii`] the text is a formula of the language
+//! again: a proposition may be a comparison (`x < 3`), and gets brackets where the language needs
+//! them. Automata of other tools may name a proposition in a way that no formula can (`p 1`); such
+//! names are quoted.
 //!
 //! The cubes come from the compiler (Minato, 1993; see [`bdd`](tltl_compiler::bdd)) and are printed
 //! in its order.
@@ -11,8 +12,8 @@
 use std::borrow::Cow;
 use std::fmt;
 
-use tltl_compiler::bdd::{Cover, Cube};
-use tltl_compiler::dfa::{Dfa, Edge, Guards, State};
+use tltl_compiler::bdd::Cube;
+use tltl_compiler::dfa::{Dfa, Edge};
 use tltl_compiler::proposition::{Proposition, Shape};
 
 /// The symbols in which a guard is printed.
@@ -28,7 +29,7 @@ pub enum Notation {
 }
 
 impl Notation {
-    fn and(self) -> &'static str {
+    pub(super) fn and(self) -> &'static str {
         match self {
             Self::Ascii => " && ",
             Self::Mathematical => " ∧ ",
@@ -50,7 +51,7 @@ impl Notation {
         if self == Self::Mathematical { "¬" } else { "!" }
     }
 
-    fn truth(self, value: bool) -> &'static str {
+    pub(super) fn truth(self, value: bool) -> &'static str {
         match (self, value) {
             (Self::Ascii, true) => "true",
             (Self::Ascii, false) => "false",
@@ -111,7 +112,7 @@ impl<'a> Sum<'a> {
 
     /// A literal as text, in brackets where `!` would bind tighter than the operators of the
     /// proposition.
-    fn literal(self, (proposition, value): (u32, bool)) -> String {
+    pub(super) fn literal(self, (proposition, value): (u32, bool)) -> String {
         let not = if value { "" } else { self.notation.not() };
         if self.notation == Notation::Numbered {
             return format!("{not}{proposition}");
@@ -143,115 +144,6 @@ impl fmt::Display for Sum<'_> {
 #[must_use]
 pub fn label(dfa: &Dfa, edge: &Edge, notation: Notation) -> String {
     Sum::new(&dfa.propositions, &edge.guard).notation(notation).to_string()
-}
-
-/// The most products that the guards of one automaton may have where they are written out. Twelve
-/// unordered goals have half as many, which are 50 MB of JSON.
-pub const MOST_PRODUCTS: usize = 1 << 20;
-
-/// The guards of an automaton have more than [`MOST_PRODUCTS`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct TooLarge {
-    /// How many they have at least; `usize::MAX` if nobody counted.
-    pub products: usize,
-}
-
-impl fmt::Display for TooLarge {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (least, products) = match self.products {
-            usize::MAX => ("more than", MOST_PRODUCTS),
-            products => ("at least", products),
-        };
-        write!(
-            f,
-            "the guards of this automaton have {least} {products} products, and at most \
-             {MOST_PRODUCTS} are written out"
-        )
-    }
-}
-
-impl std::error::Error for TooLarge {}
-
-/// The edges of an automaton with their guards as text, one after the other.
-///
-/// The text of a guard is put together from those of its literals, in a buffer that all edges
-/// share: an automaton of half a million edges is written as fast as its text can be copied.
-pub struct Labels<'a> {
-    dfa: &'a Dfa,
-    guards: Guards<'a>,
-    /// For each proposition the text of its negation, and its own.
-    literals: Vec<[String; 2]>,
-    /// The texts of ∧, ∨, ⊤ and ⊥.
-    symbols: [String; 4],
-}
-
-impl<'a> Labels<'a> {
-    /// The labels of `dfa`. `escape` makes of a literal, an operator or a constant what the format
-    /// around it wants.
-    ///
-    /// ```
-    /// use tltl_compiler::translate::Budget;
-    /// use tltlc::emit::sum::{Labels, Notation};
-    ///
-    /// let task = tltlc::task::compile("!wet U home", Budget::default())?;
-    /// let mut edges = Vec::new();
-    /// Labels::new(task.dfa(), Notation::Ascii, &str::to_owned)?
-    ///     .visit(&mut |from, to, guard| edges.push(format!("{from} -> {to}: {guard}")));
-    /// assert_eq!(edges[2], "0 -> 2: wet && !home");
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    ///
-    /// # Errors
-    /// If the guards have more than [`MOST_PRODUCTS`].
-    pub fn new(
-        dfa: &'a Dfa,
-        notation: Notation,
-        escape: &dyn Fn(&str) -> String,
-    ) -> Result<Self, TooLarge> {
-        let size = dfa.size();
-        let too_large = |products| match products {
-            ..=MOST_PRODUCTS => Ok(()),
-            products => Err(TooLarge { products }),
-        };
-        // Every edge has a product at least, and to count edges takes no guards.
-        too_large(size.edges + size.self_loops)?;
-        let mut guards = Guards::new(dfa);
-        too_large(guards.products())?;
-        let sum = Sum::new(&dfa.propositions, &[]).notation(notation);
-        let literal = |proposition, value| escape(&sum.literal((proposition, value)));
-        let literals = (0..dfa.propositions.len() as u32)
-            .map(|proposition| [false, true].map(|value| literal(proposition, value)));
-        let symbols = [notation.and(), notation.or(), notation.truth(true), notation.truth(false)];
-        Ok(Self { dfa, guards, literals: literals.collect(), symbols: symbols.map(escape) })
-    }
-
-    /// Visits all edges, self-loops included, by rising states.
-    pub fn visit(mut self, edge: &mut dyn FnMut(State, State, &str)) {
-        let mut label = String::new();
-        for from in self.dfa.states() {
-            for (to, guard) in self.guards.edges(from) {
-                label.clear();
-                self.write(guard, &mut label);
-                edge(from, to, &label);
-            }
-        }
-    }
-
-    /// Appends a guard.
-    fn write(&self, guard: Cover, label: &mut String) {
-        let [and, or, truth, falsity] = &self.symbols;
-        if guard == Cover::FALSE {
-            label.push_str(falsity);
-        }
-        self.guards.visit(guard, &mut |cube| {
-            label.push_str(if label.is_empty() { "" } else { or });
-            label.push_str(if cube.is_empty() { truth } else { "" });
-            for (place, &(proposition, value)) in cube.iter().enumerate() {
-                label.push_str(if place == 0 { "" } else { and });
-                label.push_str(&self.literals[proposition as usize][usize::from(value)]);
-            }
-        });
-    }
 }
 
 /// A name in double quotes, with `\` and `"` escaped as HOA, JSON and Graphviz want.

@@ -5,7 +5,8 @@
 
 use std::fmt::Write as _;
 
-use crate::emit::sum::{Labels, Notation};
+use crate::emit::labels::{Labelled, Labels};
+use crate::emit::sum::Notation;
 use tltl_compiler::dfa::{Dfa, Size, State};
 
 /// The most edges of a table, self-loops included. Nobody reads so many.
@@ -38,13 +39,9 @@ pub fn automaton(title: &str, dfa: &Dfa) -> String {
     };
     let width = dfa.len().to_string().len().max(4);
     let _ = writeln!(text, "   {:>width$}  {:>width$}  when", "from", "to");
-    let mut last = None;
-    labels.visit(&mut |from, to, guard| {
-        let first = last.replace(from) != Some(from);
-        let (mark, from) = match first {
-            true => (mark(dfa, from), from.to_string()),
-            false => ("", String::new()),
-        };
+    let _ = labels.write(&mut text, &|text, Labelled { from, ends, guard, is_first, .. }| {
+        let [number, to] = ends;
+        let (mark, from) = if is_first { (mark(dfa, from), number) } else { ("", "") };
         let _ = writeln!(text, "{mark:<2} {from:>width$}  {to:>width$}  {guard}");
     });
     text.push_str(legend(dfa));
