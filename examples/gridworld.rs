@@ -37,7 +37,8 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     // What is that worth, against the exact optimum?
     let all = Problem::new(env.dynamics(), &visit_all)?.optimum(&first.rewards());
-    let certificate = all.certify(&composed)?;
+    let report = all.report_within(&composed, 30)?;
+    println!("{report}\n");
 
     // Compare with the skills themselves, with their sum, and with learning from scratch.
     let one = Problem::new(env.dynamics(), &visit_a_b)?.optimum(&first.rewards());
@@ -49,7 +50,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         ("φ₁ = ◇a ∧ ◇b, learned", &automata[0], first.certify(one.problem())?),
         ("φ₂ = ◇c, learned", &automata[1], second.certify(two.problem())?),
         ("φ₁ ∧ φ₂, sum of skills (step 2)", &automata[2], all.certify(&sum.policy())?),
-        ("φ₁ ∧ φ₂, refined on replay (step 6)", &automata[2], certificate.clone()),
+        ("φ₁ ∧ φ₂, refined on replay (step 6)", &automata[2], report.certificate.clone()),
         ("φ₁ ∧ φ₂, learned from scratch", &automata[2], scratch.certify(all.problem())?),
     ]);
     println!("\nThe composition took no step in the world. Steps are means over all start cells.");
@@ -70,9 +71,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     folder.write("figure2.svg", &figure.svg())?;
 
     // Save the policy with all that is known of it, and emit it as Rust that stands alone.
-    let starts = all.starts(&composed)?;
     let policy = composed.composed(&product)?.trained(first.training()).trained(second.training());
-    let policy = policy.certified(certificate).from_starts(&starts);
+    let policy = policy.certified(report.certificate).from_starts(&report.starts);
     folder.write("visit_all.json", &serde_json::to_string_pretty(&policy)?)?;
     folder.write("visit_all.rs", &tltlc::emit::policy::source(&policy))
 }

@@ -89,7 +89,7 @@ const ORDER: [(&str, &str); 4] = [
     (
         "runtime",
         "shared range checksum file interner automaton formula robustness monitor task factored \
-         private product model env mismatch reward episode augmented estimate certificate settings \
+         private product model env mismatch reward episode augmented certificate estimate settings \
          policy q experience solve shield learn compose controller network deep checkpoint prelude",
     ),
     (

@@ -14,6 +14,7 @@ use tltl::network::policy::{NetworkDocument, NetworkPolicy, NetworkPolicyError, 
 use tltl::network::{Dense, Network, Shape};
 use tltl::policy::States;
 use tltl::reward::End;
+use tltl::solve::Basis;
 use tltlc::emit;
 
 use super::random::{Choices, Seeded};
@@ -90,6 +91,7 @@ fn example() -> NetworkPolicy {
             seed: 7,
         })
         .estimated(Estimate {
+            basis: Basis::Trials,
             episodes: 1000,
             horizon: 200,
             confidence: 0.95,

@@ -1,12 +1,19 @@
-//! What a policy is worth against the best possible.
+//! What a policy is worth against the best possible, and how that is shown.
+
+pub(crate) mod face;
+
+use alloc::vec::Vec;
+use core::fmt;
 
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
-/// What a certificate rests on.
+use face::Face;
+
+/// What a certificate or an estimate rests on.
 ///
-/// Documents say it, so that a reader knows whether a number was computed; every certificate that this
-/// library makes is exact.
+/// Documents say it, so that a reader knows whether a number was computed or seen, and what its
+/// interval promises.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
@@ -14,6 +21,23 @@ pub enum Basis {
     /// The world's model, solved.
     #[default]
     Exact,
+    /// Episodes, whose number was fixed beforehand. The intervals of probabilities are exact: each
+    /// holds its number with at least the confidence.
+    Trials,
+    /// Episodes, counted as they came. Each interval holds its number with at least the confidence
+    /// after every episode at once, so that it may have decided when to stop.
+    Anytime,
+    /// Episodes, with intervals whose confidence is approximate.
+    Approximate,
+}
+
+impl Basis {
+    /// That of an estimate which does not say.
+    #[cfg(all(feature = "serde", feature = "std"))]
+    #[inline]
+    pub(crate) const fn unsaid() -> Self {
+        Self::Approximate
+    }
 }
 
 /// What a policy is worth against the best possible: exact means over the starts, `s_0` read.
@@ -37,6 +61,8 @@ pub enum Basis {
 /// assert_eq!(worst_regret_satisfied, 1.0);
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
+///
+/// It prints as a few lines; see [`Report`].
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -62,7 +88,94 @@ pub struct Certificate {
     /// The fraction of pairs of a live q and a state in which the policy's action is optimal for
     /// the reward it was trained on, within 1e-6.
     pub fraction_optimal: f64,
+    /// P(satisfied) within a horizon, if it was asked for.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub within: Option<Within>,
 }
+
+impl fmt::Display for Certificate {
+    #[inline]
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        Face::of(self).fmt(f)
+    }
+}
+
+/// P(satisfied) within a number of steps: means over the starts, `s_0` read.
+///
+/// [`Optimum::certify_within`](crate::solve::Optimum::certify_within) makes it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Within {
+    /// The number of steps.
+    pub steps: u64,
+    /// P(satisfied within them) of the policy.
+    pub satisfied: f64,
+    /// The largest possible one, that of the best policy which knows how many steps are left.
+    pub optimal_satisfied: f64,
+}
+
+/// What a policy is worth, all of it: its certificate, and what it loses from each start.
+///
+/// [`Optimum::report`](crate::solve::Optimum::report) makes it. It is made to be printed.
+///
+/// ```
+/// use tltl::model;
+/// use tltl::prelude::*;
+///
+/// // Five cells in a row. Reach the right end; this policy first goes to the left one from cell 1.
+/// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
+/// let task = Labelled::of_model(&row, &tltl! { |s: &usize| F ({ *s } == 4) })?;
+/// let optimum = Problem::new(&Dynamics::new(&row)?, &task)?.optimum(&Rewards::default());
+/// let report = optimum.report_within(&Policy::from_fn(&task, |_, s| usize::from(s != 1))?, 3)?;
+/// assert_eq!(format!("\n{report}"), "
+///                          this policy  best possible    regret
+/// P(satisfied)                0.600000       1.000000  0.400000
+/// P(satisfied in 3 steps)     0.600000       0.800000  0.200000
+/// E[steps | satisfied]          1.0000         2.0000         -
+/// Computed from the model, mean over the starts. 80.00 % of the actions are best for the reward.
+///
+/// worst starts  P(satisfied)  best possible  E[steps | satisfied]  best possible
+/// state 0           0.000000       1.000000                     -         4.0000
+/// state 1           0.000000       1.000000                     -         3.0000
+/// 2 of 5 starts lose something.");
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// Means over the starts.
+    pub certificate: Certificate,
+    /// What it is worth from each start, those that lose most first: P(satisfied), then steps.
+    pub starts: Vec<Start>,
+}
+
+impl Report {
+    /// The certificate, and the worth from each start in any order.
+    #[must_use]
+    #[inline]
+    pub fn new(certificate: Certificate, mut starts: Vec<Start>) -> Self {
+        let key = |start: &Start| {
+            let (satisfied, steps) = start.losses();
+            (if satisfied > NOTHING { satisfied } else { 0.0 }, steps)
+        };
+        starts.sort_by(|a, b| {
+            let (a, b) = (key(a), key(b));
+            b.0.total_cmp(&a.0).then(b.1.total_cmp(&a.1))
+        });
+        Self { certificate, starts }
+    }
+}
+
+impl fmt::Display for Report {
+    #[inline]
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}\n\n", self.certificate)?;
+        face::starts(&self.starts, f)
+    }
+}
+
+/// A loss of P(satisfied) below this is none: it is ten times the error of what is solved.
+const NOTHING: f64 = 1e-9;
 
 /// What a policy is worth from one start, `s_0` read.
 ///
@@ -80,6 +193,25 @@ pub struct Start {
     pub optimal_satisfied: f64,
     /// The smallest possible E\[steps\] among the policies of that P.
     pub optimal_steps: Option<f64>,
+}
+
+impl Start {
+    /// By how much P(satisfied) is smaller than possible, and E\[steps\] larger than the fewest; 0
+    /// steps where one of the two is not defined.
+    ///
+    /// ```
+    /// use tltl::solve::Start;
+    ///
+    /// let (satisfied, steps) = (0.75, Some(12.5));
+    /// let start = Start { state: 3, satisfied, steps, optimal_satisfied: 1.0, optimal_steps: Some(12.0) };
+    /// assert_eq!(start.losses(), (0.25, 0.5));
+    /// ```
+    #[must_use]
+    #[inline]
+    pub fn losses(&self) -> (f64, f64) {
+        let steps = self.steps.zip(self.optimal_steps).map_or(0.0, |(own, best)| own - best);
+        (self.optimal_satisfied - self.satisfied, steps)
+    }
 }
 
 /// A pair in which a policy's action is not optimal for a reward.

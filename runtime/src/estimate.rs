@@ -1,128 +1,69 @@
 //! What a policy is worth in a world without a model: Monte-Carlo estimates with confidence
 //! intervals.
 //!
-//! P(satisfied) gets the interval of Wilson (1927), which stays within [0, 1] and is honest at 0 and
-//! 1; the mean number of steps of the successful episodes gets Student's interval. Both are
-//! estimates under the horizon that was run: an episode that it cuts counts as not satisfied.
-//! Where the world has a model, [`Optimum::certify`](crate::solve::Optimum::certify) is exact.
+//! - Where the number of episodes is fixed beforehand ([`estimate()`]), probabilities get the exact
+//!   interval of Clopper and Pearson, and the mean number of steps of the successful episodes gets
+//!   Student's, which is approximate.
+//! - Where somebody looks as the episodes come, and perhaps stops ([`estimate_until`], [`Tally`]), all
+//!   intervals are *anytime-valid*: they hold after every episode at once.
+//!
+//! Each interval has its confidence by itself. All are estimates under the horizon that was run: an
+//! episode that it cuts counts as not satisfied. Where the world has a model,
+//! [`Optimum::report`](crate::solve::Optimum::report) is exact, and reads the same.
+
+mod interval;
+mod special;
+mod tally;
+
+use alloc::format;
+use core::fmt;
 
 #[cfg(feature = "serde")]
 use serde::{Deserialize, Serialize};
 
 use rand::Rng;
 
+use crate::certificate::Basis;
+use crate::certificate::face::{Face, STEPS, satisfied_in};
 use crate::env::Env;
 use crate::monitor::Monitor;
 use crate::range::checked;
+use crate::reward::End;
 use crate::task::Error;
-
-/// An estimated number and its confidence interval.
-///
-/// The mean lies between the two ends, not always in their middle: Wilson's interval leans inwards at
-/// 0 and 1.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct Interval {
-    /// The estimate.
-    pub mean: f64,
-    /// The lower end.
-    pub low: f64,
-    /// The upper end.
-    pub high: f64,
-}
-
-impl Interval {
-    /// Wilson's interval for the probability of an event that was seen `hits` times in `trials`.
-    ///
-    /// ```
-    /// # use tltl::estimate::Interval;
-    /// let seen = Interval::wilson(98, 100, 0.95);
-    /// assert!(0.929 < seen.low && seen.low < 0.931 && seen.high < 0.995);
-    /// ```
-    ///
-    /// # Panics
-    /// Unless there are trials, and 0 < `confidence` < 1.
-    #[must_use]
-    #[track_caller]
-    #[inline]
-    pub fn wilson(hits: u64, trials: u64, confidence: f64) -> Self {
-        assert!(trials > 0 && hits <= trials, "a share of some trials");
-        let (n, p, z) = (trials as f64, hits as f64 / trials as f64, normal(confidence));
-        let centre = p + z * z / (2.0 * n);
-        let half = z * (p * (1.0 - p) / n + z * z / (4.0 * n * n)).sqrt();
-        let at = |sum: f64| (sum / (1.0 + z * z / n)).clamp(0.0, 1.0);
-        // Without rounding: what was never seen may be impossible.
-        let low = if hits == 0 { 0.0 } else { at(centre - half) };
-        let high = if hits == trials { 1.0 } else { at(centre + half) };
-        Self { mean: p, low, high }
-    }
-
-    /// Student's interval for a mean, from the number of values, their sum, and that of their
-    /// squares; `None` for fewer than two values.
-    ///
-    /// ```
-    /// use tltl::estimate::Interval;
-    ///
-    /// // 3, 4 and 5 steps: their number, sum and sum of squares, as a running count keeps them.
-    /// let seen = Interval::student(3, 12.0, 50.0, 0.95).unwrap();
-    /// assert_eq!((seen.mean, Interval::of(&[3.0, 4.0, 5.0], 0.95)), (4.0, Some(seen)));
-    /// assert!((seen.high - 6.484).abs() < 1e-3); // 4 + 4.303 / √3
-    /// assert_eq!(Interval::student(1, 3.0, 9.0, 0.95), None, "one value says nothing of its spread");
-    /// ```
-    ///
-    /// # Panics
-    /// Unless 0 < `confidence` < 1.
-    #[must_use]
-    #[track_caller]
-    #[inline]
-    pub fn student(count: u64, sum: f64, squares: f64, confidence: f64) -> Option<Self> {
-        if count < 2 {
-            return None;
-        }
-        let (n, mean) = (count as f64, sum / count as f64);
-        let variance = ((squares - n * mean * mean) / (n - 1.0)).max(0.0);
-        let half = student(n - 1.0, confidence) * (variance / n).sqrt();
-        Some(Self { mean, low: mean - half, high: mean + half })
-    }
-
-    /// Student's interval for the mean of `values`; `None` for fewer than two.
-    ///
-    /// # Panics
-    /// As [`Self::student`].
-    #[must_use]
-    #[track_caller]
-    #[inline]
-    pub fn of(values: &[f64], confidence: f64) -> Option<Self> {
-        let squares = values.iter().map(|v| v * v).sum();
-        Self::student(values.len() as u64, values.iter().sum(), squares, confidence)
-    }
-}
+pub use interval::Interval;
+pub use tally::Tally;
 
 /// A policy's worth as seen in episodes.
 ///
-/// [`estimate`] makes it. With serde it is a field of saved policies, beside or in place of a
-/// certificate.
+/// [`estimate()`] and [`estimate_until`] make it, or a [`Tally`] of episodes that you run. It prints as
+/// a certificate does, with no more digits than its intervals support. With serde it is a field of
+/// saved policies, beside or in place of a certificate.
 ///
 /// ```
-/// use tltl::estimate::{Estimate, Interval};
+/// use tltl::estimate::{Estimate, Tally, Trials};
+/// use tltl::reward::End;
 ///
-/// let seen = Estimate {
-///     episodes: 100,
-///     horizon: 200,
-///     confidence: 0.95,
-///     satisfied: Interval::wilson(98, 100, 0.95),
-///     lost: Interval::wilson(0, 100, 0.95),
-///     steps: Interval::of(&[12.0, 14.0, 11.0], 0.95),
-/// };
+/// let mut tally = Tally::new(Trials::default().with_horizon(200)?);
+/// (0..100).for_each(|i| tally.count((i > 1).then_some(End::Accepted), 12 + i % 3));
+/// let seen = tally.fixed();
 /// assert!(seen.lost.high < 0.04, "never seen in 100 trials is not never");
+/// assert_eq!(format!("\n{seen}"), "
+///                            this policy   95 % interval
+/// P(satisfied in 200 steps)        0.980  0.929 to 0.998
+/// P(lost in 200 steps)             0.000  0.000 to 0.037
+/// E[steps | satisfied]             13.00  12.83 to 13.17
+/// Estimated from 100 episodes; their number was fixed beforehand.");
 /// assert_eq!(serde_json::from_str::<Estimate>(&serde_json::to_string(&seen)?)?, seen);
-/// # Ok::<(), serde_json::Error>(())
+/// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Estimate {
+    /// What the intervals rest on. A document without it is of a version that had Wilson's interval,
+    /// which is approximate.
+    #[cfg_attr(feature = "serde", serde(default = "Basis::unsaid", rename = "kind"))]
+    pub basis: Basis,
     /// The number of episodes.
     pub episodes: u64,
     /// Steps after which one was cut.
@@ -135,6 +76,28 @@ pub struct Estimate {
     pub lost: Interval,
     /// E\[steps\] of the episodes that satisfied the task; `None` if fewer than two did.
     pub steps: Option<Interval>,
+}
+
+impl fmt::Display for Estimate {
+    #[inline]
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // Without the rounding of 100 * 0.07.
+        let percent = (1e8 * self.confidence).round() / 1e6;
+        let mut face = Face::new(&["", "this policy", &format!("{percent} % interval")]);
+        let satisfied = satisfied_in(self.horizon);
+        face.row(&satisfied, self.satisfied.cells());
+        face.row(&satisfied.replace("satisfied", "lost"), self.lost.cells());
+        if let Some(steps) = &self.steps {
+            face.row(STEPS, steps.cells());
+        }
+        let promise = match self.basis {
+            Basis::Trials => "their number was fixed beforehand",
+            Basis::Anytime => "the intervals hold after each of them",
+            Basis::Exact | Basis::Approximate => "the intervals are approximate",
+        };
+        face.below = format!("Estimated from {} episodes; {promise}.", self.episodes);
+        write!(f, "{face}")
+    }
 }
 
 /// How to estimate: how many episodes, how long, and how sure.
@@ -198,27 +161,73 @@ pub fn estimate<E: Env, M: Monitor<E::State>, R: Rng + ?Sized, F: From<Error>>(
     monitor: &M,
     trials: Trials,
     rng: &mut R,
-    mut act: impl FnMut(u32, &E::State) -> Result<usize, F>,
+    act: impl FnMut(u32, &E::State) -> Result<usize, F>,
 ) -> Result<Estimate, F> {
-    let (mut satisfied, mut lost, mut sum, mut squares) = (0, 0, 0.0, 0.0);
-    for _ in 0..trials.episodes {
+    Ok(tally(env, monitor, trials, rng, act, |_| false)?.fixed())
+}
+
+/// Runs a policy, `act(q, s)`, until `enough` of what was counted, at most as many episodes as
+/// `trials` say. The intervals hold although they decide when to stop.
+///
+/// ```
+/// use tltl::estimate::{Trials, estimate_until};
+/// use tltl::model;
+/// use tltl::prelude::*;
+/// use tltl::rand::{SeedableRng, rngs::Xoshiro256PlusPlus};
+///
+/// // A step to the goal succeeds one time in four, and else stays; the episode ends after 20.
+/// let try_hard = model::from_fn(2, 1, |s, _| if s == 0 { [(1, 0.25), (0, 0.75)] } else { [(1, 1.0), (0, 0.0)] });
+/// let goal = tltl! { |s: &usize| F ({ *s } == 1) };
+/// let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
+/// let only = |_: u32, _: &usize| Ok::<_, tltl::task::Error>(0);
+/// let trials = Trials::default().with_horizon(20)?;
+/// // Is it satisfied 9 times in 10? It is asked until that is known, one way or the other.
+/// let decided = |seen: tltl::estimate::Interval| seen.low > 0.9 || seen.high < 0.9;
+/// let mut env = ModelEnv::new(try_hard)?;
+/// let seen = estimate_until(&mut env, &goal, trials, &mut rng, only, |tally| decided(tally.anytime().satisfied))?;
+/// assert!(seen.satisfied.low > 0.9 && seen.episodes < 100);
+/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// As [`estimate()`].
+pub fn estimate_until<E: Env, M: Monitor<E::State>, R: Rng + ?Sized, F: From<Error>>(
+    env: &mut E,
+    monitor: &M,
+    trials: Trials,
+    rng: &mut R,
+    act: impl FnMut(u32, &E::State) -> Result<usize, F>,
+    enough: impl FnMut(&Tally) -> bool,
+) -> Result<Estimate, F> {
+    Ok(tally(env, monitor, trials, rng, act, enough)?.anytime())
+}
+
+/// Counts episodes: one at least, and no more once there are `enough`.
+fn tally<E: Env, M: Monitor<E::State>, R: Rng + ?Sized, F: From<Error>>(
+    env: &mut E,
+    monitor: &M,
+    trials: Trials,
+    rng: &mut R,
+    mut act: impl FnMut(u32, &E::State) -> Result<usize, F>,
+    mut enough: impl FnMut(&Tally) -> bool,
+) -> Result<Tally, F> {
+    let mut tally = Tally::new(trials);
+    while tally.episodes() < trials.episodes {
         let (q, steps) = episode(env, monitor, trials.horizon, rng, &mut act)?;
-        lost += u64::from(monitor.is_trap(q));
-        if monitor.is_accepting(q) {
-            satisfied += 1;
-            sum += steps as f64;
-            squares += (steps as f64) * (steps as f64);
+        tally.count(end(monitor, q), steps);
+        if enough(&tally) {
+            break;
         }
     }
-    let Trials { episodes, horizon, confidence } = trials;
-    Ok(Estimate {
-        episodes,
-        horizon,
-        confidence,
-        satisfied: Interval::wilson(satisfied, episodes, confidence),
-        lost: Interval::wilson(lost, episodes, confidence),
-        steps: Interval::student(satisfied, sum, squares, confidence),
-    })
+    Ok(tally)
+}
+
+/// What `q` is the end of.
+fn end<S: ?Sized, M: Monitor<S>>(monitor: &M, q: u32) -> Option<End> {
+    if monitor.is_accepting(q) {
+        return Some(End::Accepted);
+    }
+    monitor.is_trap(q).then_some(End::Lost)
 }
 
 /// One episode: the automaton state in which it ended, and its steps.
@@ -243,54 +252,4 @@ fn episode<E: Env, M: Monitor<E::State>, R: Rng + ?Sized, F: From<Error>>(
         }
     }
     Ok((q, horizon))
-}
-
-/// The number that a normal variable stays within, either side, with probability `confidence`.
-///
-/// By bisection: it is asked once or twice for an estimate, and needs no table and no second
-/// approximation beside the series.
-#[track_caller]
-#[inline]
-fn normal(confidence: f64) -> f64 {
-    assert!(confidence > 0.0 && confidence < 1.0, "a confidence is between 0 and 1");
-    let (mut low, mut high) = (0.0, 40.0);
-    for _ in 0..100 {
-        let middle = 0.5 * (low + high);
-        if within(middle) < confidence { low = middle } else { high = middle }
-    }
-    0.5 * (low + high)
-}
-
-/// P(|Z| < x): the series 2 φ(x) (x + x³/3 + x⁵/15 + …).
-#[inline]
-fn within(x: f64) -> f64 {
-    if x > 8.0 {
-        return 1.0;
-    }
-    let (mut term, mut sum) = (x, x);
-    for k in 1..200 {
-        term *= x * x / f64::from(2 * k + 1);
-        sum += term;
-    }
-    2.0 * sum * (-0.5 * x * x).exp() / (2.0 * core::f64::consts::PI).sqrt()
-}
-
-/// The same number for Student's distribution: exact for 1 and 2 degrees of freedom, else the
-/// expansion of Fisher and Cornish, which errs by less than 0.5 % from 3 on at 95 %.
-#[track_caller]
-#[inline]
-fn student(degrees: f64, confidence: f64) -> f64 {
-    let p = confidence;
-    if degrees < 1.5 {
-        return (0.5 * core::f64::consts::PI * p).tan();
-    }
-    if degrees < 2.5 {
-        return p * (2.0 / (1.0 - p * p)).sqrt();
-    }
-    let (z, n) = (normal(confidence), degrees);
-    let (z3, z5, z7, z9) = (z.powi(3), z.powi(5), z.powi(7), z.powi(9));
-    z + (z3 + z) / (4.0 * n)
-        + (5.0 * z5 + 16.0 * z3 + 3.0 * z) / (96.0 * n * n)
-        + (3.0 * z7 + 19.0 * z5 + 17.0 * z3 - 15.0 * z) / (384.0 * n.powi(3))
-        + (79.0 * z9 + 776.0 * z7 + 1482.0 * z5 - 1920.0 * z3 - 945.0 * z) / (92_160.0 * n.powi(4))
 }

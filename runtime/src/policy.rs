@@ -43,7 +43,12 @@
 //!     "regret_satisfied": 0.0,
 //!     "regret_steps": 0.00001,          null where one of the two is
 //!     "worst_regret_satisfied": 0.0,
-//!     "fraction_optimal": 0.97
+//!     "fraction_optimal": 0.97,
+//!     "within": {                      optional: P(satisfied) within a number of steps
+//!       "steps": 100,
+//!       "satisfied": 0.99,
+//!       "optimal_satisfied": 0.995
+//!     }
 //!   } | null,
 //!   "shield": {                        optional: what a shield laid over it costs and gains
 //!     "before": { ... },               a certificate, as above; that after it is `certificate`

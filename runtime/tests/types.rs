@@ -9,7 +9,7 @@ use tltl::automaton::{Automaton, Edge, Guard, TableError, Tables};
 use tltl::compose::Stepwise;
 use tltl::controller::Hierarchy;
 use tltl::env::TimeLimit;
-use tltl::estimate::{Estimate, Interval, Trials};
+use tltl::estimate::{Estimate, Interval, Tally, Trials};
 use tltl::factored::{Factored, Numbered, Part, Select, TooManyStates};
 use tltl::learn::{Checkpoint, Experience, Schedule, TrainError, TrajectoryLearner};
 use tltl::model::ModelError;
@@ -21,7 +21,7 @@ use tltl::product::Operand;
 use tltl::reward::{Arrival, Arrivals, Ends};
 use tltl::robustness::{Boolean, NotANumber, Op};
 use tltl::shield::Shield;
-use tltl::solve::{Certificate, Evaluation, Optimum, Values};
+use tltl::solve::{Certificate, Evaluation, Optimum, Report, Values};
 use tltl::task::{Error, Parametric};
 use tltl::{Formula, Mismatch, OutOfRange, Shared, Task};
 use world::{A, B, Cell, both, eventually};
@@ -47,7 +47,8 @@ fn values_are_printed_sent_and_shared() {
         Arrivals<'_>, Augmented<ModelEnv<()>, Task<Silent>>, TimeLimit<()>, Step<i32>, Dynamics,
         ModelError, Learner, TrajectoryLearner, Checkpoint, Experience, TrainError, Schedule,
         Settings, QTable, Policy, PolicyError, Network, NetworkPolicy, Problem, Optimum, Evaluation,
-        Values, Certificate, Shield, Composition<'_>, Stepwise<'_>, Estimate, Interval, Trials,
+        Values, Certificate, Report, Shield, Composition<'_>, Stepwise<'_>, Estimate, Interval, Tally,
+        Trials,
     }
     // Its controllers may have a memory, so that two threads cannot ask one at once.
     is_sent::<Hierarchy<'_, i32, Task<Silent>>>();

@@ -9,12 +9,13 @@ use std::time::{Duration, Instant};
 
 use tltl::checkpoint;
 use tltl::controller::Hierarchy;
-use tltl::estimate::{Interval, Trials, estimate};
+use tltl::estimate::{Estimate, Interval, Tally, Trials, estimate, estimate_until};
 use tltl::learn::{Observation, TerminalReward, TrajectoryLearner, seeds};
 use tltl::prelude::*;
 use tltl::rand::{SeedableRng, rngs::Xoshiro256PlusPlus};
 use tltl::reward::{End, Mode};
 use tltl::shield::Shield;
+use tltl::solve::{Basis, Certificate};
 use world::{A, B, C, Cell, PAPER, avoid, both, dynamics, eventually, on_paper, problem};
 
 fn rng(seed: u64) -> Xoshiro256PlusPlus {
@@ -39,6 +40,34 @@ fn estimates_hold_the_exact_value() {
     let holds = |interval: Interval, value: f64| interval.low < value && value < interval.high;
     assert!(holds(seen.satisfied, p) && holds(seen.steps.unwrap(), steps), "{seen:?}");
     assert!(holds(seen.lost, 1.0 - p), "what is not satisfied is lost here: {seen:?}");
+    // Stopped by what is seen: sooner, and it holds still.
+    let enough = |tally: &Tally| {
+        tally.episodes().is_multiple_of(100) && tally.anytime().satisfied.low > p - 0.05
+    };
+    let seen = estimate_until(&mut env, &task, trials, &mut rng(2), act, enough).unwrap();
+    assert!(seen.episodes < 10_000 && seen.basis == Basis::Anytime, "{seen:?}");
+    assert!(holds(seen.satisfied, p) && holds(seen.steps.unwrap(), steps), "{seen:?}");
+}
+
+/// Before there were kinds of estimates their intervals were approximate ones.
+#[test]
+fn estimates_of_yesterday_load() {
+    let text = r#"{
+        "episodes": 1000, "horizon": 200, "confidence": 0.95,
+        "satisfied": {"mean": 0.98, "low": 0.97, "high": 0.99},
+        "lost": {"mean": 0.0, "low": 0.0, "high": 0.004},
+        "steps": {"mean": 21.5, "low": 20.25, "high": 22.75}
+    }"#;
+    let old: Estimate = serde_json::from_str(text).unwrap();
+    assert_eq!(old.basis, Basis::Approximate);
+    assert_eq!(
+        old.to_string(),
+        "                           this policy     95 % interval\n\
+         P(satisfied in 200 steps)        0.980    0.970 to 0.990\n\
+         P(lost in 200 steps)            0.0000  0.0000 to 0.0040\n\
+         E[steps | satisfied]              21.5      20.2 to 22.8\n\
+         Estimated from 1000 episodes; the intervals are approximate."
+    );
 }
 
 /// An episode in which no action can be chosen ends without a step.
@@ -58,23 +87,6 @@ fn next_to_nothing() -> impl Monitor<Cell> {
 }
 
 #[test]
-fn intervals_are_those_of_the_tables() {
-    let near = |value: f64, expected: f64| assert!((value - expected).abs() < 2e-3, "{value}");
-    let student = |n: u64| {
-        // Values of variance 1 and mean 0: the half width is t / √n.
-        let interval = Interval::student(n, 0.0, n as f64 - 1.0, 0.95).unwrap();
-        interval.high * (n as f64).sqrt()
-    };
-    near(student(2), 12.706);
-    near(student(3), 4.303);
-    near(student(11), 2.228);
-    near(student(20), 2.093);
-    let wilson = Interval::wilson(0, 10, 0.95);
-    near(wilson.high, 0.2775);
-    assert_eq!(wilson.low, 0.0);
-}
-
-#[test]
 fn certificates_name_starts_and_mistakes() {
     let task = on_paper(&both(A, B));
     let optimum = problem(&task).optimum(&Rewards::default());
@@ -89,6 +101,49 @@ fn certificates_name_starts_and_mistakes() {
     assert_eq!(starts.len(), 80);
     let corner = starts[0];
     assert!(corner.steps.unwrap() > corner.optimal_steps.unwrap() + 1.0, "{corner:?}");
+}
+
+/// Of two starts of ten that lose P(satisfied) one loses all, and the others lose steps.
+#[test]
+fn reports_have_the_worst_starts_first() {
+    let task = on_paper(&avoid(C, A));
+    let optimum = problem(&task).optimum(&Rewards::default());
+    let literal = problem(&task).optimal_q(&Rewards::of(Mode::Literal)).policy();
+    let report = optimum.report_within(&literal, 30).unwrap();
+    assert_eq!(report.certificate.within, optimum.certify_within(&literal, 30).unwrap().within);
+    assert_eq!(report.certificate.satisfied, optimum.certify(&literal).unwrap().satisfied);
+    let losses: Vec<_> = report.starts.iter().map(|start| start.losses().0).collect();
+    assert!(losses.is_sorted_by(|a, b| *a > b - 1e-9) && losses[0] > 0.5, "{losses:?}");
+    // A document has them in the order of the states.
+    let saved = serde_json::to_string(&literal.from_starts(&report.starts)).unwrap();
+    let loaded: Policy = serde_json::from_str(&saved).unwrap();
+    assert!(loaded.starts().unwrap().state.is_sorted());
+    let text = report.to_string();
+    assert!(text.contains("P(satisfied in 30 steps)"), "{text}");
+    assert_eq!(text.lines().filter(|line| line.starts_with("state ")).count(), 5, "{text}");
+}
+
+/// A regret below what is shown is not shown as none, and what never succeeds has no steps.
+#[test]
+fn certificates_print_what_is_small_and_what_is_not_there() {
+    let task = on_paper(&both(A, B));
+    let optimum = problem(&task).optimum(&Rewards::default());
+    let worth = optimum.certify(optimum.best().policy()).unwrap();
+    let close = Certificate { satisfied: 1.0 - 2e-8, regret_satisfied: 2e-8, ..worth.clone() };
+    let line = |text: &str, i: usize| text.lines().nth(i).unwrap().to_owned();
+    let ends = |certificate: &Certificate, i, end: &str| {
+        let line = line(&certificate.to_string(), i);
+        assert!(line.ends_with(end), "{line}");
+    };
+    ends(&close, 1, "1.000000       1.000000    2e-8");
+    ends(&worth, 1, "1.000000       1.000000       0");
+    ends(&worth, 2, "12.2002        12.2002     0 %");
+    let slow = Certificate { regret_steps: Some(1.25), ..worth };
+    ends(&slow, 2, "12.2002  125.00 %");
+    let nowhere = on_paper(&eventually(Cell { x: 99, y: 99 }));
+    let optimum = problem(&nowhere).optimum(&Rewards::default());
+    let never = optimum.certify(optimum.best().policy()).unwrap();
+    ends(&never, 2, "E[steps | satisfied]            -              -       -");
 }
 
 #[test]

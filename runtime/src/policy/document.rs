@@ -121,11 +121,14 @@ pub struct Starts {
 }
 
 impl Starts {
-    /// The columns of what [`Optimum::starts`](crate::solve::Optimum::starts) gives.
+    /// The columns of what [`Optimum::starts`](crate::solve::Optimum::starts) or a
+    /// [`Report`](crate::solve::Report) has, in the order of the states.
     #[must_use]
     #[inline]
     pub fn new(starts: &[Start]) -> Self {
         let mut columns = Self { state: Vec::new(), satisfied: Vec::new(), steps: Vec::new() };
+        let mut starts = starts.to_vec();
+        starts.sort_unstable_by_key(|start| start.state);
         for start in starts {
             columns.state.push(start.state);
             columns.satisfied.push(start.satisfied);
@@ -362,6 +365,8 @@ fn check_version(found: &u32) -> Result<(), PolicyError> {
 fn check_certificate(certificate: &Certificate) -> Result<(), PolicyError> {
     let Certificate { satisfied, optimal_satisfied, steps, .. } = certificate;
     probabilities("certificate.satisfied", &[*satisfied, *optimal_satisfied])?;
+    let within = certificate.within.map(|within| [within.satisfied, within.optimal_satisfied]);
+    probabilities("certificate.within", within.as_ref().map_or(&[], |both| both))?;
     durations("certificate.steps", &[*steps])
 }
 

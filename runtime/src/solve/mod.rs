@@ -21,6 +21,7 @@ mod block;
 mod evaluation;
 mod graph;
 mod optimum;
+mod report;
 mod rule;
 mod settle;
 
@@ -28,7 +29,7 @@ use alloc::sync::Arc;
 use alloc::vec::Vec;
 
 use crate::augmented::{Labelled, Payment};
-pub use crate::certificate::{Basis, Certificate, Mistake, Start};
+pub use crate::certificate::{Basis, Certificate, Mistake, Report, Start, Within};
 use crate::mismatch::Mismatch;
 use crate::model::Dynamics;
 use crate::policy::Policy;

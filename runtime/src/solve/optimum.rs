@@ -97,7 +97,11 @@ impl Optimum {
     /// If it is a policy for another task or another world.
     #[inline]
     pub fn certify(&self, policy: &Policy) -> Result<Certificate, Mismatch> {
-        let own = self.problem.evaluate(policy)?;
+        self.certificate_of(&self.problem.evaluate(policy)?)
+    }
+
+    #[inline]
+    pub(super) fn certificate_of(&self, own: &Evaluation) -> Result<Certificate, Mismatch> {
         let (satisfied, steps) = own.means();
         let (optimal_satisfied, optimal_steps) = self.best.means();
         let ratio = if steps > 0.0 { steps / optimal_steps - 1.0 } else { 0.0 };
@@ -109,8 +113,9 @@ impl Optimum {
             optimal_steps: finite(optimal_steps),
             regret_satisfied: optimal_satisfied - satisfied,
             regret_steps: finite(steps).and(finite(ratio)),
-            worst_regret_satisfied: self.worst_regret(&own),
-            fraction_optimal: self.fraction_optimal(policy)?,
+            worst_regret_satisfied: self.worst_regret(own),
+            fraction_optimal: self.fraction_optimal(own.policy())?,
+            within: None,
         })
     }
 
@@ -135,13 +140,17 @@ impl Optimum {
     /// If it is a policy for another task or another world.
     #[inline]
     pub fn starts(&self, policy: &Policy) -> Result<Vec<Start>, Mismatch> {
-        let own = self.problem.evaluate(policy)?;
+        Ok(self.starts_of(&self.problem.evaluate(policy)?))
+    }
+
+    #[inline]
+    pub(super) fn starts_of(&self, own: &Evaluation) -> Vec<Start> {
         let start = |(state, pair)| {
             let ((satisfied, steps), (optimal_satisfied, optimal_steps)) =
                 (own.at_pair(pair), self.best.at_pair(pair));
             Start { state, satisfied, steps, optimal_satisfied, optimal_steps }
         };
-        Ok(self.problem.start_pairs().map(start).collect())
+        self.problem.start_pairs().map(start).collect()
     }
 
     /// The pairs of a live q and a state in which the action of `policy` is worse for the rewards

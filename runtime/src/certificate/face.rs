@@ -1,0 +1,154 @@
+//! What certificates and estimates look like: a few aligned lines, the same words for both.
+//!
+//! No number has more digits than its error supports: computed ones have at most [`DIGITS`] behind the
+//! point, and of an estimate as many as make its interval two digits wide.
+
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+use core::fmt;
+
+use super::{Certificate, NOTHING, Start, Within};
+
+/// How many digits behind the point of a probability are shown: a millionth of all episodes is less
+/// than anybody runs, and regrets below it are shown as powers of ten.
+const DIGITS: usize = 6;
+
+/// The same of a number of steps.
+const STEP_DIGITS: usize = 4;
+
+/// Fewer steps than this are shown as 0.
+const LEAST_STEPS: f64 = 5e-5;
+
+/// How many starts are listed: those below lose less.
+const LISTED: usize = 5;
+
+/// Rows of cells, the first of each to the left and the others to the right, and what is to be said
+/// below them.
+pub(crate) struct Face {
+    rows: Vec<Vec<String>>,
+    pub(crate) below: String,
+}
+
+impl Face {
+    #[inline]
+    pub(crate) fn new(head: &[&str]) -> Self {
+        Self { rows: [head.iter().map(ToString::to_string).collect()].into(), below: String::new() }
+    }
+
+    /// Of a certificate.
+    #[inline]
+    pub(super) fn of(certificate: &Certificate) -> Self {
+        let Certificate { satisfied, steps, optimal_satisfied, optimal_steps, .. } = *certificate;
+        let mut face = Self::new(&["", "this policy", "best possible", "regret"]);
+        face.compare("P(satisfied)".to_string(), satisfied, optimal_satisfied);
+        if let Some(Within { steps, satisfied, optimal_satisfied }) = certificate.within {
+            face.compare(satisfied_in(steps), satisfied, optimal_satisfied);
+        }
+        // Where P is smaller than possible, fewer steps are no merit.
+        let comparable = certificate.regret_satisfied <= NOTHING;
+        let regret = certificate.regret_steps.filter(|_| comparable);
+        let regret = regret.map(|part| format!("{} %", small(part, 100.0, 2)));
+        face.row(STEPS, [duration(steps), duration(optimal_steps), or_none(regret)]);
+        face.below = format!(
+            "Computed from the model, mean over the starts. {:.2} % of the actions are best for the \
+             reward.",
+            100.0 * certificate.fraction_optimal
+        );
+        face
+    }
+
+    #[inline]
+    pub(crate) fn row<const N: usize>(&mut self, label: &str, cells: [String; N]) {
+        self.rows.push([label.to_string()].into_iter().chain(cells).collect());
+    }
+
+    /// A row of two probabilities and their difference.
+    #[inline]
+    fn compare(&mut self, label: String, own: f64, best: f64) {
+        let regret = small(best - own, 1.0, DIGITS);
+        self.row(&label, [probability(own), probability(best), regret]);
+    }
+}
+
+impl fmt::Display for Face {
+    #[inline]
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let width = |column: usize| {
+            let cells = self.rows.iter().map(|row| row[column].len());
+            cells.max().unwrap_or(0)
+        };
+        for row in &self.rows {
+            write!(f, "{:<1$}", row[0], width(0))?;
+            for (column, cell) in row.iter().enumerate().skip(1) {
+                write!(f, "  {cell:>0$}", width(column))?;
+            }
+            writeln!(f)?;
+        }
+        f.write_str(&self.below)
+    }
+}
+
+/// The worst of the starts, which are sorted so, if there are any that lose something.
+#[inline]
+pub(super) fn starts(starts: &[Start], f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    let loses = |start: &&Start| {
+        let (satisfied, steps) = start.losses();
+        satisfied > NOTHING || steps > LEAST_STEPS
+    };
+    let worse = starts.iter().filter(loses).count();
+    if worse == 0 {
+        return f.write_str("From every start it is as good as can be.");
+    }
+    let best = "best possible";
+    let mut face = Face::new(&["worst starts", "P(satisfied)", best, STEPS, best]);
+    for start in starts.iter().filter(loses).take(LISTED) {
+        let (own, optimal) = (probability(start.satisfied), probability(start.optimal_satisfied));
+        let steps = [start.steps, start.optimal_steps].map(duration);
+        let [steps, fewest] = steps;
+        face.row(&format!("state {}", start.state), [own, optimal, steps, fewest]);
+    }
+    face.below = format!("{worse} of {} starts lose something.", starts.len());
+    write!(f, "{face}")
+}
+
+/// What the row of steps is called.
+pub(crate) const STEPS: &str = "E[steps | satisfied]";
+
+/// What the row of a horizon is called.
+#[inline]
+pub(crate) fn satisfied_in(steps: u64) -> String {
+    format!("P(satisfied in {steps} steps)")
+}
+
+#[inline]
+fn probability(p: f64) -> String {
+    format!("{p:.DIGITS$}")
+}
+
+#[inline]
+fn duration(steps: Option<f64>) -> String {
+    or_none(steps.map(|steps| format!("{steps:.STEP_DIGITS$}")))
+}
+
+/// A dash where there is no number.
+#[inline]
+pub(crate) fn or_none(cell: Option<String>) -> String {
+    cell.unwrap_or_else(|| "-".to_string())
+}
+
+/// A difference that may be far smaller than what it is the difference of: it is not rounded to 0
+/// unless it is below the error. It is shown `scale` times as large.
+#[inline]
+fn small(value: f64, scale: f64, digits: usize) -> String {
+    if value.abs() <= NOTHING {
+        return "0".to_string();
+    }
+    let value = scale * value;
+    let text = format!("{value:.digits$}");
+    if text.bytes().any(|byte| (b'1'..=b'9').contains(&byte)) {
+        text
+    } else {
+        format!("{value:.0e}")
+    }
+}
