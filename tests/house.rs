@@ -78,6 +78,22 @@ fn what_users_build_is_counted() {
     assert_eq!(normal("tltl"), ["burn", "libm", "rand", "serde", "tltl-macros"].into());
 }
 
+/// The wheel is a workspace of its own, which inherits nothing: it repeats what the crates agree on.
+#[test]
+fn the_wheel_agrees_with_the_crates() {
+    let read = |path: &str| std::fs::read_to_string(root().join(path)).unwrap();
+    let (wheel, ours) = (read("python/Cargo.toml"), read("Cargo.toml"));
+    let line = |text: &str, start: &str| {
+        let found = text.lines().find(|line| line.starts_with(start));
+        found.unwrap_or_else(|| panic!("no line starts with `{start}`")).to_owned()
+    };
+    let agreed = ["version =", "edition =", "rust-version =", "license =", "unsafe_code =", "all ="];
+    for start in agreed.into_iter().chain(["missing_docs =", "unreachable_pub ="]) {
+        assert_eq!(line(&wheel, start), line(&ours, start));
+    }
+    assert!(read("python/src/lib.rs").contains("#![forbid(unsafe_code)]"));
+}
+
 /// The modules of each crate, from those that know none of the others to those that know most.
 const ORDER: [(&str, &str); 4] = [
     (

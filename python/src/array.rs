@@ -1,0 +1,221 @@
+//! Arrays: every one that enters is read here, by its strides.
+//!
+//! An array of any number type, or of truth values, is borrowed where it lies, in C order, Fortran
+//! order or any other order of its axes. It is copied where it has gaps or runs backwards, and where
+//! its numbers are of another byte order or of a type that Rust does not have (`float16`). What is no
+//! array becomes one by `numpy.asarray`.
+
+use numpy::ndarray::ArrayViewD;
+use numpy::{
+    Element, PyArrayDescrMethods, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArray,
+    PyUntypedArrayMethods,
+};
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use tltlc::evaluate::{Column, Numbers};
+
+macro_rules! array {
+    ($($variant:ident($number:ty),)*) => {
+        /// An array that has come in.
+        pub(crate) enum Array<'py> {
+            $(
+                /// Of this type.
+                $variant(PyReadonlyArrayDyn<'py, $number>),
+            )*
+        }
+
+        impl<'py> Array<'py> {
+            fn of(array: &Bound<'py, PyUntypedArray>) -> Option<Self> {
+                $(if let Ok(array) = array.cast::<PyArrayDyn<$number>>() {
+                    return array.try_readonly().ok().map(Self::$variant);
+                })*
+                None
+            }
+
+            /// The numbers in the order of the memory, and the shape and strides to find them by.
+            pub(crate) fn view(&self) -> View<'_> {
+                match self {
+                    $(Self::$variant(array) => View::new(array.as_array()),)*
+                }
+            }
+
+            /// Which numbers are positive, or true, in C order; or the first that is not a number.
+            pub(crate) fn truths(&self) -> Result<Vec<bool>, usize> {
+                match self {
+                    $(Self::$variant(array) => {
+                        let numbers = array.as_array();
+                        let truth = |(at, number): (usize, &$number)| number.truth().ok_or(at);
+                        numbers.iter().enumerate().map(truth).collect()
+                    })*
+                }
+            }
+
+            /// The numbers in C order, if they are whole and not negative.
+            pub(crate) fn naturals(&self) -> Option<Vec<u64>> {
+                match self {
+                    $(Self::$variant(array) => {
+                        array.as_array().iter().map(|number| number.natural()).collect()
+                    })*
+                }
+            }
+        }
+    };
+}
+
+array! {
+    F64(f64), F32(f32), Bool(bool), I64(i64), I32(i32), I16(i16), I8(i8),
+    U64(u64), U32(u32), U16(u16), U8(u8),
+}
+
+/// A number as a truth value, and as an index.
+trait Reads: Copy {
+    /// Whether it is positive; `None` if it is not a number.
+    fn truth(self) -> Option<bool>;
+    /// Itself, if it is of a whole type and not negative.
+    fn natural(self) -> Option<u64>;
+}
+
+macro_rules! reads {
+    ($($float:ty)*; $($whole:ty)*) => {
+        $(impl Reads for $float {
+            fn truth(self) -> Option<bool> {
+                (!self.is_nan()).then_some(self > 0.0)
+            }
+
+            fn natural(self) -> Option<u64> {
+                None
+            }
+        })*
+        $(impl Reads for $whole {
+            fn truth(self) -> Option<bool> {
+                Some(self > 0)
+            }
+
+            fn natural(self) -> Option<u64> {
+                self.try_into().ok()
+            }
+        })*
+    };
+}
+
+reads! { f64 f32; i64 i32 i16 i8 u64 u32 u16 u8 }
+
+impl Reads for bool {
+    fn truth(self) -> Option<bool> {
+        Some(self)
+    }
+
+    fn natural(self) -> Option<u64> {
+        None
+    }
+}
+
+/// An array as a slice with strides, in elements.
+pub(crate) struct View<'a> {
+    numbers: Numbers<'a>,
+    pub(crate) shape: Vec<usize>,
+    strides: Vec<isize>,
+}
+
+impl<'a> View<'a> {
+    fn new<T: Element>(view: ArrayViewD<'a, T>) -> Self
+    where
+        &'a [T]: Into<Numbers<'a>>,
+    {
+        let numbers = view.to_slice_memory_order().unwrap_or_default().into();
+        Self { numbers, shape: view.shape().to_vec(), strides: view.strides().to_vec() }
+    }
+
+    /// The column along axis `along`, at index `at` of each other axis before and after it; it is
+    /// within the array.
+    pub(crate) fn column(&self, along: usize, at: &[usize]) -> Column<'a> {
+        let start: isize =
+            at.iter().zip(&self.strides).map(|(&i, stride)| i as isize * stride).sum();
+        let rows = self.shape[along];
+        let column = Column::strided(self.numbers, start as usize, self.strides[along], rows);
+        column.expect("an index within the shape is an element of the array")
+    }
+}
+
+impl<'py> Array<'py> {
+    /// The array `object`, which messages call `what`.
+    pub(crate) fn new(object: &Bound<'py, PyAny>, what: &str) -> PyResult<Self> {
+        let py = object.py();
+        let numpy = py.import("numpy")?;
+        if object.is_instance(&numpy.getattr("ma")?.getattr("MaskedArray")?)? {
+            return Err(PyTypeError::new_err(format!("{what}: a masked array; fill it first")));
+        }
+        let array = numpy.call_method1("asarray", (object,))?.cast_into::<PyUntypedArray>()?;
+        let kind = array.dtype().kind();
+        if !b"fiub".contains(&kind) {
+            let found = array.dtype();
+            let message =
+                format!("{what}: numbers or truth values are wanted, and this is {found}");
+            return Err(PyTypeError::new_err(message));
+        }
+        let array = readable(array)?;
+        let found = || PyTypeError::new_err(format!("{what}: the array cannot be borrowed"));
+        Self::of(&array).ok_or_else(found)
+    }
+}
+
+/// The array itself, or a copy that a slice and strides from its start describe.
+fn readable(array: Bound<'_, PyUntypedArray>) -> PyResult<Bound<'_, PyUntypedArray>> {
+    let dtype = array.dtype();
+    let (kind, size) = (dtype.kind(), dtype.itemsize());
+    let wanted = match (kind, size) {
+        (b'f', 4 | 8) if dtype.is_native_byteorder() != Some(false) => None,
+        (b'f', _) => Some("f8".to_owned()),
+        (b'i' | b'u', _) if dtype.is_native_byteorder() == Some(false) => {
+            Some(format!("={}{size}", char::from(kind)))
+        }
+        _ => None,
+    };
+    let array = match wanted {
+        Some(wanted) => array.call_method1("astype", (wanted,))?.cast_into()?,
+        None => array,
+    };
+    let ordered = array.is_contiguous() || is_dense(&array);
+    if ordered {
+        return Ok(array);
+    }
+    Ok(array.py().import("numpy")?.call_method1("ascontiguousarray", (array,))?.cast_into()?)
+}
+
+/// Whether the axes, in some order, leave no gaps and run forwards.
+fn is_dense(array: &Bound<'_, PyUntypedArray>) -> bool {
+    let mut axes: Vec<(isize, usize)> =
+        array.strides().iter().copied().zip(array.shape().iter().copied()).collect();
+    axes.sort_unstable();
+    let mut next = array.dtype().itemsize() as isize;
+    axes.iter().all(|&(stride, length)| {
+        let is_next = stride == next;
+        next *= length as isize;
+        is_next
+    })
+}
+
+/// An array of `shape` for Python, of numbers in C order.
+pub(crate) fn shaped<'py, T: Element>(
+    py: Python<'py>,
+    numbers: Vec<T>,
+    shape: &[usize],
+) -> PyResult<Bound<'py, PyAny>> {
+    Ok(PyArrayDyn::from_owned_array(
+        py,
+        numpy::ndarray::ArrayD::from_shape_vec(shape, numbers)
+            .map_err(|error| super::error::wrong(error.to_string()))?,
+    )
+    .into_any())
+}
+
+/// The same, read-only: what many callers share.
+pub(crate) fn frozen<'py, T: Element>(
+    py: Python<'py>,
+    numbers: Vec<T>,
+    shape: &[usize],
+) -> PyResult<Bound<'py, PyAny>> {
+    let array = shaped(py, numbers, shape)?;
+    array.getattr("flags")?.setattr("writeable", false)?;
+    Ok(array)
+}

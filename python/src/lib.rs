@@ -1,0 +1,61 @@
+//! The bridge from Python to the crates: it converts arguments and results, and nothing else.
+//!
+//! | module | converts |
+//! | --- | --- |
+//! | `array` | every NumPy array that enters, whatever its type and strides |
+//! | `states` | recorded states, as arrays or mappings, into the columns that a task reads |
+//! | `labels` | what holds in a state, as mappings, names or arrays |
+//! | `task`, `monitor`, `file` | tasks |
+//! | `error` | mistakes of a source into exceptions and warnings |
+//!
+//! What a formula means, and what a task does, is in the crates `tltl-compiler`, `tltl` and
+//! `tltlc`. Every argument is checked before it is passed on: a panic would become an exception
+//! that `except Exception` does not catch.
+#![forbid(unsafe_code)]
+
+mod array;
+mod error;
+mod file;
+mod labels;
+mod monitor;
+mod states;
+mod task;
+
+use std::ffi::OsString;
+use std::io::{stderr, stdin, stdout};
+
+use pyo3::prelude::*;
+use tltlc::cli::{self, Output, Streams};
+
+/// What the package imports.
+#[pymodule]
+mod _core {
+    use super::*;
+
+    #[pymodule_export]
+    use super::file::{Parameter, TaskFile};
+    #[pymodule_export]
+    use super::monitor::Monitor;
+    #[pymodule_export]
+    use super::task::{Budget, Edge, Input, Run, Task, restore};
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))
+    }
+
+    /// Runs the command-line tool with these arguments, the name of the program first; its exit
+    /// code.
+    #[pyfunction]
+    fn main(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
+        py.detach(|| {
+            let (mut out, mut err) = (stdout().lock(), stderr().lock());
+            let mut streams = Streams {
+                input: &mut stdin().lock(),
+                out: Output { style: cli::style(&out), stream: &mut out },
+                err: Output { style: cli::style(&err), stream: &mut err },
+            };
+            cli::main(arguments, &mut streams).code()
+        })
+    }
+}

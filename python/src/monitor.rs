@@ -1,0 +1,57 @@
+//! `tltl.Monitor`: a task that reads one state after the other.
+
+use pyo3::prelude::*;
+use tltl::{Acceptor, Automaton};
+
+use super::labels;
+use super::task::Task;
+
+/// A task on its way.
+#[pyclass(module = "tltl")]
+pub struct Monitor {
+    task: Task,
+    state: u32,
+}
+
+impl Monitor {
+    pub(crate) const fn new(task: Task) -> Self {
+        Self { task, state: Automaton::INITIAL }
+    }
+}
+
+#[pymethods]
+impl Monitor {
+    #[getter]
+    fn task(&self) -> Task {
+        self.task.clone()
+    }
+
+    #[getter]
+    fn state(&self) -> u32 {
+        self.state
+    }
+
+    #[getter]
+    fn satisfied(&self) -> bool {
+        self.task.inner.is_accepting(self.state)
+    }
+
+    #[getter]
+    fn lost(&self) -> bool {
+        self.task.inner.is_trap(self.state)
+    }
+
+    /// Reads what holds now; the state after it.
+    fn observe(&mut self, labels: &Bound<'_, PyAny>) -> PyResult<u32> {
+        let row = labels::row(self.task.names(), labels)?;
+        let mut state = [self.state];
+        self.task.automaton().step_batch(&mut state, &row[..]);
+        self.state = state[0];
+        Ok(self.state)
+    }
+
+    /// Back to where nothing was read.
+    fn reset(&mut self) {
+        self.state = Automaton::INITIAL;
+    }
+}

@@ -1,0 +1,786 @@
+//! `tltl.Task`: a task that is compiled while Python runs.
+
+use std::collections::hash_map::DefaultHasher;
+use std::hash::{Hash, Hasher};
+
+use numpy::{PyArray1, PyArrayMethods};
+use pyo3::basic::CompareOp;
+use pyo3::exceptions::{PyIndexError, PyTypeError};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
+use tltl::{Acceptor, Automaton, Shared};
+use tltl_compiler::dfa::Dfa;
+use tltl_compiler::source::Source;
+use tltl_compiler::translate;
+use tltlc::diff::{Side, of_definitions};
+use tltlc::emit;
+use tltlc::evaluate::{self, Columns, InputKind, Scratch};
+use tltlc::explain;
+use tltlc::task::{self, Bound as Made, TaskFile, Value, Verdict};
+
+use super::array::{Array, frozen, shaped};
+use super::error::{diagnostics, mistaken, not_a_number, warn, wrong};
+use super::labels;
+use super::states::States;
+
+/// The largest number of propositions whose table of all letters is given out: 65,536 columns.
+const TABLE: usize = 16;
+
+/// How large an automaton may become.
+#[pyclass(frozen, eq, hash, get_all, from_py_object, module = "tltl")]
+#[derive(Clone, PartialEq, Eq, Hash)]
+pub struct Budget {
+    states: usize,
+    nodes: usize,
+    edges: usize,
+    products: usize,
+}
+
+impl Budget {
+    pub(crate) fn limits(&self) -> translate::Budget {
+        let Self { states, nodes, edges, products } = *self;
+        translate::Budget { states, nodes, edges, products }
+    }
+}
+
+impl Default for Budget {
+    fn default() -> Self {
+        let translate::Budget { states, nodes, edges, products } = translate::Budget::default();
+        Self { states, nodes, edges, products }
+    }
+}
+
+#[pymethods]
+impl Budget {
+    #[new]
+    #[pyo3(signature = (*, states=None, nodes=None, edges=None, products=None))]
+    fn new(
+        states: Option<usize>,
+        nodes: Option<usize>,
+        edges: Option<usize>,
+        products: Option<usize>,
+    ) -> Self {
+        let known = Self::default();
+        Self {
+            states: states.unwrap_or(known.states),
+            nodes: nodes.unwrap_or(known.nodes),
+            edges: edges.unwrap_or(known.edges),
+            products: products.unwrap_or(known.products),
+        }
+    }
+
+    fn __getnewargs_ex__<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyTuple>, Bound<'py, PyDict>)> {
+        let named = PyDict::new(py);
+        named.set_item("states", self.states)?;
+        named.set_item("nodes", self.nodes)?;
+        named.set_item("edges", self.edges)?;
+        named.set_item("products", self.products)?;
+        Ok((PyTuple::empty(py), named))
+    }
+
+    fn __repr__(&self) -> String {
+        let Self { states, nodes, edges, products } = self;
+        format!("Budget(states={states}, nodes={nodes}, edges={edges}, products={products})")
+    }
+}
+
+/// A number that the predicates of a task read from a state.
+#[pyclass(frozen, eq, get_all, module = "tltl")]
+#[derive(Clone, PartialEq, Eq)]
+pub struct Input {
+    name: String,
+    kind: &'static str,
+    unit: Option<String>,
+    values: Vec<String>,
+}
+
+impl Input {
+    fn new(input: &evaluate::Input) -> Self {
+        let evaluate::Input { name, kind, unit, values } = input.clone();
+        let kind = match kind {
+            InputKind::Place(scalar) if values.is_empty() => scalar.name(),
+            InputKind::Place(_) => "enum",
+            InputKind::Variable => "variable",
+            InputKind::Proposition => "proposition",
+        };
+        Self { name, kind, unit, values }
+    }
+}
+
+#[pymethods]
+impl Input {
+    fn __repr__(&self) -> String {
+        format!("Input(name={:?}, kind={:?})", self.name, self.kind)
+    }
+}
+
+/// A move of the automaton, with its guard as text.
+#[pyclass(frozen, eq, get_all, module = "tltl")]
+#[derive(Clone, PartialEq, Eq)]
+pub struct Edge {
+    source: u32,
+    target: u32,
+    guard: String,
+}
+
+#[pymethods]
+impl Edge {
+    fn __repr__(&self) -> String {
+        format!("Edge(source={}, target={}, guard={:?})", self.source, self.target, self.guard)
+    }
+}
+
+/// A trajectory that ran through a task: one entry for each row.
+#[pyclass(frozen, get_all, module = "tltl")]
+pub struct Run {
+    states: Py<PyAny>,
+    progress: Py<PyAny>,
+    robustness: f64,
+    verdict: String,
+    since: Option<usize>,
+}
+
+#[pymethods]
+impl Run {
+    #[getter]
+    fn satisfied(&self) -> bool {
+        self.verdict == "satisfied"
+    }
+
+    #[getter]
+    fn lost(&self) -> bool {
+        self.verdict == "lost"
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Run(verdict={:?}, robustness={})", self.verdict, self.robustness)
+    }
+}
+
+/// A formula of temporal logic, compiled to its minimal automaton.
+///
+/// A task never changes. It is equal to others of the same source, name and arguments, and is
+/// pickled by them. Threads may share it.
+///
+/// Raises `CompileError` if there is a mistake in the formula.
+///
+/// >>> from tltl import Task
+/// >>> task = Task("!wet U home")
+/// >>> task.step(task.initial, {"wet": False, "home": True}) == task.accepting
+/// True
+#[pyclass(frozen, module = "tltl")]
+#[derive(Clone)]
+pub struct Task {
+    pub(crate) inner: task::Task,
+    budget: Budget,
+}
+
+impl Task {
+    /// The task of `file` with this name and these arguments.
+    pub(crate) fn bind(
+        file: &TaskFile,
+        name: Option<&str>,
+        arguments: &[(String, Value)],
+        budget: Budget,
+    ) -> PyResult<Self> {
+        let entry = file.find(name).map_err(|error| wrong(error.to_string()))?;
+        let arguments: Vec<_> =
+            arguments.iter().map(|(name, value)| (name.as_str(), value.clone())).collect();
+        match entry.bind(&arguments).map_err(|error| wrong(error.to_string()))? {
+            Made::Plain(inner) => Ok(Self { inner, budget }),
+            Made::Factored(_) => Err(wrong(format!(
+                "`{}` is factored: it has an automaton for each part, and this package reads tasks \
+                 with one automaton",
+                entry.name().unwrap_or_default()
+            ))),
+        }
+    }
+
+    fn source(&self) -> &Source {
+        self.inner.entry().file().source()
+    }
+
+    fn is_formula(&self) -> bool {
+        self.inner.entry().name().is_none()
+    }
+
+    fn dfa(&self) -> &Dfa {
+        self.inner.dfa()
+    }
+
+    pub(crate) fn automaton(&self) -> &Automaton {
+        self.inner.automaton()
+    }
+
+    pub(crate) fn names(&self) -> &[Shared<str>] {
+        self.automaton().propositions()
+    }
+
+    fn title(&self) -> String {
+        let task = self.inner.entry().task();
+        task.name
+            .as_ref()
+            .map_or_else(|| task.text.clone(), |name| format!("{name} = {}", task.text))
+    }
+
+    /// A state of the automaton, checked.
+    pub(crate) fn state(&self, q: i64) -> PyResult<u32> {
+        let count = self.inner.states();
+        match u32::try_from(q) {
+            Ok(q) if q < count => Ok(q),
+            _ => Err(PyIndexError::new_err(format!(
+                "q is {q}, and the automaton has {count} states"
+            ))),
+        }
+    }
+
+    fn key(&self) -> (&str, Option<&str>, String) {
+        let arguments = format!("{:?}", self.inner.arguments());
+        (self.source().text(), self.inner.entry().name(), arguments)
+    }
+
+    /// Computes for each trajectory, without the GIL.
+    fn each<T: Send>(
+        &self,
+        py: Python<'_>,
+        states: &States<'_>,
+        compute: impl Fn(&Columns<'_>, &mut Scratch) -> Result<T, evaluate::NotANumber> + Sync,
+    ) -> PyResult<Vec<T>> {
+        let mut scratch = Scratch::default();
+        let results = states.trajectories(|rows, columns| {
+            let columns = Columns::new(rows, columns).expect("all have the rows of the shape");
+            py.detach(|| compute(&columns, &mut scratch))
+        });
+        results.map_err(|error| not_a_number(self.names(), error))
+    }
+
+    /// An output of `width` numbers for each state.
+    fn by_row<'py, T: numpy::Element + Copy + Default + Send>(
+        &self,
+        states: (&Bound<'py, PyAny>, Option<&Bound<'py, PyAny>>),
+        width: Option<usize>,
+        read: impl Fn(&Columns<'_>, &mut Scratch, &mut [T]) -> Result<(), evaluate::NotANumber> + Sync,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let py = states.0.py();
+        let states = States::new(self.inner.inputs(), states.0, states.1)?;
+        let each = self.each(py, &states, |columns, scratch| {
+            let mut out = vec![T::default(); columns.rows() * width.unwrap_or(1)];
+            read(columns, scratch, &mut out).map(|()| out)
+        })?;
+        let shape: Vec<usize> = states.shape.iter().copied().chain(width).collect();
+        shaped(py, each.concat(), &shape)
+    }
+}
+
+#[pymethods]
+impl Task {
+    #[new]
+    #[pyo3(signature = (formula, /, *, budget=None))]
+    fn new(py: Python<'_>, formula: &str, budget: Option<Budget>) -> PyResult<Self> {
+        let budget = budget.unwrap_or_default();
+        let limits = budget.limits();
+        let (inner, warnings) = py
+            .detach(|| {
+                let inner = task::compile(formula, limits)?;
+                let warnings = inner.entry().file().warnings();
+                Ok((inner, warnings))
+            })
+            .map_err(|error| mistaken(py, &error))?;
+        warn(py, inner.entry().file().source(), &warnings)?;
+        Ok(Self { inner, budget })
+    }
+
+    /// The formula, as it was written.
+    #[getter]
+    fn text(&self) -> &str {
+        &self.inner.entry().task().text
+    }
+
+    /// Its name in the task file; `None` for a bare formula.
+    #[getter]
+    fn name(&self) -> Option<&str> {
+        self.inner.entry().name()
+    }
+
+    /// The names of what the automaton reads, in the order of the bits of a letter.
+    #[getter]
+    fn propositions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, self.names().iter().map(|name| name.to_string()))
+    }
+
+    /// What the predicates read from a state, in the order of the columns.
+    #[getter]
+    fn inputs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, self.inner.inputs().iter().map(Input::new))
+    }
+
+    /// The number of automaton states, numbered from 0.
+    #[getter]
+    fn num_states(&self) -> u32 {
+        self.inner.states()
+    }
+
+    /// The state before anything is read.
+    #[getter]
+    fn initial(&self) -> u32 {
+        Automaton::INITIAL
+    }
+
+    /// The state in which the task is satisfied, for ever; `None` if there is none.
+    #[getter]
+    fn accepting(&self) -> Option<u32> {
+        self.automaton().accepting()
+    }
+
+    /// The state in which the task is lost, for ever; `None` if it cannot be lost.
+    #[getter]
+    fn trap(&self) -> Option<u32> {
+        self.automaton().trap()
+    }
+
+    /// All moves, self-loops included, each with its guard as text.
+    #[getter]
+    fn edges<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        let dfa = self.dfa();
+        let mut guards = tltl_compiler::dfa::Guards::new(dfa);
+        let mut edges = Vec::new();
+        for source in dfa.states() {
+            for (target, guard) in guards.edges(source) {
+                let cubes = guards.cubes(guard);
+                let guard = emit::sum::Sum::new(&dfa.propositions, &cubes).to_string();
+                edges.push(Edge { source, target, guard });
+            }
+        }
+        PyTuple::new(py, edges)
+    }
+
+    /// The fewest moves from each state to the accepting one: int32, -1 where there is no way.
+    #[getter]
+    fn distances<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let distance = |q| self.inner.distance(q).map_or(-1, |distance| distance as i32);
+        let distances: Vec<i32> = (0..self.inner.states()).map(distance).collect();
+        let count = distances.len();
+        frozen(py, distances, &[count])
+    }
+
+    /// The next state of each state (rows) and letter (columns): uint32; `None` for more than 16
+    /// propositions.
+    #[getter]
+    fn table<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        if self.names().len() > TABLE {
+            return Ok(None);
+        }
+        let (states, letters) = (self.inner.states(), 1_u64 << self.names().len());
+        let mut table: Vec<u32> = (0..states).flat_map(|q| (0..letters).map(move |_| q)).collect();
+        let all: Vec<u64> = (0..states).flat_map(|_| 0..letters).collect();
+        self.automaton().step_batch(&mut table, &all[..]);
+        frozen(py, table, &[states as usize, letters as usize]).map(Some)
+    }
+
+    /// A number of 16 digits for the numbered automaton: what was learned with one automaton fits
+    /// those of the same fingerprint.
+    #[getter]
+    fn fingerprint(&self) -> String {
+        self.inner.fingerprint()
+    }
+
+    /// What the author should look at.
+    #[getter]
+    fn warnings<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        let warnings = self.inner.entry().file().warnings();
+        diagnostics(py, self.source(), &warnings)
+    }
+
+    /// The state after `q` has read what holds: a mapping of names to truth values or robustness, a
+    /// set of the names that hold, or an array in the order of `propositions`.
+    ///
+    /// Raises `ValueError` if a proposition is missing, `IndexError` if `q` is not a state.
+    fn step(&self, q: i64, labels: &Bound<'_, PyAny>) -> PyResult<u32> {
+        let q = self.state(q)?;
+        let row = labels::row(self.names(), labels)?;
+        let mut state = [q];
+        self.automaton().step_batch(&mut state, &row[..]);
+        Ok(state[0])
+    }
+
+    /// The states after `q`, of shape (n,), has read `labels`: truth values of shape (n,
+    /// propositions), or letters of shape (n,), whose bit i is proposition i.
+    ///
+    /// With `out`, a uint32 array, the result is written there; it may be `q`.
+    #[pyo3(signature = (q, labels, *, out=None))]
+    fn step_batch<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+        labels: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyArray1<u32>>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let mut states = self.states_of(q)?;
+        let letters = self.letters_of(labels, states.len())?;
+        py.detach(|| match &letters {
+            Letters::Bits(bits) => self.automaton().step_batch(&mut states, &bits[..]),
+            Letters::Labels(labels) => self.automaton().step_batch(&mut states, &labels[..]),
+        });
+        let Some(out) = out else {
+            let count = states.len();
+            return shaped(py, states, &[count]);
+        };
+        let mut target = out.try_readwrite().map_err(|_| wrong("out: the array is read-only"))?;
+        let mut target = target.as_array_mut();
+        if target.len() != states.len() {
+            let (found, wanted) = (target.len(), states.len());
+            return Err(wrong(format!("out: {found} states; wanted are {wanted}")));
+        }
+        target.iter_mut().zip(states).for_each(|(to, q)| *to = q);
+        Ok(out.as_any().clone())
+    }
+
+    /// Which propositions hold in each of `states`, of shape (…, d): bool, of shape (…, propositions).
+    ///
+    /// `states` may also be a mapping of names to arrays of shape (…). `columns` says where an array
+    /// has what the task reads: a mapping of names to indices, or the names of all columns.
+    ///
+    /// Raises `ValueError` if a predicate is not a number.
+    #[pyo3(signature = (states, *, columns=None))]
+    fn labels<'py>(
+        &self,
+        states: &Bound<'py, PyAny>,
+        columns: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.by_row((states, columns), Some(self.names().len()), |columns, scratch, out| {
+            self.inner.evaluator().labels(columns, scratch, out)
+        })
+    }
+
+    /// The robustness of each proposition in each of `states`, as `labels`: float64.
+    #[pyo3(signature = (states, *, columns=None))]
+    fn rho<'py>(
+        &self,
+        states: &Bound<'py, PyAny>,
+        columns: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.by_row((states, columns), Some(self.names().len()), |columns, scratch, out| {
+            self.inner.evaluator().rho(columns, scratch, out)
+        })
+    }
+
+    /// What holds in each of `states`, of shape (…, d), as bits: uint64, of shape (…).
+    #[pyo3(signature = (states, *, columns=None))]
+    fn letters<'py>(
+        &self,
+        states: &Bound<'py, PyAny>,
+        columns: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.few_enough()?;
+        self.by_row((states, columns), None, |columns, scratch, out: &mut [u64]| {
+            self.inner.evaluator().letters(columns, scratch, out)
+        })
+    }
+
+    /// The robustness of a trajectory of shape (T, d), or of each of many: of shape (N, T, d), or a
+    /// list of arrays of shape (T_i, d).
+    #[pyo3(signature = (states, *, columns=None))]
+    fn robustness<'py>(
+        &self,
+        states: &Bound<'py, PyAny>,
+        columns: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.by_trajectory(states, columns, |columns, scratch| {
+            self.inner.evaluator().robustness(columns, scratch)
+        })
+    }
+
+    /// Whether a trajectory satisfies the task; shapes as for `robustness`.
+    #[pyo3(signature = (states, *, columns=None))]
+    fn satisfied<'py>(
+        &self,
+        states: &Bound<'py, PyAny>,
+        columns: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.by_trajectory(states, columns, |columns, scratch| {
+            Ok(self.inner.run(columns, scratch)?.verdict() == Verdict::Satisfied)
+        })
+    }
+
+    /// A trajectory of shape (T, d), followed row by row.
+    #[pyo3(signature = (states, *, columns=None))]
+    fn run<'py>(
+        &self,
+        py: Python<'py>,
+        states: &Bound<'py, PyAny>,
+        columns: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Run> {
+        let states = States::new(self.inner.inputs(), states, columns)?;
+        if states.shape.len() != 1 {
+            return Err(wrong("states: one trajectory is wanted, an array of shape (T, d)"));
+        }
+        let runs = self.each(py, &states, |columns, scratch| self.inner.run(columns, scratch))?;
+        let run = runs.into_iter().next().expect("a shape of one axis is one trajectory");
+        let (verdict, since, rows) = (run.verdict().to_string(), run.since(), run.states.len());
+        Ok(Run {
+            states: shaped(py, run.states, &[rows])?.unbind(),
+            progress: shaped(py, run.progress, &[rows])?.unbind(),
+            robustness: run.robustness,
+            verdict,
+            since,
+        })
+    }
+
+    /// The task on its way, to be told what holds, one state after the other.
+    fn monitor(&self) -> super::monitor::Monitor {
+        super::monitor::Monitor::new(self.clone())
+    }
+
+    /// The task in plain English, with shortest ways to satisfy it and to lose it.
+    fn explain(&self) -> String {
+        let told = explain::explain(&self.inner.entry().task().spec, self.dfa());
+        format!("{}\n\n{told}", self.title())
+    }
+
+    /// A shortest trajectory on which the two tasks differ, or that they are equal.
+    fn diff(&self, other: &Self) -> String {
+        let side = |task: &'_ Self| task.inner.entry().clone();
+        let (first, second) = (side(self), side(other));
+        let module = |entry: &'_ task::Entry| entry.file().clone();
+        let (one, two) = (module(&first), module(&second));
+        of_definitions(
+            Side::Task(&one.compiled().module, first.task(), self.dfa()),
+            Side::Task(&two.compiled().module, second.task(), other.dfa()),
+        )
+        .to_string()
+    }
+
+    /// The automaton as a picture on a white ground.
+    fn svg(&self) -> String {
+        emit::svg::automaton(&self.title(), self.dfa())
+    }
+
+    fn _repr_svg_(&self) -> String {
+        self.svg()
+    }
+
+    /// The automaton for Graphviz.
+    fn to_dot(&self) -> PyResult<String> {
+        text(emit::dot::automaton(&self.title(), self.dfa()))
+    }
+
+    /// The automaton in the HOA format.
+    fn to_hoa(&self) -> PyResult<String> {
+        text(emit::hoa::automaton(&self.title(), self.dfa()))
+    }
+
+    /// The automaton as JSON.
+    fn to_json(&self) -> PyResult<String> {
+        text(emit::json::automaton(self.text(), self.dfa()))
+    }
+
+    /// The automaton for Mermaid.
+    fn to_mermaid(&self) -> PyResult<String> {
+        text(emit::mermaid::automaton(&self.title(), self.dfa()))
+    }
+
+    /// The task as Rust source.
+    fn to_rust(&self) -> String {
+        emit::rust::file(self.inner.entry().file().compiled())
+    }
+
+    fn __and__(&self, py: Python<'_>, other: &Self) -> PyResult<Self> {
+        self.joined(py, "&&", other)
+    }
+
+    fn __or__(&self, py: Python<'_>, other: &Self) -> PyResult<Self> {
+        self.joined(py, "||", other)
+    }
+
+    fn __richcmp__(&self, other: &Bound<'_, PyAny>, operator: CompareOp) -> PyResult<Py<PyAny>> {
+        let py = other.py();
+        let Ok(other) = other.cast::<Self>() else { return Ok(py.NotImplemented()) };
+        let equal = self.key() == other.get().key();
+        match operator {
+            CompareOp::Eq => Ok(equal.into_pyobject(py)?.to_owned().into_any().unbind()),
+            CompareOp::Ne => Ok((!equal).into_pyobject(py)?.to_owned().into_any().unbind()),
+            _ => Ok(py.NotImplemented()),
+        }
+    }
+
+    fn __hash__(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        self.key().hash(&mut hasher);
+        hasher.finish()
+    }
+
+    /// By source: unpickling compiles.
+    fn __reduce__<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let restore = py.import("tltl._core")?.getattr("restore")?;
+        let arguments = PyDict::new(py);
+        for (name, value) in self.inner.arguments() {
+            match value {
+                Value::Number(number) => arguments.set_item(name, number)?,
+                Value::Truth(truth) => arguments.set_item(name, truth)?,
+                Value::Text(text) => arguments.set_item(name, text)?,
+            }
+        }
+        let source = self.source();
+        let file = (!self.is_formula()).then(|| source.name().to_owned());
+        let name = self.name().map(str::to_owned);
+        let state =
+            (file, source.text(), name, arguments.items(), self.budget.clone(), self.fingerprint());
+        Ok((restore, state.into_pyobject(py)?))
+    }
+
+    fn __repr__(&self) -> String {
+        match self.name() {
+            None => format!("Task({:?})", self.text()),
+            Some(name) => format!("<Task {name} = {}>", self.text()),
+        }
+    }
+}
+
+/// What each row reads: bits, or a truth value for each proposition.
+enum Letters {
+    Bits(Vec<u64>),
+    Labels(Vec<bool>),
+}
+
+impl Task {
+    fn states_of(&self, q: &Bound<'_, PyAny>) -> PyResult<Vec<u32>> {
+        let array = Array::new(q, "q")?;
+        if array.view().shape.len() != 1 {
+            return Err(wrong("q: wanted is an array of shape (n,)"));
+        }
+        let count = u64::from(self.inner.states());
+        let states = array.naturals().ok_or_else(|| {
+            PyTypeError::new_err("q: automaton states are whole numbers from 0 on")
+        })?;
+        match states.iter().position(|&q| q >= count) {
+            Some(at) => Err(PyIndexError::new_err(format!(
+                "q[{at}] is {}, and the automaton has {count} states",
+                states[at]
+            ))),
+            None => Ok(states.into_iter().map(|q| q as u32).collect()),
+        }
+    }
+
+    fn letters_of(&self, labels: &Bound<'_, PyAny>, rows: usize) -> PyResult<Letters> {
+        let array = Array::new(labels, "labels")?;
+        let (shape, width) = (array.view().shape, self.names().len());
+        match shape[..] {
+            [count] if count == rows => {
+                self.few_enough()?;
+                let bits = array.naturals();
+                bits.map(Letters::Bits).ok_or_else(|| {
+                    PyTypeError::new_err(
+                        "labels: letters are whole numbers whose bit i is proposition i; truth \
+                         values have the shape (n, propositions)",
+                    )
+                })
+            }
+            [count, own] if count == rows && own == width => {
+                labels::truths(self.names(), &array).map(Letters::Labels)
+            }
+            _ => Err(wrong(format!(
+                "labels: an array of shape {shape:?}; wanted is ({rows}, {width}), truth values of \
+                 the propositions, or ({rows},), letters"
+            ))),
+        }
+    }
+
+    fn few_enough(&self) -> PyResult<()> {
+        let count = self.names().len();
+        if count <= 64 {
+            return Ok(());
+        }
+        Err(wrong(format!(
+            "a letter has 64 bits, and there are {count} propositions: use rows of labels"
+        )))
+    }
+
+    /// One result for each trajectory of an array (N, T, d), of a list of arrays (T_i, d), or for
+    /// the one of an array (T, d).
+    fn by_trajectory<'py, T: numpy::Element + Copy + Send + for<'a> IntoPyObject<'a>>(
+        &self,
+        states: &Bound<'py, PyAny>,
+        columns: Option<&Bound<'py, PyAny>>,
+        compute: impl Fn(&Columns<'_>, &mut Scratch) -> Result<T, evaluate::NotANumber> + Sync,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let py = states.py();
+        if let Some(all) = ragged(states)? {
+            let mut results = Vec::new();
+            for states in &all {
+                let states = States::new(self.inner.inputs(), states, columns)?;
+                results.extend(self.each(py, &states, &compute)?);
+            }
+            return shaped(py, results, &[all.len()]);
+        }
+        let states = States::new(self.inner.inputs(), states, columns)?;
+        let results = self.each(py, &states, &compute)?;
+        match &states.shape[..] {
+            [] => Err(wrong("states: one state; wanted is a trajectory, an array of shape (T, d)")),
+            [_] => {
+                let result = shaped(py, results, &[1])?;
+                result.call_method0("item").or_else(|_| result.get_item(0))
+            }
+            [outer @ .., _] => shaped(py, results, outer),
+        }
+    }
+
+    fn joined(&self, py: Python<'_>, operator: &str, other: &Self) -> PyResult<Self> {
+        if !self.is_formula() || !other.is_formula() {
+            return Err(wrong("only bare formulas are joined; write the task in the file"));
+        }
+        let text = format!("({}) {operator} ({})", self.source().text(), other.source().text());
+        Self::new(py, &text, Some(self.budget.clone()))
+    }
+}
+
+/// The arrays of a list, if it is one of arrays with two axes each.
+fn ragged<'py>(states: &Bound<'py, PyAny>) -> PyResult<Option<Vec<Bound<'py, PyAny>>>> {
+    use pyo3::types::{PyList, PyTuple};
+    if !states.is_instance_of::<PyList>() && !states.is_instance_of::<PyTuple>() {
+        return Ok(None);
+    }
+    let all: Vec<Bound<'py, PyAny>> = states.try_iter()?.collect::<PyResult<_>>()?;
+    let ndim =
+        |one: &Bound<'py, PyAny>| one.getattr("ndim").and_then(|n| n.extract::<usize>()).ok();
+    Ok((!all.is_empty() && all.iter().all(|one| ndim(one) == Some(2))).then_some(all))
+}
+
+/// A text that may be too large to be written.
+fn text(written: Result<emit::labels::Text<'_>, emit::labels::TooLarge>) -> PyResult<String> {
+    written.map(|text| text.to_string()).map_err(|error| wrong(error.to_string()))
+}
+
+/// A task of yesterday: compiled again, and compared by its numbered automaton.
+#[pyfunction]
+pub(crate) fn restore(
+    py: Python<'_>,
+    file: Option<String>,
+    text: String,
+    name: Option<String>,
+    arguments: Vec<(String, super::file::Argument)>,
+    budget: Budget,
+    fingerprint: &str,
+) -> PyResult<Task> {
+    let limits = budget.limits();
+    let compiled = match file {
+        Some(file) => TaskFile::new(Source::new(file, text), limits),
+        None => TaskFile::of_formula(&text, limits),
+    };
+    let compiled = compiled.map_err(|error| mistaken(py, &error))?;
+    let arguments: Vec<_> = arguments.into_iter().map(|(name, value)| (name, value.0)).collect();
+    let task = Task::bind(&compiled, name.as_deref(), &arguments, budget)?;
+    if task.fingerprint() != fingerprint {
+        return Err(wrong(format!(
+            "`{}` has another numbered automaton in this version: what was learned with it does not \
+             fit",
+            task.text()
+        )));
+    }
+    Ok(task)
+}
