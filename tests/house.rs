@@ -110,7 +110,7 @@ const ORDER: [(&str, &str); 4] = [
     ),
     (
         "tools",
-        "semantics online tables format evaluate lint task product trace diff emit explain cli",
+        "semantics tables format evaluate online lint task product trace diff emit explain cli",
     ),
 ];
 

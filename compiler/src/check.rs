@@ -122,7 +122,19 @@ fn finish((ast, mut mistakes): (Ast, Vec<Error>), names: Names) -> Result<Module
     // A number that cannot be represented counts as 1 so that checking can go on; a mistake about
     // that 1 would not be the author's.
     mistakes.retain(|mistake| mistake.kind() == Kind::Number || !numbers.contains(&mistake.span()));
+    let of_form = mistakes.iter_mut().filter(|mistake| mistake.kind() == Kind::Syntax);
+    of_form.for_each(|mistake| mistake.keep_helps(&is_welcome));
     Errors::check(mistakes).map(|()| module)
+}
+
+/// Whether advice is no formula, or one that is accepted: the words of another tool may say, in ours,
+/// what this language has not.
+fn is_welcome(help: &str) -> bool {
+    let advised = help.strip_prefix("write `").and_then(|help| help.strip_suffix('`'));
+    advised.is_none_or(|text| {
+        let source = Source::new("advice", text);
+        parse::formula(&source).is_err() || formula(&source).is_ok()
+    })
 }
 
 /// A module under construction.

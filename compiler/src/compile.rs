@@ -111,7 +111,7 @@ const LONGEST: usize = 4096;
 /// # Errors
 /// All mistakes of the source, or that the budget does not suffice.
 pub fn formula(source: &Source, budget: Budget) -> Result<Compiled, Errors> {
-    check::formula(source).and_then(|module| automata(module, budget))
+    check::formula(source).and_then(|checked| automata(checked, budget, Home::CommandLine))
 }
 
 /// Compiles a task file: declarations of a state, constants, predicates and tasks.
@@ -129,7 +129,7 @@ pub fn formula(source: &Source, budget: Budget) -> Result<Compiled, Errors> {
 /// # Errors
 /// All mistakes of the source, or that the budget does not suffice.
 pub fn file(source: &Source, budget: Budget) -> Result<Compiled, Errors> {
-    check::file(source).and_then(|module| automata(module, budget))
+    check::file(source).and_then(|checked| module(checked, budget))
 }
 
 /// Compiles the input of `tltl!{ … }`: a formula with or without a header, or declarations. The
@@ -148,11 +148,41 @@ pub fn file(source: &Source, budget: Budget) -> Result<Compiled, Errors> {
 /// # Errors
 /// All mistakes of the source, or that the budget does not suffice.
 pub fn fragment(source: &Source, budget: Budget) -> Result<Compiled, Errors> {
-    check::fragment(source).and_then(|module| automata(module, budget))
+    check::fragment(source).and_then(|checked| module(checked, budget))
+}
+
+/// Compiles every task of a checked source; a task that fails leaves its mistake and the others go
+/// on. Whoever wants one task only takes the others out of the module.
+///
+/// ```
+/// use tltl_compiler::{check, compile, source::Source, translate::Budget};
+///
+/// let text = "state S { a: bool, b: bool }\ntask large = F[0,999] a\ntask small = F b\n";
+/// let mut module = check::file(&Source::new("s.tltl", text))?;
+/// let budget = Budget { states: 100, ..Budget::EMITTED };
+/// assert!(compile::module(module.clone(), budget).is_err());
+/// module.tasks.retain(|task| task.name.as_deref() == Some("small"));
+/// assert_eq!(compile::module(module, budget)?.automata.len(), 1);
+/// # Ok::<(), tltl_compiler::error::Errors>(())
+/// ```
+///
+/// # Errors
+/// That the budget does not suffice, or that a predicate or a task can never hold.
+pub fn module(module: Module, budget: Budget) -> Result<Compiled, Errors> {
+    automata(module, budget, Home::Source)
+}
+
+/// Where a task is written: it decides where its author can allow more.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Home {
+    /// A file or a macro, which take attributes.
+    Source,
+    /// A bare formula, which does not.
+    CommandLine,
 }
 
 /// Compiles every task of a module; a task that fails leaves its mistake and the others go on.
-fn automata(mut module: Module, budget: Budget) -> Result<Compiled, Errors> {
+fn automata(mut module: Module, budget: Budget, home: Home) -> Result<Compiled, Errors> {
     let mut mistakes = Vec::new();
     let split = std::mem::take(&mut module.tasks);
     let (apart, whole): (Vec<_>, Vec<_>) =
@@ -162,7 +192,7 @@ fn automata(mut module: Module, budget: Budget) -> Result<Compiled, Errors> {
         let budget = allowed(task, budget);
         match task_automata(&module, task, budget, &mut mistakes) {
             Ok(pair) => automata.push(pair),
-            Err(exceeded) => mistakes.push(exceeds(task, budget, exceeded)),
+            Err(exceeded) => mistakes.push(exceeds(task, budget, exceeded, home)),
         }
     }
     let mut factored = Vec::new();
@@ -170,7 +200,7 @@ fn automata(mut module: Module, budget: Budget) -> Result<Compiled, Errors> {
         let budget = allowed(&task, budget);
         match task_parts(&module, &task, budget, &mut mistakes) {
             Ok((parts, joint)) => factored.push(Factored { task, parts, joint }),
-            Err(exceeded) => mistakes.push(exceeds(&task, budget, exceeded)),
+            Err(exceeded) => mistakes.push(exceeds(&task, budget, exceeded, home)),
         }
     }
     module.tasks = whole;
@@ -284,34 +314,41 @@ pub fn check_guards(dfa: &Dfa, budget: Budget) -> Result<(), Exceeded> {
 }
 
 /// The error for a task that needs more than its budget, with what to write instead.
-fn exceeds(task: &Task, budget: Budget, exceeded: Exceeded) -> Error {
+fn exceeds(task: &Task, budget: Budget, exceeded: Exceeded, home: Home) -> Error {
     let Exceeded { what, limit } = exceeded;
     let name = task.title();
-    let setting = match what {
-        Resource::States => Some("states"),
-        Resource::Nodes => Some("nodes"),
-        Resource::Edges => Some("edges"),
-        Resource::Products => Some("products"),
-        Resource::Operators => None,
-    };
     if let (Resource::States, Some(states)) = (what, states_of_bound(&task.spec, budget)) {
         let message = format!("the automaton of {name} needs {states} states, more than {limit}");
-        let help = format!("allow more: write `#[budget(states = {states})]` before the task");
+        let more = more("states", &states.to_string(), home);
         return Error::new(Kind::Budget, message, task.spec.span(task.spec.root()))
             .label("a bound needs a state for each of its steps")
-            .help(help);
+            .help(format!("allow more: {more}"));
     }
     let whole = matches!(what, Resource::Edges | Resource::Products);
     let span = if whole { task.span } else { culprit(&task.spec, budget) };
     let message = format!("the automaton of {name} needs more than {limit} {what}");
+    let place = if home == Home::CommandLine { "in a task file, " } else { "" };
     let error = Error::new(Kind::Budget, message, span)
         .label("this is what grows")
-        .help("a conjunction can be kept factored, its parts side by side: write `#[factored]` before the task; n unordered goals are then 2n states, not 2^n");
-    match setting {
-        Some(setting) => {
-            error.help(format!("or allow more: write `#[budget({setting} = …)]` before the task"))
+        .help(format!("{place}a conjunction can be kept factored, its parts side by side: write `#[factored]` before the task; n unordered goals are then 2n states, not 2^n"));
+    let setting = match what {
+        Resource::States => "states",
+        Resource::Nodes => "nodes",
+        Resource::Edges => "edges",
+        Resource::Products => "products",
+        Resource::Operators => return error,
+    };
+    error.help(format!("or allow more: {}", more(setting, "…", home)))
+}
+
+/// What to write to allow more of something.
+fn more(setting: &str, amount: &str, home: Home) -> String {
+    let attribute = format!("`#[budget({setting} = {amount})]` before the task");
+    match home {
+        Home::Source => format!("write {attribute}"),
+        Home::CommandLine => {
+            format!("add `--budget {setting}={amount}`, or in a task file write {attribute}")
         }
-        None => error,
     }
 }
 

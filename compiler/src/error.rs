@@ -209,6 +209,27 @@ impl Error {
         self
     }
 
+    /// The same mistake in a text that has `by` bytes more before.
+    ///
+    /// ```
+    /// use tltl_compiler::error::{Error, Kind};
+    /// use tltl_compiler::source::Span;
+    ///
+    /// let error = Error::new(Kind::Syntax, "`*` cannot stand here", Span::new(0, 1));
+    /// assert_eq!(error.moved(40).span(), Span::new(40, 41));
+    /// ```
+    #[must_use]
+    pub fn moved(mut self, by: usize) -> Self {
+        self.span = self.span.shifted(by);
+        self.related.iter_mut().for_each(|(span, _)| *span = span.shifted(by));
+        self
+    }
+
+    /// Leaves out the advice that `keep` refuses.
+    pub(crate) fn keep_helps(&mut self, keep: &dyn Fn(&str) -> bool) {
+        self.help.retain(|help| keep(help));
+    }
+
     /// The kind of the mistake.
     #[must_use]
     pub fn kind(&self) -> Kind {

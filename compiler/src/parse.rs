@@ -22,7 +22,9 @@
 //! # Ok::<(), tltl_compiler::error::Errors>(())
 //! ```
 
+mod bound;
 mod expression;
+mod foreign;
 mod item;
 mod message;
 
@@ -104,7 +106,8 @@ pub fn is_keyword(word: &str) -> bool {
 }
 
 /// Operators of other logics and tools, for the stages that know what a name means.
-pub(crate) use message::{apart, foreign_call, unsupported};
+pub(crate) use foreign::{foreign_call, unsupported};
+pub(crate) use message::apart;
 
 /// Parses a bare formula as far as possible, with its mistakes.
 #[must_use]

@@ -117,6 +117,13 @@ pub(crate) fn compact(text: &str) -> String {
     compact
 }
 
+/// The byte at which a comment begins that nothing ends, in the text from byte `from` on.
+pub(crate) fn open_comment(text: &str, from: usize) -> Option<usize> {
+    let mut tokens = Tokens::new(text, from);
+    tokens.by_ref().for_each(drop);
+    tokens.open
+}
+
 /// The name in quotes, if it can do without them: `"goal"` is `goal`, and `"goal room"` stays.
 pub(crate) fn unquoted(text: &str) -> &str {
     let name = text.strip_prefix('"').and_then(|text| text.strip_suffix('"')).unwrap_or(text);
@@ -163,12 +170,14 @@ fn begins_item(text: &str, token: Span) -> bool {
 pub(crate) struct Tokens<'a> {
     text: &'a str,
     at: usize,
+    /// The byte at which a comment begins that nothing ends, once it was met.
+    open: Option<usize>,
 }
 
 impl<'a> Tokens<'a> {
     /// The tokens of `text` from byte `at` on.
     pub(crate) fn new(text: &'a str, at: usize) -> Self {
-        Self { text, at }
+        Self { text, at, open: None }
     }
 
     /// Skips blanks, a byte order mark, and comments. Four slashes begin an ordinary comment, as in
@@ -182,8 +191,10 @@ impl<'a> Tokens<'a> {
                 || trimmed.starts_with("///") && !trimmed.starts_with("////");
             if trimmed.starts_with("//") && !doc {
                 self.at += trimmed.find('\n').unwrap_or(trimmed.len());
-            } else if trimmed.starts_with("/*") {
-                self.at += trimmed.find("*/").map_or(trimmed.len(), |end| end + 2);
+            } else if let Some(comment) = trimmed.strip_prefix("/*") {
+                let end = comment.find("*/");
+                self.open = self.open.or(end.is_none().then_some(self.at));
+                self.at += end.map_or(trimmed.len(), |end| end + 4);
             } else {
                 return;
             }

@@ -47,18 +47,22 @@
 mod column;
 mod compile;
 mod program;
+mod steps;
 
 use std::fmt;
 use std::sync::Arc;
 
 use tltl::robustness::{self, Predicates};
 use tltl_compiler::predicate::{ConditionId, Module, PredicateId, Scalar, Task};
+use tltl_compiler::proposition::Proposition;
+use tltl_compiler::spec::Spec;
 
 pub use column::{Column, Columns, Numbers, WrongLength};
 pub use program::Scratch;
 
 use compile::{Inputs, Reading};
 use program::Program;
+use steps::Steps;
 
 /// One number that the predicates of a task read from a state: one column.
 ///
@@ -250,6 +254,26 @@ impl Evaluator {
             predicates: roots.iter().map(single).collect(),
             inputs: inputs.inputs,
         })))
+    }
+
+    /// The formula alone, over the robustness of its propositions: each of them is an input, and
+    /// there are no predicates.
+    #[must_use]
+    pub(crate) fn of_formula(spec: &Spec) -> Self {
+        let input = |one: &Proposition| Input {
+            name: one.name.clone(),
+            kind: InputKind::Proposition,
+            unit: None,
+            values: Vec::new(),
+        };
+        let none = || Steps::default().program();
+        Self(Arc::new(Programs {
+            inputs: spec.propositions().iter().map(input).collect(),
+            truth: none(),
+            rho: none(),
+            formula: steps::over_propositions(spec),
+            predicates: Vec::new(),
+        }))
     }
 
     /// The numbers of a row, in the order of the columns. A place that several predicates read is

@@ -3,13 +3,16 @@
 //! Only blanks change. Line breaks stay where the author put them (at most one empty line in a
 //! row), a line that continues an item or stands within brackets is indented, and blanks stand as
 //! in the reference: around operators, none inside brackets. Comments, spellings (`◇` or `F`) and
-//! Rust code are kept.
+//! Rust code are kept. All lines end as the first one does, in `\n` or in `\r\n`; a byte order mark,
+//! which means nothing in UTF-8, is left out.
 //!
 //! It works on tokens and not on the syntax tree, which has no comments. Its safety is checked, not
 //! argued: the result is split into tokens again, and unless these are the tokens of the input, the
 //! input is left alone. Laying out twice changes nothing more. The cost is linear.
 
 mod lex;
+
+use std::borrow::Cow;
 
 use lex::{Kind, Token, lex};
 
@@ -30,6 +33,18 @@ const INDENT: usize = 4;
 /// ```
 #[must_use]
 pub fn format(text: &str) -> Option<String> {
+    let first = text.find('\n').unwrap_or_default();
+    let returns = text[..first].ends_with('\r');
+    let mut plain = Cow::Borrowed(text);
+    while plain.contains("\r\n") {
+        plain = Cow::Owned(plain.replace("\r\n", "\n"));
+    }
+    let laid_out = with_line_feeds(&plain)?;
+    Some(if returns { laid_out.replace('\n', "\r\n") } else { laid_out })
+}
+
+/// The same for a text whose lines end in `\n`.
+fn with_line_feeds(text: &str) -> Option<String> {
     let tokens = lex(text);
     let mut layout = Layout::default();
     for (at, token) in tokens.iter().enumerate() {
@@ -142,7 +157,7 @@ impl Layout<'_> {
     /// position of a field is none: `pose.0.1`.
     fn after_number(&self, before: Token<'_>) -> bool {
         let position = self.out[..self.out.len() - before.text.len()].ends_with('.');
-        before.text.starts_with(|c: char| c.is_ascii_digit())
+        before.text.starts_with(|c: char| c == '.' || c.is_ascii_digit())
             && (!position || before.text.contains('.'))
     }
 }
@@ -170,6 +185,14 @@ mod tests {
         let once = format(text).unwrap_or_else(|| panic!("{text}"));
         assert_eq!(format(&once).as_deref(), Some(once.as_str()), "laid out twice");
         once
+    }
+
+    #[test]
+    fn lines_end_as_the_first_one_does() {
+        let text = "\u{feff}/* one\r\n two */\r\ntask t=a\n&& b // so\r\n";
+        let expected = "/* one\r\n two */\r\ntask t = a\r\n    && b // so\r\n";
+        assert_eq!(laid_out(text), expected);
+        assert_eq!(laid_out("task t=a\n/* x\r\r\n*/"), "task t = a\n/* x\n*/\n");
     }
 
     #[test]
@@ -215,6 +238,8 @@ mod tests {
             ("task t=a R[0,1]-x<1<=>R-M<W", "task t = a R[0, 1] -x < 1 <=> R - M < W\n"),
             ("task t=G-1<x&&G!=2&&s.G(x)", "task t = G - 1 < x && G != 2 && s.G(x)\n"),
             ("task t=1.5 . x<pose . 0 . 1&&2 . y", "task t = 1.5 .x < pose.0.1 && 2 .y\n"),
+            ("task t=.51 .0<x", "task t = .51 .0 < x\n"),
+            ("task t=a /*/ b  c */&&d", "task t = a /*/ b  c */ && d\n"),
             ("task t=pose . F [ 2 ]-x<1", "task t = pose.F[2] - x < 1\n"),
             ("task t=F a\n# [ factored ]\ntask u=F b", "task t = F a\n#[factored]\ntask u = F b\n"),
             ("task t = for all in in R: F in", "task t = for all in in R: F in\n"),

@@ -26,7 +26,7 @@ use tltl_compiler::proposition::Proposition;
 use tltl_compiler::spec::{Formula, FormulaId, Spec};
 use tltl_compiler::translate::{Budget, translate};
 
-use crate::semantics;
+use crate::evaluate::{Columns, Evaluator, Scratch};
 
 /// The robustness of a formula on the states that have been read so far.
 ///
@@ -57,8 +57,8 @@ enum Way {
     /// and after a state is read.
     Runs { automaton: Arc<Automaton>, now: Vec<f64>, next: Vec<f64>, is_begun: bool },
     /// For a formula whose automaton over literals is larger than the budget allows: all that was
-    /// read, row after row.
-    All { spec: Arc<Spec>, rho: Vec<f64>, rows: usize },
+    /// read.
+    All(Recorded),
 }
 
 impl Online {
@@ -71,7 +71,7 @@ impl Online {
                 let dfa = Arc::new(minimize(&dfa));
                 Way::Thresholds { dfa, states: vec![(f64::INFINITY, 0)] }
             }
-            Err(_) => Way::All { spec: Arc::new(spec.clone()), rho: Vec::new(), rows: 0 },
+            Err(_) => Way::All(Recorded::new(spec)),
         })
     }
 
@@ -105,10 +105,7 @@ impl Online {
                 let Ok(()) = advance_runs(automaton, now, next, |i| Ok::<_, Infallible>(rho[i]));
                 std::mem::swap(now, next);
             }
-            Way::All { rho: all, rows, .. } => {
-                all.extend_from_slice(rho);
-                *rows += 1;
-            }
+            Way::All(recorded) => recorded.step(rho),
         }
     }
 
@@ -124,11 +121,44 @@ impl Online {
                 let accepting = automaton.accepting().filter(|_| *is_begun);
                 accepting.map_or(f64::NEG_INFINITY, |q| now[q as usize])
             }
-            Way::All { spec, rho, rows } => {
-                let width = spec.propositions().len();
-                semantics::robustness(spec, *rows, |p, t| rho[t * width + p as usize])
-            }
+            Way::All(recorded) => recorded.robustness(recorded.rows()),
         }
+    }
+}
+
+/// A trajectory as a whole, as the robustness of the propositions of a formula.
+#[derive(Clone, Debug)]
+pub(crate) struct Recorded {
+    formula: Evaluator,
+    /// Row after row.
+    rho: Vec<f64>,
+    rows: usize,
+}
+
+impl Recorded {
+    /// No states yet.
+    pub(crate) fn new(spec: &Spec) -> Self {
+        Self { formula: Evaluator::of_formula(spec), rho: Vec::new(), rows: 0 }
+    }
+
+    /// Reads one state.
+    pub(crate) fn step(&mut self, rho: &[f64]) {
+        self.rho.extend_from_slice(rho);
+        self.rows += 1;
+    }
+
+    /// The number of states that were read.
+    pub(crate) fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// The robustness of the first `rows` states, in one pass over them.
+    pub(crate) fn robustness(&self, rows: usize) -> f64 {
+        let width = self.formula.inputs().len();
+        let columns = Columns::of_rows(rows, width, &self.rho[..rows * width]);
+        let columns = columns.expect("whole rows were read");
+        let robustness = self.formula.robustness(&columns, &mut Scratch::default());
+        robustness.expect("there are no predicates")
     }
 }
 

@@ -26,6 +26,7 @@ mod file;
 mod plain;
 mod run;
 mod running;
+mod unmade;
 
 use tltl_compiler::translate::Budget;
 
@@ -35,6 +36,7 @@ pub use file::{BindError, CompileError, Entry, NoSuchTask, TaskFile};
 pub use plain::Task;
 pub use run::{Run, Verdict};
 pub use running::Running;
+pub use unmade::Unmade;
 
 pub(crate) use argument::listed;
 

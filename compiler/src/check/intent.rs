@@ -16,16 +16,26 @@ use crate::ast::{Ast, Infix, Node, NodeId, Prefix};
 use crate::error::{Error, Kind};
 use crate::parse;
 use crate::resolve::{Expression, ExpressionId, Resolved};
-use crate::token::compact;
+use crate::token::{compact, is_word_start};
 
 /// The error for an operator whose formulas no finite trajectory can establish.
 pub(super) fn unsupported(resolved: &Resolved<'_>, id: ExpressionId) -> Error {
     match resolved[id].expression {
         Expression::Infix(op, ..) => refused(resolved, id, op.symbol()),
+        _ if is_empty_bound(resolved, id) => refused(resolved, id, "G")
+            .help("for a bound, say which states count: `F[0,5]`; else leave the brackets out"),
         _ => refused(resolved, id, "G").help(
             "to keep `c` until the goals are reached, write `F a && F b ensuring c`; for ten steps, `G[0,10] c`",
         ),
     }
+}
+
+/// Whether the author may have meant `[]` for the bound of an operator right before it.
+fn is_empty_bound(resolved: &Resolved<'_>, id: ExpressionId) -> bool {
+    let before = &resolved.ast.source().text()[..resolved.operator(id).start];
+    let operator = before.trim_end_matches(['F', 'X', 'G']);
+    let is_word = before.len() - operator.len() == 1 && !operator.ends_with(is_word_start);
+    resolved.symbol(id) == "[]" && (is_word || before.ends_with(['◇', '○', '□']))
 }
 
 /// The error for an operator, without what to write instead.

@@ -19,7 +19,7 @@
 //! ```
 
 use super::item::place;
-use super::message;
+use super::{bound, foreign};
 use crate::ast::{
     Arithmetic, Ast, Bound, Comparison, End, Infix, Node, NodeId, Prefix, Quantifier,
 };
@@ -265,15 +265,18 @@ impl Yard<'_> {
     /// Ends an argument of a call.
     fn comma(&mut self, span: Span) -> Result<(), Error> {
         self.reduce_all();
-        match self.pending.last() {
-            Some(Pending::Call { .. }) => Ok(()),
-            _ => Err(Error::new(
+        if let Some(Pending::Call { .. }) = self.pending.last() {
+            return Ok(());
+        }
+        let text = self.ast.source().text();
+        Err(bound::elsewhere(text, self.at, span.start).unwrap_or_else(|| {
+            Error::new(
                 Kind::Syntax,
                 "a comma stands only between the arguments of a function",
                 span,
             )
-            .help("to ask for both, write `&&`; for one of the two, `||`")),
-        }
+            .help("to ask for both, write `&&`; for one of the two, `||`")
+        }))
     }
 
     /// Ends the innermost bracket with the `)` or `]` at `span`.
@@ -319,9 +322,9 @@ impl Yard<'_> {
         let callee = self.pop();
         let name = self.ast.span(callee);
         match self.ast.node(callee) {
-            Node::Name if message::is_unsupported(self.ast.text(callee)) => {
+            Node::Name if foreign::is_unsupported(self.ast.text(callee)) => {
                 let text = self.ast.text(callee);
-                return Err(message::unsupported(text, text, name));
+                return Err(foreign::unsupported(text, text, name));
             }
             Node::Name | Node::Field { .. } => {}
             _ => {

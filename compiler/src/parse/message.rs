@@ -16,19 +16,21 @@
 //! assert_ne!(message("a = b"), message("a b"), "a common slip has a sentence of its own");
 //! ```
 
+use super::bound;
+use super::foreign::{BINARY, foreign, is_unsupported, letter, ours, unsupported};
 use crate::error::{Error, Kind};
-use crate::grammar::{self, Rule, Stopped};
+use crate::grammar::{Rule, Stopped};
 use crate::source::{Source, Span};
 use crate::token::{self, Tokens};
 
 /// The words around the place at which parsing stopped.
-struct Found<'a> {
+pub(super) struct Found<'a> {
     /// The whole source.
-    text: &'a str,
+    pub(super) text: &'a str,
     /// The word before the place.
     before: Option<Span>,
     /// The word at the place.
-    here: Option<Span>,
+    pub(super) here: Option<Span>,
     /// The end of the word before.
     end: usize,
 }
@@ -50,7 +52,7 @@ impl<'a> Found<'a> {
     }
 
     /// The text of a token; empty if there is none.
-    fn word(&self, token: Option<Span>) -> &'a str {
+    pub(super) fn word(&self, token: Option<Span>) -> &'a str {
         token.map_or("", |token| &self.text[token.start..token.end])
     }
 
@@ -60,7 +62,7 @@ impl<'a> Found<'a> {
     }
 
     /// The word at the place, or the end of the text.
-    fn here_or_end(&self) -> Span {
+    pub(super) fn here_or_end(&self) -> Span {
         self.here.unwrap_or(Span::new(self.end, self.end))
     }
 
@@ -75,13 +77,12 @@ impl<'a> Found<'a> {
 pub(super) fn sentence(source: &Source, from: usize, stopped: &Stopped) -> Error {
     let found = Found::new(source.text(), from, from + stopped.at);
     let expected = &stopped.expected[..];
-    if let Some(error) = broken_step(&found, from) {
-        return error;
-    }
-    if let Some(error) = open_bound(&found, from).or_else(|| unsupported_here(&found)) {
-        return error;
-    }
-    if let Some(error) = foreign_here(&found) {
+    let known = broken_step(&found, from, expected)
+        .or_else(|| not_read(source, from, from + stopped.at))
+        .or_else(|| bound::misplaced(&found, from))
+        .or_else(|| unsupported_here(&found))
+        .or_else(|| foreign_here(&found));
+    if let Some(error) = known {
         return error;
     }
     if expected.contains(&Rule::truth) || expected.contains(&Rule::expression) {
@@ -93,15 +94,36 @@ pub(super) fn sentence(source: &Source, from: usize, stopped: &Stopped) -> Error
     }
 }
 
-/// A mistake in `step 0.1 s`, after its number.
-fn broken_step(found: &Found<'_>, from: usize) -> Option<Error> {
+/// A mistake in `step 0.1 s`.
+fn broken_step(found: &Found<'_>, from: usize, expected: &[Rule]) -> Option<Error> {
     let mut words = Tokens::new(found.text, from).map(|token| &found.text[token.start..token.end]);
-    let is_step =
-        words.next() == Some("step") && words.next()?.starts_with(|c: char| c.is_ascii_digit());
-    is_step.then(|| {
-        let message = "`step` takes a number and a unit, such as `step 0.1 s`";
-        Error::new(Kind::Syntax, message, found.here_or_end())
-    })
+    let is_step = words.next() == Some("step");
+    let has_number = words.next()?.starts_with(|c: char| c.is_ascii_digit());
+    let message = match found.word(found.here) {
+        _ if !is_step || !has_number && !expected.contains(&Rule::amount) => return None,
+        "/" | "*" | "^" | "×" | "÷" => "a step lasts a time, whose unit is one name, such as `s`",
+        _ => "`step` takes a number and a unit, such as `step 0.1 s`",
+    };
+    Some(Error::new(Kind::Syntax, message, found.here_or_end()))
+}
+
+/// A comment without an end, or a blank that is none here, where parsing stopped.
+fn not_read(source: &Source, from: usize, at: usize) -> Option<Error> {
+    let text = source.text();
+    if let Some(start) = token::open_comment(text, from) {
+        let message = "this comment is never closed";
+        return Some(
+            Error::new(Kind::Syntax, message, Span::new(start, start + 2))
+                .help("it ends where `*/` stands"),
+        );
+    }
+    let blank =
+        text[at..].chars().next().filter(|c| c.is_whitespace() && !" \t\r\n".contains(*c))?;
+    let message = format!("this blank is not an ordinary one, but U+{:04X}", u32::from(blank));
+    Some(
+        Error::new(Kind::Syntax, message, Span::new(at, at + blank.len_utf8()))
+            .help("it came with text from elsewhere: write an ordinary blank"),
+    )
 }
 
 /// An operator of another logic at the place where parsing stopped, or just before it.
@@ -128,96 +150,6 @@ fn foreign_here(found: &Found<'_>) -> Option<Error> {
     Some(foreign(word, found.text, span))
 }
 
-/// The error for the word or sign of another tool at `span` of a text.
-fn foreign(word: &str, text: &str, span: Span) -> Error {
-    let ours = ours(word).unwrap_or_default();
-    let message = format!("`{word}` is not an operator of this language: it is written `{ours}`");
-    let error = Error::new(Kind::Syntax, message, span);
-    match rewritten(text) {
-        Some(text) => error.help(format!("write `{text}`")),
-        None => error,
-    }
-}
-
-/// A formula with our operators in the place of those of other tools, if that is one and short
-/// enough to quote.
-fn rewritten(text: &str) -> Option<String> {
-    /// More than a reader takes in.
-    const MOST: usize = 100;
-    let mut rewritten = String::new();
-    let mut end = 0;
-    let wordy = |c: char| c.is_alphanumeric() || c == '_';
-    for token in Tokens::new(text.get(..text.len().min(MOST + 1))?, 0) {
-        rewritten.push_str(&text[end..token.start]);
-        let word = &text[token.start..token.end];
-        let word = ours(word).unwrap_or(word);
-        if rewritten.ends_with(wordy) && word.starts_with(wordy) {
-            rewritten.push(' ');
-        }
-        rewritten.push_str(word);
-        end = token.end;
-    }
-    let is_one = text.len() <= MOST && grammar::parse(Rule::formula, &rewritten).is_ok();
-    is_one.then(|| rewritten.trim().to_owned())
-}
-
-/// Our operator for a word or a sign that other tools, and papers, have for it.
-fn ours(word: &str) -> Option<&'static str> {
-    Some(match word {
-        "eventually" | "finally" | "sometime" | "⋄" | "♢" | "◊" => "F",
-        "next" => "X",
-        "until" => "U",
-        "implies" | "==>" | "⟹" => "=>",
-        "iff" | "<==>" | "⟺" => "<=>",
-        "/\\" => "&&",
-        "\\/" => "||",
-        _ => return None,
-    })
-}
-
-/// The error for a call of an operator that other tools write as a word, `always(p)`, at `span` of a
-/// text.
-pub(crate) fn foreign_call(word: &str, text: &str, span: Span) -> Option<Error> {
-    if is_unsupported(word) {
-        return Some(unsupported(word, word, span));
-    }
-    ours(word).map(|_| foreign(word, text, span))
-}
-
-/// A mistake in the brackets after an operator, which hold its bound.
-fn open_bound(found: &Found<'_>, from: usize) -> Option<Error> {
-    let at = found.here_or_end().start;
-    let (mut before, mut open) = ("", None);
-    for token in Tokens::new(found.text, from).take_while(|token| token.start < at) {
-        let word = &found.text[token.start..token.end];
-        match word {
-            "[" if takes_bound(before) => open = Some((before, token)),
-            "]" => open = None,
-            _ => {}
-        }
-        before = word;
-    }
-    let (operator, bracket) = open?;
-    let span = bracket.to(found.here_or_end());
-    let here = found.word(found.here);
-    Some(if here == "!" {
-        let message =
-            format!("`{operator}[!]` is strong elsewhere, and `{operator}` is always strong here");
-        Error::new(Kind::Syntax, message, span)
-            .help(format!("write `{operator}` without the brackets"))
-    } else {
-        let message = format!("this is not a bound of `{operator}`");
-        Error::new(Kind::Syntax, message, span).help(format!(
-            "a bound is written `{operator}[1,5]`, `{operator}[<=5]`, or with times `{operator}[0.1 s, 0.5 s]`"
-        ))
-    })
-}
-
-/// Whether `word` is an operator that can have a bound.
-fn takes_bound(word: &str) -> bool {
-    matches!(word, "F" | "X" | "G" | "U" | "T" | "R" | "W" | "M" | "◇" | "<>" | "○" | "□" | "[]")
-}
-
 /// The error where an operand should start.
 fn operand_missing(found: &Found<'_>) -> Error {
     let (before, here) = (found.word(found.before), found.word(found.here));
@@ -240,10 +172,6 @@ fn operand_missing(found: &Found<'_>) -> Error {
         _ if is_infix(here) && (before.is_empty() || matches!(before, "(" | "=" | "|")) => {
             let error = syntax(format!("`{here}` has nothing on its left"), found.here_or_end());
             rust_in_braces(word_as_name(error, here), here)
-        }
-        _ if takes_bound(before) && matches!(here, "<=" | "≤" | "<" | "{") => {
-            syntax(format!("the bound of `{before}` stands in brackets"), found.here_or_end())
-                .help(format!("such as `{before}[<=5]` or `{before}[1,5]`"))
         }
         _ if is_infix(before) || is_prefix(before) => after_operator(found),
         ("=", _) => {
@@ -316,9 +244,6 @@ fn operator_missing(found: &Found<'_>) -> Error {
 /// The error for two operands with no operator between them.
 fn between(found: &Found<'_>) -> Error {
     let (before, here) = (found.word(found.before), found.word(found.here));
-    if let Some(error) = braced_bound(found) {
-        return error;
-    }
     let message = format!("an operator is missing between `{before}` and `{here}`");
     Error::new(Kind::Syntax, message, found.here_or_end())
         .related(found.gap(), "this is complete")
@@ -334,22 +259,6 @@ pub(crate) fn apart(word: &str) -> Option<String> {
     let glued =
         operators.len() > 1 && operators.iter().all(|one| matches!(&one[..], "F" | "X" | "G"));
     glued.then(|| operators.join(" "))
-}
-
-/// The error for `F{1,5} a`: other tools write bounds in braces.
-fn braced_bound(found: &Found<'_>) -> Option<Error> {
-    let end = found.before.filter(|_| found.word(found.before) == "}")?.start;
-    let start = found.text[..end].rfind('{')?;
-    let bound = found.text[start + 1..end].trim();
-    let is_bound = bound.chars().all(|c| c.is_ascii_digit() || ", ".contains(c));
-    let operator = Tokens::new(found.text, 0).take_while(|token| token.end <= start).last()?;
-    let operator = &found.text[operator.start..operator.end];
-    (is_bound && takes_bound(operator)).then(|| {
-        let at_most = if operator == "T" && !bound.contains(',') { "<=" } else { "" };
-        let message = format!("the bound of `{operator}` stands in square brackets");
-        Error::new(Kind::Syntax, message, Span::new(start, end + 1))
-            .help(format!("write `{operator}[{at_most}{bound}]`"))
-    })
 }
 
 /// The error for `=` in an expression.
@@ -373,6 +282,11 @@ fn other(found: &Found<'_>, expected: &[Rule]) -> Error {
         let message = format!("the field `{here}` needs a type");
         return Error::new(Kind::Syntax, message, found.here_or_end())
             .help(format!("such as `{here}: f64`"));
+    }
+    if found.word(found.before) == "in" && matches!(here, "-" | "−") {
+        let message = "the numbers of a range are not negative";
+        return Error::new(Kind::Syntax, message, found.here_or_end())
+            .help("count from 0, and subtract where the number is used: `i - 2`");
     }
     if let Some(error) = broken_unit(found, expected) {
         return error;
@@ -442,79 +356,4 @@ fn is_infix(word: &str) -> bool {
         "<=", "≤", ">=", "≥", "<", ">", "+", "-", "−", "*", "×", "/", "÷", "<=>", "<->",
     ];
     WORDS.contains(&word)
-}
-
-/// Those operators of other logics that stand between two operands.
-const BINARY: [&str; 4] = ["R", "W", "M", "S"];
-
-/// The letter of an operator of other logics, for which some tools have a word.
-fn letter(word: &str) -> &str {
-    match word {
-        "[]" | "□" | "always" | "globally" | "henceforth" => "G",
-        "V" | "release" | "releases" => "R",
-        "unless" => "W",
-        "WX" => "N",
-        "yesterday" | "previous" => "Y",
-        "once" => "O",
-        "historically" => "H",
-        "since" => "S",
-        other => other,
-    }
-}
-
-/// Whether `word` is an operator of another temporal logic.
-pub(super) fn is_unsupported(word: &str) -> bool {
-    unsupported_reason(word).is_some()
-}
-
-/// The meaning of the operator elsewhere, the reason why it is not here, and what to write instead.
-fn unsupported_reason(word: &str) -> Option<(&'static str, &'static str, &'static str)> {
-    const NEVER: &str =
-        "no finite trajectory can ever establish it, for the next state may break it";
-    const PAST: &str = "it looks back, and the automaton reads the trajectory forwards";
-    const AVOID: &str = "to stay out of `b` until `a`, write `!b U a`";
-    Some(match letter(word) {
-        "G" => ("always", NEVER, AVOID),
-        "N" => (
-            "weak next",
-            "it would hold at the end of a trajectory, and no prefix knows that it is the whole",
-            "`X` is strong: it asks for a next state",
-        ),
-        "R" => (
-            "release",
-            NEVER,
-            "if `b` must hold up to and including an `a` that comes, write `b U (a && b)`",
-        ),
-        "W" => ("weak until", NEVER, "if `b` must come, write `a U b`"),
-        "M" => ("strong release", "it is `U` in other words", "for `a M b` write `b U (a && b)`"),
-        "Y" => ("yesterday", PAST, "for `a` and `b` in consecutive states, write `F (a && X b)`"),
-        "O" => ("once in the past", PAST, "for `a` before `b`, write `a T b`"),
-        "H" => (
-            "always in the past",
-            PAST,
-            "to keep `c` until a goal is reached, write `F goal ensuring c`",
-        ),
-        "S" => ("since", PAST, "turn it around: `a U b` looks forwards"),
-        _ => return None,
-    })
-}
-
-/// What to write instead of an operator with a bound, which a finite trajectory can establish.
-fn bounded_rewrite(word: &str) -> Option<&'static str> {
-    match letter(word) {
-        "R" => Some("for `a R[0,5] b` write `G[0,5] b || b U[0,5] (a && b)`"),
-        "W" => Some("for `a W[0,5] b` write `G[0,5] a || a U[0,5] b`"),
-        "M" => Some("for `a M[0,5] b` write `b U[0,5] (a && b)`"),
-        _ => None,
-    }
-}
-
-/// The error for the operator `word` of another temporal logic, which the source has as `text`.
-pub(crate) fn unsupported(word: &str, text: &str, span: Span) -> Error {
-    let (meaning, mut reason, mut rewrite) = unsupported_reason(word).unwrap_or(("", "", ""));
-    if let Some(bounded) = text.ends_with(']').then(|| bounded_rewrite(word)).flatten() {
-        (reason, rewrite) = ("with a bound it is `U` and `G` in other words", bounded);
-    }
-    let message = format!("`{text}` (\"{meaning}\") is not an operator of this language: {reason}");
-    Error::new(Kind::UnsupportedOperator, message, span).help(rewrite)
 }

@@ -1,7 +1,7 @@
 //! The arguments of a task on the command line: `deliver(apple, fridge)`, as one task calls another
 //! in the language.
 
-use crate::task::{Entry, Value, listed};
+use crate::task::{Parameter, Value, listed};
 
 /// The name and the arguments of `name(argument, …)`; no arguments if there are no brackets. No
 /// argument has a comma in it: values are names and numbers.
@@ -15,11 +15,14 @@ pub(super) fn split(text: &str) -> Result<(&str, Option<Vec<&str>>), String> {
     Ok((name.trim(), Some(given)))
 }
 
-/// The arguments, given by position, with the names of the parameters.
-pub(super) fn named<'a>(entry: &'a Entry, given: &[&str]) -> Result<Vec<(&'a str, Value)>, String> {
-    let parameters = &entry.task().parameters;
-    let (count, takes) = (given.len(), listed(&entry.parameters()));
-    let name = entry.name().unwrap_or("the formula");
+/// The arguments, given by position, with the names of the parameters of a task.
+pub(super) fn named<'a>(
+    name: Option<&str>,
+    parameters: &'a [Parameter],
+    given: &[&str],
+) -> Result<Vec<(&'a str, Value)>, String> {
+    let (count, takes) = (given.len(), listed(parameters));
+    let name = name.unwrap_or("the formula");
     if count == parameters.len() {
         let names = parameters.iter().map(|parameter| parameter.name.as_str());
         return Ok(names.zip(given.iter().map(|&text| Value::from(text))).collect());

@@ -5,7 +5,7 @@ use std::fmt::Display;
 
 use tltl_compiler::dfa::{Automata, Dfa};
 use tltl_compiler::error::{Error, Kind, Style};
-use tltl_compiler::source::Span;
+use tltl_compiler::source::{Source, Span};
 use tltl_compiler::translate::Budget;
 
 use crate::emit::{dot, hoa, json, mermaid, rust, svg, text};
@@ -29,8 +29,9 @@ pub(super) fn run(arguments: &Automaton, streams: &mut Streams<'_>) -> Outcome {
         return single(arguments, formula, budget, streams);
     }
     let Some(path) = &arguments.file else { return Err("there is no formula and no file".into()) };
-    match input::file(path, budget, streams)? {
-        // Rust is of the file as a whole.
+    // Rust is of the file as a whole.
+    let task = arguments.task.as_deref().filter(|_| arguments.format != Format::Rust);
+    match input::file(path, task, budget, streams)?.whole(streams)? {
         Some(File::Tasks(file)) if arguments.format == Format::Rust => {
             streams.print(&rust::file(file.compiled()))
         }
@@ -89,24 +90,30 @@ fn formulas(
     }
     let mut all_well = true;
     let is_formula =
-        |line: &&str| !line.trim().is_empty() && !line.trim_start().starts_with(['#', '/']);
-    for formula in list.lines().filter(is_formula) {
-        let shown = one_of_many(arguments, formula, budget);
+        |line: &str| !line.trim().is_empty() && !line.trim_start().starts_with(['#', '/']);
+    for (number, formula) in list.lines().enumerate().filter(|(_, line)| is_formula(line)) {
+        let shown = one_of_many(arguments, (number, formula), budget);
         all_well &= shown.is_ok();
         streams.print(&shown.unwrap_or_else(|failure| failure))?;
     }
     Ok(Exit::of(all_well))
 }
 
-/// One formula of a list; `Err` is the report of a mistake.
-fn one_of_many(arguments: &Automaton, formula: &str, budget: Budget) -> Result<String, String> {
-    let json = arguments.format == Format::Json;
+/// One formula of a list, behind that many other lines; `Err` is the report of a mistake.
+fn one_of_many(
+    arguments: &Automaton,
+    (line, formula): (usize, &str),
+    budget: Budget,
+) -> Result<String, String> {
     let file = TaskFile::of_formula(formula, budget).map_err(|error| {
         let first = error.errors().first();
-        if json {
-            json::failure(formula, first)
-        } else {
-            first.render(error.source_text(), Style::Plain)
+        match (arguments.format, &arguments.formulas) {
+            (Format::Text, Some(list)) => {
+                let before = "\n".repeat(line);
+                let source = Source::new(list.display().to_string(), before + formula);
+                first.clone().moved(line).render(&source, Style::Plain)
+            }
+            _ => json::failure(formula, first),
         }
     })?;
     let entry = subject::choose(&file, None, "")?;

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use tltl_compiler::dfa::Dfa;
 use tltl_compiler::error::{Error, Errors};
 use tltl_compiler::hoa;
+use tltl_compiler::predicate::Module;
 use tltl_compiler::source::Source;
 use tltl_compiler::translate::Budget;
 
@@ -30,14 +31,69 @@ pub(super) struct Foreign {
     pub(super) dfa: Dfa,
 }
 
-/// Reads a file and reports its mistakes and warnings; `None` if there are mistakes.
+/// What can be made of a source.
+pub(super) enum Made<T> {
+    /// All that was asked for.
+    Whole(T),
+    /// Nothing, for it has mistakes, which were reported.
+    Mistaken,
+    /// No automata, which are larger than the budget allows. This was not reported.
+    TooLarge(CompileError, Box<Module>),
+}
+
+impl<T> Made<T> {
+    /// The same, where only the whole will do: what is too large is reported as a mistake.
+    pub(super) fn whole(self, streams: &mut Streams<'_>) -> Result<Option<T>, String> {
+        match self {
+            Self::Whole(whole) => Ok(Some(whole)),
+            Self::Mistaken => Ok(None),
+            Self::TooLarge(error, _) => mistaken(&error, Report::Human, streams),
+        }
+    }
+
+    /// The same with something else in the place of the whole.
+    pub(super) fn map<U>(
+        self,
+        map: impl FnOnce(T) -> Result<U, String>,
+    ) -> Result<Made<U>, String> {
+        Ok(match self {
+            Self::Whole(whole) => Made::Whole(map(whole)?),
+            Self::Mistaken => Made::Mistaken,
+            Self::TooLarge(error, module) => Made::TooLarge(error, module),
+        })
+    }
+}
+
+/// Reads a file for one of its tasks, or for all of them, and reports its mistakes and warnings.
 pub(super) fn file(
     path: &Path,
+    task: Option<&str>,
     budget: Budget,
     streams: &mut Streams<'_>,
-) -> Result<Option<File>, String> {
+) -> Result<Made<File>, String> {
     let source = Source::new(path.display().to_string(), streams.read(path)?);
-    compiled(path, source, budget, Report::Human, streams)
+    if let Some(automaton) = automaton(path, &source) {
+        let read = judged(&source, automaton, Report::Human, streams)?;
+        return Ok(read.map_or(Made::Mistaken, Made::Whole));
+    }
+    let tasks = match task {
+        Some(task) => TaskFile::with_task(source, task, budget),
+        None => TaskFile::new(source, budget),
+    };
+    made(tasks, streams)?.map(|tasks| Ok(File::Tasks(tasks)))
+}
+
+/// Reports mistakes, or warnings if there are none, but not that an automaton is too large.
+pub(super) fn made(
+    result: Result<TaskFile, CompileError>,
+    streams: &mut Streams<'_>,
+) -> Result<Made<TaskFile>, String> {
+    if let Err(error) = &result
+        && let Some(module) = error.module()
+    {
+        return Ok(Made::TooLarge(error.clone(), Box::new(module)));
+    }
+    Ok(reported(result, Report::Human, streams)?.map_or(Made::Mistaken, Made::Whole))
 }
 
 /// Checks each file; the exit code says whether all are free of mistakes. Warnings are reported and
@@ -51,30 +107,25 @@ pub(super) fn check(
     let mut all_well = true;
     for path in paths {
         let source = Source::new(path.display().to_string(), streams.read(path)?);
-        all_well &= compiled(path, source, budget, report, streams)?.is_some();
+        all_well &= match automaton(path, &source) {
+            Some(automaton) => judged(&source, automaton, report, streams)?.is_some(),
+            None => reported(TaskFile::new(source, budget), report, streams)?.is_some(),
+        };
     }
     Ok(Exit::of(all_well))
 }
 
-/// Compiles a file. One that begins with `HOA:`, or is called so, is an automaton.
-fn compiled(
-    path: &Path,
-    source: Source,
-    budget: Budget,
-    report: Report,
-    streams: &mut Streams<'_>,
-) -> Result<Option<File>, String> {
+/// The automaton that a file is, if it begins with `HOA:` or is called so.
+fn automaton(path: &Path, source: &Source) -> Option<Result<File, Errors>> {
     let start = source.text().trim_start_matches('\u{feff}').trim_start();
-    if start.starts_with("HOA:") || path.extension().is_some_and(|extension| extension == "hoa") {
-        let read = hoa::read(&source).map_err(Errors::from);
-        let read = judged(&source, read, report, streams)?;
-        let stem = || path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let named =
-            |read: hoa::Automaton| Foreign { name: read.name.unwrap_or_else(stem), dfa: read.dfa };
-        return Ok(read.map(named).map(Box::new).map(File::Automaton));
+    if !start.starts_with("HOA:") && path.extension().is_none_or(|extension| extension != "hoa") {
+        return None;
     }
-    let tasks = reported(TaskFile::new(source, budget), report, streams)?;
-    Ok(tasks.map(File::Tasks))
+    let stem = || path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let named =
+        |read: hoa::Automaton| Foreign { name: read.name.unwrap_or_else(stem), dfa: read.dfa };
+    let read = hoa::read(source).map_err(Errors::from);
+    Some(read.map(named).map(Box::new).map(File::Automaton))
 }
 
 /// Reports mistakes, or warnings if there are none; `None` if there are mistakes.
@@ -89,8 +140,17 @@ pub(super) fn reported(
             warnings.try_for_each(|warning| show(file.source(), &warning, report, streams))?;
             Ok(Some(file))
         }
-        Err(error) => judged(error.source_text(), Err(error.errors().clone()), report, streams),
+        Err(error) => mistaken(&error, report, streams),
     }
+}
+
+/// Reports the mistakes of a source.
+fn mistaken<T>(
+    error: &CompileError,
+    report: Report,
+    streams: &mut Streams<'_>,
+) -> Result<Option<T>, String> {
+    judged(error.source_text(), Err(error.errors().clone()), report, streams)
 }
 
 /// Reports the mistakes of any stage; `None` if there are any.

@@ -11,6 +11,7 @@ mod delimited;
 mod json;
 mod lines;
 mod place;
+mod unique;
 
 use std::fmt;
 use std::io::BufRead;

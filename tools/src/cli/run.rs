@@ -5,6 +5,7 @@
 //!
 //! A recording is read, evaluated and written block by block, so memory does not grow with it.
 
+mod followed;
 mod reading;
 mod written;
 
@@ -14,35 +15,27 @@ use tltl_compiler::translate::Budget;
 use crate::emit::labels::MOST_PRODUCTS;
 
 use crate::evaluate::{Input, Scratch};
-use crate::online::Online;
-use crate::task::{Bound, Running};
+use crate::task::{Bound, Unmade};
 
-use super::input::Foreign;
+use super::input::{Foreign, Made};
 use super::record::{At, Place, Record};
 use super::streams::open;
 use super::subject::{self, Subject};
 use super::{Exit, Outcome, Run, Streams, arguments};
 
+use followed::Followed;
 use reading::{Read, Reading};
 use written::Writer;
 
 /// The rows of a block: as many as the evaluator has in one of its own, several times.
 const BLOCK: usize = 1 << 12;
 
-/// A trajectory on its way through the automaton.
-struct Followed<'a> {
-    /// What it is called among several.
-    name: String,
-    running: Running<'a>,
-    online: Online,
-}
-
 /// Runs the trajectories that the arguments name, and shows the results.
 pub(super) fn run(run: &Run, streams: &mut Streams<'_>) -> Outcome {
     let Some(reading) = reading(run, streams)? else { return Ok(Exit::Mistaken) };
     let map = map(run, streams)?;
     let places = places(run, &reading.inputs, &map)?;
-    let mut writer = Writer::new(run, &reading.title);
+    let mut writer = Writer::new(run, &reading);
     for path in &run.traces {
         let name = path.display().to_string();
         let record = Record::new(&name, open(streams.input, path)?, &places)?;
@@ -51,7 +44,7 @@ pub(super) fn run(run: &Run, streams: &mut Streams<'_>) -> Outcome {
         if following.followed.is_empty() {
             return Err(format!("{name}: a trajectory has at least one state, and this has none"));
         }
-        following.followed.iter().for_each(|followed| writer.verdict(followed));
+        following.followed.iter_mut().for_each(|followed| writer.verdict(followed));
     }
     streams.print(&writer.end())?;
     Ok(Exit::of(writer.all_satisfied()))
@@ -67,18 +60,34 @@ fn reading(run: &Run, streams: &mut Streams<'_>) -> Result<Option<Reading>, Stri
     };
     // Guards are needed, so edges and products count.
     let budget = run.limits.over(Budget { edges: MOST_PRODUCTS, ..Budget::SHOWN });
-    let entry = match subject::read(subject, name, budget, streams)? {
-        None => return Ok(None),
-        Some(Subject::Task(entry)) => entry,
-        Some(Subject::Automaton(automaton)) => {
-            return Reading::of_automaton(*automaton).map(Some);
+    let given = given.unwrap_or_default();
+    match subject::read_any(subject, name, budget, streams)? {
+        Made::Mistaken => Ok(None),
+        Made::Whole(Subject::Automaton(automaton)) => Reading::of_automaton(*automaton).map(Some),
+        Made::Whole(Subject::Task(entry)) => {
+            subject::automata(&entry)?;
+            let parameters = entry.parameters();
+            let named = arguments::named(entry.name(), &parameters, &given)?;
+            match entry.bind(&named).map_err(|error| error.to_string())? {
+                Bound::Plain(task) => Ok(Some(Reading::of_task(&task))),
+                Bound::Factored(_) => {
+                    unreachable!("a task with automata of its own is not factored")
+                }
+            }
         }
-    };
-    subject::automata(&entry)?;
-    let named = arguments::named(&entry, given.as_deref().unwrap_or_default())?;
-    match entry.bind(&named).map_err(|error| error.to_string())? {
-        Bound::Plain(task) => Ok(Some(Reading::of_task(&task))),
-        Bound::Factored(_) => unreachable!("a task with automata of its own is not factored"),
+        Made::TooLarge(error, module) => {
+            let unmade = Unmade::new(*module, name)
+                .map_err(|error| subject::missing(&error, " as FILE:TASK"))?;
+            let parameters = unmade.parameters();
+            let named = arguments::named(unmade.task().name.as_deref(), &parameters, &given)?;
+            let evaluator = unmade.bind(&named).map_err(|error| error.to_string())?;
+            let message = error.errors().first().message();
+            streams.complain(&format!(
+                "tltlc: {message}; without it there are verdict and robustness, but no states and no \
+                 progress, and what is not satisfied may be lost"
+            ));
+            Ok(Some(Reading::of_unmade(&unmade, evaluator, &named)))
+        }
     }
 }
 
@@ -177,9 +186,7 @@ impl<'a> Following<'a> {
             Some(column) => format!("{}: {column} {episode}", self.file),
             None => self.file.to_owned(),
         };
-        let running = Running::new(&self.reading.automaton);
-        let online = self.reading.online.clone();
-        self.followed.push(Followed { name, running, online });
+        self.followed.push(Followed::new(name, self.reading));
         self.known.insert(episode.to_owned(), self.followed.len() - 1);
         self.followed.len() - 1
     }
@@ -192,7 +199,7 @@ impl<'a> Following<'a> {
         writer: &mut Writer<'_>,
     ) -> Result<(), String> {
         let read = self.reading.read(&block.values, block.rows.len(), scratch).map_err(|nan| {
-            let predicate = &self.reading.automaton.propositions()[nan.predicate as usize];
+            let predicate = &self.reading.propositions[nan.predicate as usize];
             let (file, at) = (self.file, block.rows[nan.row].0);
             format!("{file}{at}: the predicate `{predicate}` is not a number (NaN) there")
         })?;
@@ -200,8 +207,7 @@ impl<'a> Following<'a> {
         for (row, &(_, trajectory)) in block.rows.iter().enumerate() {
             let (from, to) = (row * width, (row + 1) * width);
             let followed = &mut self.followed[trajectory];
-            let progress = followed.running.step(&labels[from..to], &rho[from..to]);
-            followed.online.step(&rho[from..to]);
+            let progress = followed.step(&labels[from..to], &rho[from..to]);
             writer.row(followed, progress);
         }
         Ok(())

@@ -10,8 +10,8 @@ use tltl_compiler::translate::Budget;
 
 use crate::task::{Entry, NoSuchTask, TaskFile};
 
-use super::input::{self, File, Foreign};
-use super::{Report, Streams};
+use super::Streams;
+use super::input::{self, File, Foreign, Made};
 
 /// A subject that was read.
 pub(super) enum Subject {
@@ -29,13 +29,22 @@ pub(super) fn read(
     budget: Budget,
     streams: &mut Streams<'_>,
 ) -> Result<Option<Subject>, String> {
+    read_any(text, task, budget, streams)?.whole(streams)
+}
+
+/// The same where a task will do whose automaton is larger than the budget allows.
+pub(super) fn read_any(
+    text: &str,
+    task: Option<&str>,
+    budget: Budget,
+    streams: &mut Streams<'_>,
+) -> Result<Made<Subject>, String> {
     let (path, named) = split(text);
     if exists(path) || looks_like_file(path) || task.is_some() {
         return file(path, once(named, task)?, budget, streams);
     }
-    let formula = TaskFile::of_formula(text, budget);
-    let formula = input::reported(formula, Report::Human, streams)?;
-    formula.map(|formula| choose(&formula, None, "").map(Subject::Task)).transpose()
+    let formula = input::made(TaskFile::of_formula(text, budget), streams)?;
+    formula.map(|formula| choose(&formula, None, "").map(Subject::Task))
 }
 
 /// `FILE:TASK` in its two parts; any other text is the first of them. Arguments may follow the task
@@ -79,26 +88,30 @@ fn file(
     name: Option<&str>,
     budget: Budget,
     streams: &mut Streams<'_>,
-) -> Result<Option<Subject>, String> {
-    Ok(match input::file(Path::new(path), budget, streams)? {
-        None => None,
-        Some(File::Tasks(file)) => Some(Subject::Task(choose(&file, name, " as FILE:TASK")?)),
-        Some(File::Automaton(_)) if name.is_some() => {
-            return Err(format!("{path} is an automaton: it has no tasks with names"));
+) -> Result<Made<Subject>, String> {
+    input::file(Path::new(path), name, budget, streams)?.map(|file| match file {
+        File::Tasks(file) => choose(&file, name, " as FILE:TASK").map(Subject::Task),
+        File::Automaton(_) if name.is_some() => {
+            Err(format!("{path} is an automaton: it has no tasks with names"))
         }
-        Some(File::Automaton(automaton)) => Some(Subject::Automaton(automaton)),
+        File::Automaton(automaton) => Ok(Subject::Automaton(automaton)),
     })
 }
 
 /// The task of that name, or the only one if no name is given. `how` tells how to name one.
 pub(super) fn choose(file: &TaskFile, name: Option<&str>, how: &str) -> Result<Entry, String> {
-    file.find(name).map_err(|error| match error {
+    file.find(name).map_err(|error| missing(&error, how))
+}
+
+/// The message for a file without the task that was asked for.
+pub(super) fn missing(error: &NoSuchTask, how: &str) -> String {
+    match error {
         NoSuchTask::Several(names) => {
             let names = names.join(", ");
             format!("the file has several tasks; choose one{how}: {names}")
         }
         error => error.to_string(),
-    })
+    }
 }
 
 /// The automata of a task, or the reason why a factored one has none.

@@ -9,16 +9,15 @@
 use std::hash::Hash;
 
 use rustc_hash::{FxHashMap, FxHashSet};
-use tltl::robustness::Window;
 use tltl_compiler::ast::{Arithmetic, Comparison};
 use tltl_compiler::predicate::{
     Condition, ConditionId, Function, Module, Number, Scalar, State, Step as PlaceStep, Struct,
     Task, Term, TermId, Type,
 };
-use tltl_compiler::spec::{Formula, FormulaId, Spec};
 use tltl_compiler::unit::Unit;
 
-use super::program::{Operand, Operation, Program, Step};
+use super::program::{Operand, Operation, Program};
+use super::steps::Steps;
 use super::{Input, InputKind, Unreadable};
 
 /// The reading of a predicate that is computed: a number, or a truth value.
@@ -144,7 +143,7 @@ pub(super) fn predicates(
 ) -> Program {
     let mut compiler = Compiler::new(module, inputs, reading);
     compiler.predicates(roots);
-    Program::new(compiler.steps)
+    compiler.steps.program()
 }
 
 /// Compiles the formula of a task: the outputs are the robustness of each predicate, and after
@@ -157,17 +156,16 @@ pub(super) fn formula(
 ) -> Program {
     let mut compiler = Compiler::new(module, inputs, Reading::Robustness);
     let predicates = compiler.predicates(roots);
-    compiler.formula(&task.spec, &predicates);
-    Program::new(compiler.steps)
+    compiler.steps.formula(&task.spec, &predicates, predicates.len() as u32);
+    compiler.steps.program()
 }
 
-/// The steps so far, and the results that are known. The register of a result is the number of its
-/// step; [`Program::new`] allocates real registers.
+/// The steps so far, and the results that are known.
 struct Compiler<'a> {
     module: &'a Module,
     inputs: &'a Inputs,
     reading: Reading,
-    steps: Vec<Step>,
+    steps: Steps,
     terms: FxHashMap<TermId, Operand>,
     conditions: FxHashMap<ConditionId, Operand>,
 }
@@ -178,26 +176,9 @@ impl<'a> Compiler<'a> {
             module,
             inputs,
             reading,
-            steps: Vec::new(),
+            steps: Steps::default(),
             terms: FxHashMap::default(),
             conditions: FxHashMap::default(),
-        }
-    }
-
-    fn step(&mut self, operation: Operation, a: Operand, b: Operand) -> Operand {
-        self.steps.push(Step::new(operation, a, b));
-        Operand::Register(self.steps.len() as u32 - 1)
-    }
-
-    fn unary(&mut self, operation: Operation, a: Operand) -> Operand {
-        self.step(operation, a, Operand::Constant(0.0))
-    }
-
-    /// An operand as the result of a step: operations that relate rows take no constants.
-    fn result(&mut self, operand: Operand) -> Operand {
-        match operand {
-            Operand::Register(_) => operand,
-            Operand::Constant(_) => self.unary(Operation::Copy, operand),
         }
     }
 
@@ -207,8 +188,8 @@ impl<'a> Compiler<'a> {
         let mut known = Vec::with_capacity(roots.len());
         for (output, &root) in (0..).zip(roots) {
             let operand = self.condition(root);
-            let operand = self.result(operand);
-            self.unary(Operation::Emit(output), operand);
+            let operand = self.steps.result(operand);
+            self.steps.unary(Operation::Emit(output), operand);
             known.push(operand);
         }
         known
@@ -238,9 +219,9 @@ impl<'a> Compiler<'a> {
         let of = |id: ConditionId| self.conditions[&id];
         match *self.module.arena.condition(id) {
             Condition::Truth(value) => self.truth(value),
-            Condition::Not(a) => self.unary(Operation::Negate, of(a)),
-            Condition::And(a, b) => self.step(Operation::Least, of(a), of(b)),
-            Condition::Or(a, b) => self.step(Operation::Greatest, of(a), of(b)),
+            Condition::Not(a) => self.steps.unary(Operation::Negate, of(a)),
+            Condition::And(a, b) => self.steps.step(Operation::Least, of(a), of(b)),
+            Condition::Or(a, b) => self.steps.step(Operation::Greatest, of(a), of(b)),
             Condition::Compare(comparison, a, b) => {
                 let operands = (self.term(a), self.term(b));
                 if self.module.arena.is_value(a) {
@@ -270,9 +251,9 @@ impl<'a> Compiler<'a> {
 
     /// The equality of two values of an enumeration or two truth values: its robustness is ±1.
     fn values(&mut self, comparison: Comparison, (a, b): (Operand, Operand)) -> Operand {
-        let same = self.step(Operation::Same, a, b);
+        let same = self.steps.step(Operation::Same, a, b);
         match comparison {
-            Comparison::Unequal => self.unary(Operation::Negate, same),
+            Comparison::Unequal => self.steps.unary(Operation::Negate, same),
             _ => same,
         }
     }
@@ -281,24 +262,24 @@ impl<'a> Compiler<'a> {
     /// truth never disagree after rounding.
     fn compare(&mut self, comparison: Comparison, (a, b): (Operand, Operand)) -> Operand {
         let rho = match comparison {
-            Comparison::Less | Comparison::AtMost => self.step(Operation::Subtract, b, a),
-            Comparison::Greater | Comparison::AtLeast => self.step(Operation::Subtract, a, b),
+            Comparison::Less | Comparison::AtMost => self.steps.step(Operation::Subtract, b, a),
+            Comparison::Greater | Comparison::AtLeast => self.steps.step(Operation::Subtract, a, b),
             Comparison::Equal | Comparison::Unequal => {
-                let difference = self.step(Operation::Subtract, a, b);
-                self.unary(Operation::Absolute, difference)
+                let difference = self.steps.step(Operation::Subtract, a, b);
+                self.steps.unary(Operation::Absolute, difference)
             }
         };
         let rho = match comparison {
-            Comparison::Equal => self.unary(Operation::Negate, rho),
+            Comparison::Equal => self.steps.unary(Operation::Negate, rho),
             _ => rho,
         };
         match (self.reading, comparison) {
             (Reading::Robustness, _) => rho,
             (_, Comparison::Less | Comparison::Greater | Comparison::Unequal) => {
-                self.unary(Operation::Positive, rho)
+                self.steps.unary(Operation::Positive, rho)
             }
             (_, Comparison::AtMost | Comparison::AtLeast | Comparison::Equal) => {
-                self.unary(Operation::NotNegative, rho)
+                self.steps.unary(Operation::NotNegative, rho)
             }
         }
     }
@@ -323,14 +304,18 @@ impl<'a> Compiler<'a> {
             Term::Place { .. } | Term::Variable(_) | Term::Host { .. } | Term::Parameter { .. } => {
                 self.input(self.inputs.of_terms[&id])
             }
-            Term::Negate(a) => self.unary(Operation::Negate, of(a)),
-            Term::Calculate(operator, a, b) => self.step(arithmetic(operator), of(a), of(b)),
-            Term::Call(Function::Abs, a, _) => self.unary(Operation::Absolute, of(a)),
-            Term::Call(Function::Min, a, Some(b)) => self.step(Operation::Least, of(a), of(b)),
-            Term::Call(Function::Max, a, Some(b)) => self.step(Operation::Greatest, of(a), of(b)),
+            Term::Negate(a) => self.steps.unary(Operation::Negate, of(a)),
+            Term::Calculate(operator, a, b) => self.steps.step(arithmetic(operator), of(a), of(b)),
+            Term::Call(Function::Abs, a, _) => self.steps.unary(Operation::Absolute, of(a)),
+            Term::Call(Function::Min, a, Some(b)) => {
+                self.steps.step(Operation::Least, of(a), of(b))
+            }
+            Term::Call(Function::Max, a, Some(b)) => {
+                self.steps.step(Operation::Greatest, of(a), of(b))
+            }
             Term::Call(function, a, b) => {
                 let b = b.map_or(Operand::Constant(0.0), of);
-                self.step(Operation::Call(function), of(a), b)
+                self.steps.step(Operation::Call(function), of(a), b)
             }
         }
     }
@@ -340,62 +325,7 @@ impl<'a> Compiler<'a> {
     fn input(&mut self, place: usize) -> Operand {
         let free = self.inputs.inputs[place].kind == InputKind::Proposition;
         let (input, low) = (place as u32, if free { -1.0 } else { 0.0 });
-        self.unary(Operation::Input { input, low }, Operand::Constant(0.0))
-    }
-
-    /// The steps for the operators of a formula over its predicates, and the output of the whole.
-    fn formula(&mut self, spec: &Spec, predicates: &[Operand]) {
-        let reachable = spec.reachable();
-        let mut known = vec![Operand::Constant(f64::NEG_INFINITY); reachable.len()];
-        for (id, formula) in spec.formulas().filter(|(id, _)| reachable[id.0 as usize]) {
-            known[id.0 as usize] = self.operator(formula, &known, predicates);
-        }
-        let whole = self.result(known[spec.root().0 as usize]);
-        self.unary(Operation::Emit(predicates.len() as u32), whole);
-    }
-
-    /// The step for one temporal or Boolean operator whose operands are known.
-    fn operator(&mut self, formula: Formula, known: &[Operand], predicates: &[Operand]) -> Operand {
-        let of = |id: FormulaId| known[id.0 as usize];
-        match formula {
-            Formula::True | Formula::False => self.truth(formula == Formula::True),
-            Formula::Literal { proposition, negated } => {
-                let rho = predicates[proposition as usize];
-                if negated { self.unary(Operation::Negate, rho) } else { rho }
-            }
-            Formula::And(a, b) => self.step(Operation::Least, of(a), of(b)),
-            Formula::Or(a, b) => self.step(Operation::Greatest, of(a), of(b)),
-            Formula::Next(a) => self.along(Operation::Next, of(a)),
-            Formula::Delay(n, a) => self.along(Operation::Window(Window::Later(n)), of(a)),
-            Formula::Eventually(a) => self.along(Operation::Eventually, of(a)),
-            Formula::Within(n, a) => self.along(Operation::Window(Window::Greatest(n)), of(a)),
-            Formula::Throughout(n, a) => self.along(Operation::Window(Window::Least(n)), of(a)),
-            Formula::Until(a, b) => self.until(of(a), of(b)),
-            // As the operators of the compiler's tables have it.
-            Formula::UntilWithin(n, a, b) => {
-                let until = self.until(of(a), of(b));
-                let soon = self.along(Operation::Window(Window::Greatest(n)), of(b));
-                self.step(Operation::Least, until, soon)
-            }
-            // `a T b` is `F (a && X b)`, since the arena has `F` around the `b` of a `T`: once `b`
-            // can come later, it can come at any later row.
-            Formula::Then(a, b) => {
-                let later = self.along(Operation::Next, of(b));
-                let both = self.step(Operation::Least, of(a), later);
-                self.along(Operation::Eventually, both)
-            }
-        }
-    }
-
-    /// A step that relates rows.
-    fn along(&mut self, operation: Operation, a: Operand) -> Operand {
-        let a = self.result(a);
-        self.unary(operation, a)
-    }
-
-    fn until(&mut self, a: Operand, b: Operand) -> Operand {
-        let (a, b) = (self.result(a), self.result(b));
-        self.step(Operation::Until, a, b)
+        self.steps.unary(Operation::Input { input, low }, Operand::Constant(0.0))
     }
 }
 

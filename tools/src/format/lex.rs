@@ -83,8 +83,8 @@ fn one(rest: &str, first: char, before: &[Token<'_>]) -> (Kind, usize) {
         (Kind::Doc, line)
     } else if rest.starts_with("//") {
         (Kind::Comment, line)
-    } else if rest.starts_with("/*") {
-        (Kind::Comment, rest.find("*/").map_or(rest.len(), |end| end + 2))
+    } else if let Some(comment) = rest.strip_prefix("/*") {
+        (Kind::Comment, comment.find("*/").map_or(rest.len(), |end| end + 4))
     } else if UNIT.contains(first) && unit_goes_on(first, before) {
         (Kind::Unit, first.len_utf8())
     } else if host_type_follows(before) {

@@ -8,13 +8,14 @@ use std::borrow::Cow;
 use std::fmt;
 use std::sync::Arc;
 
-use tltl_compiler::ast::Ast;
+use tltl_compiler::ast::{Item, ItemKind};
+use tltl_compiler::check;
 use tltl_compiler::compile::{self, Compiled};
 use tltl_compiler::dfa::Automata;
-use tltl_compiler::error::{Error, Errors, Style};
+use tltl_compiler::error::{Error, Errors, Kind, Style};
 use tltl_compiler::parse;
-use tltl_compiler::predicate;
-use tltl_compiler::source::Source;
+use tltl_compiler::predicate::{self, Module};
+use tltl_compiler::source::{Source, Span};
 use tltl_compiler::translate::Budget;
 
 use super::argument::{ArgumentError, Arguments, Parameter, Value, bind};
@@ -42,6 +43,27 @@ use crate::lint;
 pub struct TaskFile {
     source: Source,
     compiled: Arc<Compiled>,
+    /// The task that was asked for, if it was one.
+    asked: Option<Arc<str>>,
+}
+
+/// The form of a source.
+#[derive(Clone, Copy, Debug)]
+enum Form {
+    File,
+    Formula,
+}
+
+/// The warnings without those in other tasks than the one that was asked for.
+fn about(asked: Option<&str>, source: &Source, mut warnings: Vec<Error>) -> Vec<Error> {
+    let Some(asked) = asked else { return warnings };
+    let (ast, _) = parse::recover_file(source);
+    let is_other =
+        |item: &&Item| matches!(item.kind, ItemKind::Task(..)) && source.slice(item.name) != asked;
+    let others: Vec<Span> = ast.items().iter().filter(is_other).map(|item| item.span).collect();
+    let is_in = |span: Span, item: &Span| item.start <= span.start && span.end <= item.end;
+    warnings.retain(|warning| !others.iter().any(|item| is_in(warning.span(), item)));
+    warnings
 }
 
 impl TaskFile {
@@ -61,8 +83,41 @@ impl TaskFile {
     /// assert!(error.to_string().contains("dock.tltl:2:15"));
     /// ```
     pub fn new(source: Source, budget: Budget) -> Result<Self, CompileError> {
-        let compiled = compile::file(&source, budget);
-        Self::compiled_from(source, compiled, parse::recover_file)
+        Self::file(source, budget, None)
+    }
+
+    /// Compiles one task of a file, which is then the only one that it has: others may be larger
+    /// than the budget allows, and nothing is said of them. Without a task of this name, all of the
+    /// file.
+    ///
+    /// # Errors
+    /// Every mistake of the source; or that the automaton of the task is larger than the budget
+    /// allows.
+    ///
+    /// ```
+    /// use tltl_compiler::{source::Source, translate::Budget};
+    /// use tltlc::task::TaskFile;
+    ///
+    /// let source = Source::new("two.tltl", "state S { a: bool }\ntask far = F[0,9999999] a\ntask soon = X a");
+    /// assert!(TaskFile::new(source.clone(), Budget::default()).is_err());
+    /// let file = TaskFile::with_task(source, "soon", Budget::default())?;
+    /// assert_eq!(file.find(None)?.name(), Some("soon"));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn with_task(source: Source, name: &str, budget: Budget) -> Result<Self, CompileError> {
+        Self::file(source, budget, Some(name))
+    }
+
+    fn file(source: Source, budget: Budget, name: Option<&str>) -> Result<Self, CompileError> {
+        let compiled = check::file(&source).and_then(|mut module| {
+            let is_meant = |task: &predicate::Task| task.name.as_deref() == name;
+            if module.tasks.iter().any(is_meant) {
+                module.tasks.retain(is_meant);
+            }
+            compile::module(module, budget)
+        });
+        let asked = name.map(Arc::from);
+        Self::compiled_from(source, compiled, Form::File, asked)
     }
 
     /// Compiles a bare formula: a file with one task, which has no name and no parameters.
@@ -82,19 +137,25 @@ impl TaskFile {
     pub fn of_formula(formula: &str, budget: Budget) -> Result<Self, CompileError> {
         let source = Source::new("formula", formula);
         let compiled = compile::formula(&source, budget);
-        Self::compiled_from(source, compiled, parse::recover_formula)
+        Self::compiled_from(source, compiled, Form::Formula, None)
     }
 
     fn compiled_from(
         source: Source,
         compiled: Result<Compiled, Errors>,
-        read: fn(&Source) -> (Ast, Vec<Error>),
+        form: Form,
+        asked: Option<Arc<str>>,
     ) -> Result<Self, CompileError> {
         match compiled {
-            Ok(compiled) => Ok(Self { source, compiled: Arc::new(compiled) }),
+            Ok(compiled) => Ok(Self { source, compiled: Arc::new(compiled), asked }),
             Err(errors) => {
-                let errors = errors.with(lint::written(&read(&source)));
-                Err(CompileError { source, errors })
+                let read = match form {
+                    Form::File => parse::recover_file,
+                    Form::Formula => parse::recover_formula,
+                };
+                let warnings = lint::written(&read(&source));
+                let errors = errors.with(about(asked.as_deref(), &source, warnings));
+                Err(CompileError { source, errors, form })
             }
         }
     }
@@ -116,7 +177,8 @@ impl TaskFile {
     /// Some cost a search, so they are made on demand, and not when the file is compiled.
     #[must_use]
     pub fn warnings(&self) -> Vec<Error> {
-        lint::warnings(&self.source, &self.compiled)
+        let warnings = lint::warnings(&self.source, &self.compiled);
+        about(self.asked.as_deref(), &self.source, warnings)
     }
 
     /// Its tasks: the plain ones in the order of the source, then the factored ones in theirs.
@@ -321,6 +383,7 @@ impl Entry {
 pub struct CompileError {
     source: Source,
     errors: Errors,
+    form: Form,
 }
 
 impl CompileError {
@@ -328,6 +391,20 @@ impl CompileError {
     #[must_use]
     pub fn source_text(&self) -> &Source {
         &self.source
+    }
+
+    /// The source without automata, if nothing is wrong with it but that they are larger than the
+    /// budget allows. Robustness needs none: see [`Unmade`](super::Unmade).
+    #[must_use]
+    pub fn module(&self) -> Option<Module> {
+        let is_wrong = |error: &Error| !error.is_warning() && error.kind() != Kind::Budget;
+        if self.errors.iter().any(is_wrong) {
+            return None;
+        }
+        match self.form {
+            Form::File => check::file(&self.source).ok(),
+            Form::Formula => check::formula(&self.source).ok(),
+        }
     }
 
     /// The mistakes, in the order of the source; at least one. Warnings about the text may stand

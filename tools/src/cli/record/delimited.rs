@@ -80,6 +80,13 @@ fn columns(header: &Rows<'_>, places: &[Place<'_>]) -> Result<Vec<usize>, String
     for place in places {
         match find(&header, place).map_err(|what| format!("{name}: {what}"))? {
             Some(column) => columns.push(column),
+            None if place.input.is_none() => {
+                let found: Vec<_> = header.iter().map(|name| format!("`{name}`")).collect();
+                let (column, found) = (place.column, found.join(", "));
+                return Err(format!(
+                    "{name}: episodes are told apart by the column `{column}`; the file has {found}"
+                ));
+            }
             None => missing.push(place.column),
         }
     }

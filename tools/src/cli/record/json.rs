@@ -2,12 +2,14 @@
 //!
 //! A place may be a key of its own, in any of its [spellings](super::place), or nested:
 //! `{"pose": {"x": 1}}`. Lines are read one by one; an array, or columns, as a whole. `NaN` and
-//! `Infinity` are read as Python writes them, and a NaN is refused where the task reads it.
+//! `Infinity` are read as Python writes them, and a NaN is refused where the task reads it. So is an
+//! object that has a key twice.
 
 use serde_json::{Error, Map, Value};
 
 use super::lines::{Lines, is_idle};
 use super::place::{Place, find};
+use super::unique::Unique;
 use super::{At, is_real, number};
 
 /// A record in JSON.
@@ -105,13 +107,22 @@ fn whole(lines: &mut Lines<'_>, text: &[u8], error: &Error) -> Result<Value, Str
 }
 
 fn not_json(name: &str, line: usize, error: &Error) -> String {
-    format!("{name}:{line}:{}: this is not JSON", error.column())
+    let text = error.to_string();
+    let what = match text.split_once(" at line ") {
+        Some((what, _)) if error.is_data() => what,
+        Some(("number out of range", _)) => "this number is too large",
+        _ => "this is not JSON",
+    };
+    format!("{name}:{line}:{}: {what}", error.column())
 }
 
 /// A JSON value. What is not UTF-8 becomes U+FFFD, which is no number and no name.
 fn value(text: &[u8]) -> Result<Value, Error> {
-    serde_json::from_slice(text)
-        .or_else(|error| serde_json::from_str(&without_names(text)).map_err(|_| error))
+    let read = serde_json::from_slice(text).or_else(|error: Error| {
+        let again = serde_json::from_str(&without_names(text));
+        again.map_err(|second| if second.is_data() { second } else { error })
+    });
+    read.map(|Unique(value)| value)
 }
 
 /// The text with strings in place of the names that Python gives to numbers.

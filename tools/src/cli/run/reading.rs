@@ -1,18 +1,23 @@
 //! What a recording is read by: a task, or an automaton of another tool.
 
 use tltl::Automaton;
+use tltl_compiler::predicate;
+use tltl_compiler::spec::Spec;
 use tltl_compiler::translate::Budget;
 
 use crate::evaluate::{Columns, Evaluator, Input, InputKind, NotANumber, Scratch};
-use crate::online::Online;
+use crate::online::{Online, Recorded};
 use crate::tables;
-use crate::task::Task;
+use crate::task::{Task, Unmade, Value};
 
 use super::Foreign;
 
 /// An automaton, and the numbers that its propositions are read from.
 pub(super) struct Reading {
-    pub(super) automaton: Automaton,
+    /// `None` if it is larger than the budget allows.
+    pub(super) automaton: Option<Automaton>,
+    /// The names of its propositions.
+    pub(super) propositions: Vec<String>,
     pub(super) inputs: Vec<Input>,
     /// The task as its author wrote it, with its arguments.
     pub(super) title: String,
@@ -20,6 +25,8 @@ pub(super) struct Reading {
     evaluator: Option<Evaluator>,
     /// The robustness of a trajectory that has no state yet.
     pub(super) online: Online,
+    /// The formula; `None` for an automaton of another tool.
+    spec: Option<Spec>,
 }
 
 /// The propositions of a block of rows: truth and robustness, row after row.
@@ -32,19 +39,43 @@ pub(super) struct Read {
 
 impl Reading {
     pub(super) fn of_task(task: &Task) -> Self {
-        let text = &task.entry().task().text;
-        let name = task.entry().name().map(|name| format!("{name} = ")).unwrap_or_default();
-        let with = task.arguments().iter().map(|(name, value)| format!("{name} = {value}"));
-        let with: Vec<_> = with.collect();
-        let with =
-            if with.is_empty() { String::new() } else { format!("\nwith {}", with.join(", ")) };
+        let arguments = task.arguments().iter().map(|(name, value)| (&**name, value));
+        let title = title(task.entry().task(), arguments);
+        let automaton = Some(task.automaton().clone());
+        Self::of_formula(task.entry().task(), title, automaton, task.evaluator().clone())
+    }
+
+    /// A task without an automaton, with these values for its parameters.
+    pub(super) fn of_unmade(
+        unmade: &Unmade,
+        evaluator: Evaluator,
+        arguments: &[(&str, Value)],
+    ) -> Self {
+        let arguments = arguments.iter().map(|(name, value)| (*name, value));
+        Self::of_formula(unmade.task(), title(unmade.task(), arguments), None, evaluator)
+    }
+
+    fn of_formula(
+        task: &predicate::Task,
+        title: String,
+        automaton: Option<Automaton>,
+        evaluator: Evaluator,
+    ) -> Self {
+        let names = task.spec.propositions().iter().map(|one| one.name.clone());
         Self {
-            automaton: task.automaton().clone(),
-            inputs: task.inputs().to_vec(),
-            title: format!("{name}{text}{with}"),
-            evaluator: Some(task.evaluator().clone()),
-            online: Online::new(&task.entry().task().spec, Budget::EMITTED),
+            automaton,
+            propositions: names.collect(),
+            inputs: evaluator.inputs().to_vec(),
+            title,
+            evaluator: Some(evaluator),
+            online: Online::new(&task.spec, Budget::EMITTED),
+            spec: Some(task.spec.clone()),
         }
+    }
+
+    /// The truth of the formula on a trajectory without states.
+    pub(super) fn truth(&self) -> Recorded {
+        Recorded::new(self.spec.as_ref().expect("without an automaton there is a formula"))
     }
 
     /// An automaton without a formula, over the columns that are called like its propositions, as a
@@ -58,8 +89,16 @@ impl Reading {
         };
         let automaton = tables::automaton(&dfa).map_err(|error| error.to_string())?;
         let online = Online::of_automaton(&automaton);
-        let inputs = dfa.propositions.iter().map(|one| input(&one.name)).collect();
-        Ok(Self { automaton, inputs, title: name, evaluator: None, online })
+        let propositions: Vec<_> = dfa.propositions.iter().map(|one| one.name.clone()).collect();
+        Ok(Self {
+            automaton: Some(automaton),
+            inputs: propositions.iter().map(|name| input(name)).collect(),
+            propositions,
+            title: name,
+            evaluator: None,
+            online,
+            spec: None,
+        })
     }
 
     /// Evaluates rows of the inputs.
@@ -81,4 +120,15 @@ impl Reading {
         evaluator.rho(&columns, scratch, &mut rho)?;
         Ok(Read { labels, rho, width })
     }
+}
+
+/// A task as its author wrote it, with its arguments.
+fn title<'a>(
+    task: &predicate::Task,
+    arguments: impl Iterator<Item = (&'a str, &'a Value)>,
+) -> String {
+    let name = task.name.as_ref().map(|name| format!("{name} = ")).unwrap_or_default();
+    let with: Vec<_> = arguments.map(|(name, value)| format!("{name} = {value}")).collect();
+    let with = if with.is_empty() { String::new() } else { format!("\nwith {}", with.join(", ")) };
+    format!("{name}{}{with}", task.text)
 }

@@ -8,7 +8,8 @@ use crate::cli::{RowFormat, Run};
 use crate::emit::json;
 use crate::task::Verdict;
 
-use super::Followed;
+use super::followed::Followed;
+use super::reading::Reading;
 
 /// Text that waits to be printed, and the verdicts so far.
 pub(super) struct Writer<'a> {
@@ -17,7 +18,10 @@ pub(super) struct Writer<'a> {
     /// Whether trajectories are named: there are several, or there may be.
     many: bool,
     text: String,
-    /// The number of trajectories with each verdict: open, satisfied, lost.
+    /// Whether an automaton is followed.
+    has_states: bool,
+    /// The number of trajectories with each verdict: open, satisfied, lost. Without an automaton,
+    /// what is not satisfied counts as open.
     verdicts: [usize; 3],
     /// Whether the last row had a final verdict, so that only the first such row is marked.
     marked: bool,
@@ -29,10 +33,11 @@ struct JsonRow<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     trajectory: Option<&'a str>,
     row: usize,
-    state: u32,
+    /// `null` without an automaton, as is the progress, and the verdict until it is satisfied.
+    state: Option<u32>,
     /// Infinite numbers are written as `null`, since JSON has none.
-    progress: f64,
-    verdict: Verdict,
+    progress: Option<f64>,
+    verdict: Option<Verdict>,
     robustness: f64,
 }
 
@@ -41,19 +46,21 @@ struct JsonRow<'a> {
 struct JsonEnd<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     trajectory: Option<&'a str>,
-    verdict: Verdict,
+    /// `null` where it is not satisfied and no automaton says whether it is lost.
+    verdict: Option<Verdict>,
     since: usize,
     robustness: f64,
 }
 
 impl<'a> Writer<'a> {
-    pub(super) fn new(run: &Run, title: &'a str) -> Self {
+    pub(super) fn new(run: &Run, reading: &'a Reading) -> Self {
         let many = run.traces.len() > 1 || run.episode.is_some();
         let mut writer = Self {
-            title,
+            title: &reading.title,
             format: run.format,
             many,
             text: String::new(),
+            has_states: reading.automaton.is_some(),
             verdicts: [0; 3],
             marked: false,
         };
@@ -66,7 +73,7 @@ impl<'a> Writer<'a> {
         match self.format {
             RowFormat::Text => {
                 let _ = writeln!(self.text, "{}\n", self.title);
-                if !self.many {
+                if self.has_table() {
                     let _ = writeln!(self.text, "{:>6}  {:>5}  {:>12}", "row", "state", "progress");
                 }
             }
@@ -78,54 +85,67 @@ impl<'a> Writer<'a> {
         }
     }
 
+    /// Whether the rows of one trajectory are shown as text.
+    fn has_table(&self) -> bool {
+        self.has_states && !self.many
+    }
+
     /// Writes the row that a trajectory has read last. Zero has no sign here.
-    pub(super) fn row(&mut self, followed: &Followed<'_>, progress: f64) {
-        let Followed { name, running, online } = followed;
-        let trajectory = self.many.then_some(&**name);
-        let (row, state, progress) = (running.rows() - 1, running.state(), progress + 0.0);
-        let verdict = running.verdict();
+    pub(super) fn row(&mut self, followed: &mut Followed<'_>, progress: Option<f64>) {
+        if self.format == RowFormat::Text && !self.has_table() {
+            return;
+        }
+        followed.look();
+        let trajectory = self.many.then_some(&*followed.name);
+        let (row, state) = (followed.rows() - 1, followed.state());
+        let (progress, verdict) = (progress.map(|progress| progress + 0.0), followed.verdict());
         match self.format {
-            RowFormat::Text if self.many => {}
             RowFormat::Text => {
-                let first = verdict != Verdict::Open && !self.marked;
+                let first = verdict != Some(Verdict::Open) && !self.marked;
                 self.marked |= first;
-                let mark = if first { format!("  {verdict}") } else { String::new() };
-                let progress = short(progress);
+                let mark = verdict.filter(|_| first).map(|one| format!("  {one}"));
+                let (state, mark) = (shown(state), mark.unwrap_or_default());
+                let progress = progress.map(short).unwrap_or_default();
                 let _ = writeln!(self.text, "{row:>6}  {state:>5}  {progress:>12}{mark}");
             }
             RowFormat::Csv => {
                 let before = trajectory.map(|name| field(name) + ",").unwrap_or_default();
-                let robustness = online.robustness() + 0.0;
+                let (state, progress) = (shown(state), shown(progress));
+                let (verdict, robustness) = (shown(verdict), followed.robustness());
                 let _ =
                     writeln!(self.text, "{before}{row},{state},{progress},{verdict},{robustness}");
             }
             RowFormat::Json => {
-                let robustness = online.robustness() + 0.0;
+                let robustness = followed.robustness();
                 self.json(&JsonRow { trajectory, row, state, progress, verdict, robustness });
             }
         }
     }
 
     /// Writes the verdict on a trajectory that has ended.
-    pub(super) fn verdict(&mut self, followed: &Followed<'_>) {
-        let Followed { name, running, online } = followed;
-        let (verdict, since) = (running.verdict(), running.since().unwrap_or_default());
-        let robustness = online.robustness() + 0.0;
-        self.verdicts[verdict as usize] += 1;
+    pub(super) fn verdict(&mut self, followed: &mut Followed<'_>) {
+        followed.look();
+        let (verdict, since) = (followed.verdict(), followed.since().unwrap_or_default());
+        let (name, robustness) = (&followed.name, followed.robustness());
+        self.verdicts[verdict.unwrap_or(Verdict::Open) as usize] += 1;
         let told = match verdict {
-            Verdict::Open => "not satisfied yet, and not lost".to_owned(),
-            verdict => format!("{verdict} at row {since}"),
+            None => "not satisfied, and perhaps lost".to_owned(),
+            Some(Verdict::Open) => "not satisfied yet, and not lost".to_owned(),
+            Some(verdict) => format!("{verdict} at row {since}"),
         };
         match self.format {
             RowFormat::Text if self.many => {
                 let _ = writeln!(self.text, "{name}: {told}; robustness {robustness}");
             }
             RowFormat::Text => {
-                let _ = writeln!(self.text, "\n{told}\nrobustness {robustness}");
-                self.text.push_str(
-                    "\nstate: the automaton's state after the row is read\n\
-                     progress: by how much the row moves the automaton on, from the state before it\n",
-                );
+                let gap = if self.has_states { "\n" } else { "" };
+                let _ = writeln!(self.text, "{gap}{told}\nrobustness {robustness}");
+                if self.has_states {
+                    self.text.push_str(
+                        "\nstate: the automaton's state after the row is read\n\
+                         progress: by how much the row moves the automaton on, from the state before it\n",
+                    );
+                }
             }
             RowFormat::Csv => {}
             RowFormat::Json => {
@@ -145,8 +165,11 @@ impl<'a> Writer<'a> {
         if self.many && self.format == RowFormat::Text {
             let [open, satisfied, lost] = self.verdicts;
             let of = open + satisfied + lost;
-            let _ =
-                writeln!(self.text, "\n{satisfied} of {of} satisfied, {open} open, {lost} lost");
+            let others = match self.has_states {
+                true => format!("{open} open, {lost} lost"),
+                false => format!("{open} not, and perhaps lost"),
+            };
+            let _ = writeln!(self.text, "\n{satisfied} of {of} satisfied, {others}");
         }
         self.take()
     }
@@ -161,6 +184,11 @@ impl<'a> Writer<'a> {
         self.text.push_str(&json::line(line));
         self.text.push('\n');
     }
+}
+
+/// What there is, or nothing.
+fn shown(value: Option<impl ToString>) -> String {
+    value.map(|value| value.to_string()).unwrap_or_default()
 }
 
 /// A number in at most 12 characters.
