@@ -50,6 +50,15 @@ macro_rules! array {
                 }
             }
 
+            /// The numbers in C order as robustness: 1 or -1 for a truth value.
+            pub(crate) fn robustness(&self) -> Vec<f64> {
+                match self {
+                    $(Self::$variant(array) => {
+                        array.as_array().iter().map(|number| number.robustness()).collect()
+                    })*
+                }
+            }
+
             /// The numbers in C order, if they are whole and not negative.
             pub(crate) fn naturals(&self) -> Option<Vec<u64>> {
                 match self {
@@ -73,6 +82,8 @@ trait Reads: Copy {
     fn truth(self) -> Option<bool>;
     /// Itself, if it is of a whole type and not negative.
     fn natural(self) -> Option<u64>;
+    /// Itself, or 1 or -1 for a truth value.
+    fn robustness(self) -> f64;
 }
 
 macro_rules! reads {
@@ -85,6 +96,10 @@ macro_rules! reads {
             fn natural(self) -> Option<u64> {
                 None
             }
+
+            fn robustness(self) -> f64 {
+                self.into()
+            }
         })*
         $(impl Reads for $whole {
             fn truth(self) -> Option<bool> {
@@ -93,6 +108,10 @@ macro_rules! reads {
 
             fn natural(self) -> Option<u64> {
                 self.try_into().ok()
+            }
+
+            fn robustness(self) -> f64 {
+                self as f64
             }
         })*
     };
@@ -107,6 +126,10 @@ impl Reads for bool {
 
     fn natural(self) -> Option<u64> {
         None
+    }
+
+    fn robustness(self) -> f64 {
+        if self { 1.0 } else { -1.0 }
     }
 }
 

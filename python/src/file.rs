@@ -7,7 +7,8 @@ use tltl_compiler::source::Source;
 use tltlc::task::{self, Value};
 
 use super::error::{diagnostics, mistaken, warn};
-use super::task::{Budget, Task};
+use super::task::Task;
+use super::values::Budget;
 
 /// A value for a parameter.
 pub(crate) struct Argument(pub(crate) Value);

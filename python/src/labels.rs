@@ -2,7 +2,7 @@
 //! the propositions. A number is a robustness, and holds if it is positive.
 
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyFrozenSet, PyMapping, PySet, PyString};
+use pyo3::types::{PyBool, PyFloat, PyFrozenSet, PyMapping, PySet, PyString};
 use tltl::Shared;
 
 use super::array::Array;
@@ -11,6 +11,14 @@ use super::states::missing;
 
 /// One truth value for each of `propositions`.
 pub(crate) fn row(propositions: &[Shared<str>], labels: &Bound<'_, PyAny>) -> PyResult<Vec<bool>> {
+    Ok(robustness(propositions, labels)?.into_iter().map(|rho| rho > 0.0).collect())
+}
+
+/// The robustness of each of `propositions`: 1 or -1 for a truth value.
+pub(crate) fn robustness(
+    propositions: &[Shared<str>],
+    labels: &Bound<'_, PyAny>,
+) -> PyResult<Vec<f64>> {
     if let Ok(mapping) = labels.cast::<PyMapping>() {
         return propositions.iter().map(|name| of_mapping(mapping, name)).collect();
     }
@@ -22,7 +30,13 @@ pub(crate) fn row(propositions: &[Shared<str>], labels: &Bound<'_, PyAny>) -> Py
     }
     let array = Array::new(labels, "labels")?;
     match array.view().shape[..] {
-        [count] if count == propositions.len() => truths(propositions, &array),
+        [count] if count == propositions.len() => {
+            let rho = array.robustness();
+            match rho.iter().position(|rho| rho.is_nan()) {
+                Some(at) => Err(nan(&propositions[at])),
+                None => Ok(rho),
+            }
+        }
         ref shape => Err(wrong(format!(
             "labels: an array of shape {shape:?}; wanted is one value for each of the {} \
              propositions ({})",
@@ -32,35 +46,44 @@ pub(crate) fn row(propositions: &[Shared<str>], labels: &Bound<'_, PyAny>) -> Py
     }
 }
 
-fn of_mapping(mapping: &Bound<'_, PyMapping>, name: &str) -> PyResult<bool> {
+fn nan(name: &str) -> PyErr {
+    wrong(format!("`{name}` is not a number (NaN)"))
+}
+
+fn of_mapping(mapping: &Bound<'_, PyMapping>, name: &str) -> PyResult<f64> {
     if !mapping.contains(name)? {
         let given: Vec<String> = mapping.keys()?.iter().map(|key| key.to_string()).collect();
         return Err(missing(name, &given));
     }
     let value = mapping.get_item(name)?;
     if let Ok(truth) = value.cast::<PyBool>() {
-        return Ok(truth.is_true());
+        return Ok(sign(truth.is_true()));
     }
-    let number: f64 = value
-        .extract()
-        .map_err(|_| wrong(format!("`{name}` is neither a truth value nor a number: {value}")))?;
-    if number.is_nan() {
-        Err(wrong(format!("`{name}` is not a number (NaN)")))
-    } else {
-        Ok(number > 0.0)
-    }
+    let number = match value.cast::<PyFloat>() {
+        Ok(number) => number.value(),
+        // A scalar of NumPy, or a whole number.
+        Err(_) => match Array::new(&value, &format!("`{name}`"))?.robustness()[..] {
+            [number] => number,
+            _ => return Err(wrong(format!("`{name}` is more than one number"))),
+        },
+    };
+    if number.is_nan() { Err(nan(name)) } else { Ok(number) }
+}
+
+const fn sign(truth: bool) -> f64 {
+    if truth { 1.0 } else { -1.0 }
 }
 
 /// Names of what holds. All must be propositions, or a typing mistake would mean "does not hold".
-fn of_names(propositions: &[Shared<str>], names: &Bound<'_, PyAny>) -> PyResult<Vec<bool>> {
-    let mut row = vec![false; propositions.len()];
+fn of_names(propositions: &[Shared<str>], names: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
+    let mut row = vec![sign(false); propositions.len()];
     for name in names.try_iter()? {
         let name: String = name?.extract()?;
         let at = propositions.iter().position(|known| **known == *name);
         let at = at.ok_or_else(|| {
             wrong(format!("the task has no proposition `{name}`; it has: {}", listed(propositions)))
         })?;
-        row[at] = true;
+        row[at] = sign(true);
     }
     Ok(row)
 }

@@ -5,7 +5,9 @@
 //! | `array` | every NumPy array that enters, whatever its type and strides |
 //! | `states` | recorded states, as arrays or mappings, into the columns that a task reads |
 //! | `labels` | what holds in a state, as mappings, names or arrays |
-//! | `task`, `monitor`, `file` | tasks |
+//! | `task`, `batch`, `monitor`, `file` | tasks |
+//! | `rewards` | what moves pay |
+//! | `values` | what tasks take and give, as data |
 //! | `error` | mistakes of a source into exceptions and warnings |
 //!
 //! What a formula means, and what a task does, is in the crates `tltl-compiler`, `tltl` and
@@ -14,12 +16,15 @@
 #![forbid(unsafe_code)]
 
 mod array;
+mod batch;
 mod error;
 mod file;
 mod labels;
 mod monitor;
+mod rewards;
 mod states;
 mod task;
+mod values;
 
 use std::ffi::OsString;
 use std::io::{stderr, stdin, stdout};
@@ -37,7 +42,11 @@ mod _core {
     #[pymodule_export]
     use super::monitor::Monitor;
     #[pymodule_export]
-    use super::task::{Budget, Edge, Input, Run, Task, restore};
+    use super::rewards::Rewards;
+    #[pymodule_export]
+    use super::task::{Task, restore};
+    #[pymodule_export]
+    use super::values::{Budget, Edge, Input, Run};
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {

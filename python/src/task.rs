@@ -2,163 +2,31 @@
 
 use std::collections::hash_map::DefaultHasher;
 use std::hash::{Hash, Hasher};
+use std::sync::Arc;
 
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::basic::CompareOp;
-use pyo3::exceptions::{PyIndexError, PyTypeError};
+use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
-use tltl::{Acceptor, Automaton, Shared};
+use tltl::reward::Ends;
+use tltl::{Acceptor, Automaton, Shared, robustness};
 use tltl_compiler::dfa::Dfa;
 use tltl_compiler::source::Source;
-use tltl_compiler::translate;
 use tltlc::diff::{Side, of_definitions};
 use tltlc::emit;
-use tltlc::evaluate::{self, Columns, InputKind, Scratch};
 use tltlc::explain;
 use tltlc::task::{self, Bound as Made, TaskFile, Value, Verdict};
 
-use super::array::{Array, frozen, shaped};
-use super::error::{diagnostics, mistaken, not_a_number, warn, wrong};
+use super::array::{frozen, shaped};
+use super::batch::Letters;
+use super::error::{diagnostics, mistaken, warn, wrong};
 use super::labels;
 use super::states::States;
+use super::values::{Budget, Edge, Input, Run};
 
 /// The largest number of propositions whose table of all letters is given out: 65,536 columns.
 const TABLE: usize = 16;
-
-/// How large an automaton may become.
-#[pyclass(frozen, eq, hash, get_all, from_py_object, module = "tltl")]
-#[derive(Clone, PartialEq, Eq, Hash)]
-pub struct Budget {
-    states: usize,
-    nodes: usize,
-    edges: usize,
-    products: usize,
-}
-
-impl Budget {
-    pub(crate) fn limits(&self) -> translate::Budget {
-        let Self { states, nodes, edges, products } = *self;
-        translate::Budget { states, nodes, edges, products }
-    }
-}
-
-impl Default for Budget {
-    fn default() -> Self {
-        let translate::Budget { states, nodes, edges, products } = translate::Budget::default();
-        Self { states, nodes, edges, products }
-    }
-}
-
-#[pymethods]
-impl Budget {
-    #[new]
-    #[pyo3(signature = (*, states=None, nodes=None, edges=None, products=None))]
-    fn new(
-        states: Option<usize>,
-        nodes: Option<usize>,
-        edges: Option<usize>,
-        products: Option<usize>,
-    ) -> Self {
-        let known = Self::default();
-        Self {
-            states: states.unwrap_or(known.states),
-            nodes: nodes.unwrap_or(known.nodes),
-            edges: edges.unwrap_or(known.edges),
-            products: products.unwrap_or(known.products),
-        }
-    }
-
-    fn __getnewargs_ex__<'py>(
-        &self,
-        py: Python<'py>,
-    ) -> PyResult<(Bound<'py, PyTuple>, Bound<'py, PyDict>)> {
-        let named = PyDict::new(py);
-        named.set_item("states", self.states)?;
-        named.set_item("nodes", self.nodes)?;
-        named.set_item("edges", self.edges)?;
-        named.set_item("products", self.products)?;
-        Ok((PyTuple::empty(py), named))
-    }
-
-    fn __repr__(&self) -> String {
-        let Self { states, nodes, edges, products } = self;
-        format!("Budget(states={states}, nodes={nodes}, edges={edges}, products={products})")
-    }
-}
-
-/// A number that the predicates of a task read from a state.
-#[pyclass(frozen, eq, get_all, module = "tltl")]
-#[derive(Clone, PartialEq, Eq)]
-pub struct Input {
-    name: String,
-    kind: &'static str,
-    unit: Option<String>,
-    values: Vec<String>,
-}
-
-impl Input {
-    fn new(input: &evaluate::Input) -> Self {
-        let evaluate::Input { name, kind, unit, values } = input.clone();
-        let kind = match kind {
-            InputKind::Place(scalar) if values.is_empty() => scalar.name(),
-            InputKind::Place(_) => "enum",
-            InputKind::Variable => "variable",
-            InputKind::Proposition => "proposition",
-        };
-        Self { name, kind, unit, values }
-    }
-}
-
-#[pymethods]
-impl Input {
-    fn __repr__(&self) -> String {
-        format!("Input(name={:?}, kind={:?})", self.name, self.kind)
-    }
-}
-
-/// A move of the automaton, with its guard as text.
-#[pyclass(frozen, eq, get_all, module = "tltl")]
-#[derive(Clone, PartialEq, Eq)]
-pub struct Edge {
-    source: u32,
-    target: u32,
-    guard: String,
-}
-
-#[pymethods]
-impl Edge {
-    fn __repr__(&self) -> String {
-        format!("Edge(source={}, target={}, guard={:?})", self.source, self.target, self.guard)
-    }
-}
-
-/// A trajectory that ran through a task: one entry for each row.
-#[pyclass(frozen, get_all, module = "tltl")]
-pub struct Run {
-    states: Py<PyAny>,
-    progress: Py<PyAny>,
-    robustness: f64,
-    verdict: String,
-    since: Option<usize>,
-}
-
-#[pymethods]
-impl Run {
-    #[getter]
-    fn satisfied(&self) -> bool {
-        self.verdict == "satisfied"
-    }
-
-    #[getter]
-    fn lost(&self) -> bool {
-        self.verdict == "lost"
-    }
-
-    fn __repr__(&self) -> String {
-        format!("Run(verdict={:?}, robustness={})", self.verdict, self.robustness)
-    }
-}
 
 /// A formula of temporal logic, compiled to its minimal automaton.
 ///
@@ -175,10 +43,16 @@ impl Run {
 #[derive(Clone)]
 pub struct Task {
     pub(crate) inner: task::Task,
+    /// Where it ends, which rewards ask at every step.
+    pub(crate) ends: Arc<Ends>,
     budget: Budget,
 }
 
 impl Task {
+    fn of(inner: task::Task, budget: Budget) -> Self {
+        Self { ends: Arc::new(Ends::of(&inner)), inner, budget }
+    }
+
     /// The task of `file` with this name and these arguments.
     pub(crate) fn bind(
         file: &TaskFile,
@@ -190,7 +64,7 @@ impl Task {
         let arguments: Vec<_> =
             arguments.iter().map(|(name, value)| (name.as_str(), value.clone())).collect();
         match entry.bind(&arguments).map_err(|error| wrong(error.to_string()))? {
-            Made::Plain(inner) => Ok(Self { inner, budget }),
+            Made::Plain(inner) => Ok(Self::of(inner, budget)),
             Made::Factored(_) => Err(wrong(format!(
                 "`{}` is factored: it has an automaton for each part, and this package reads tasks \
                  with one automaton",
@@ -242,36 +116,12 @@ impl Task {
         (self.source().text(), self.inner.entry().name(), arguments)
     }
 
-    /// Computes for each trajectory, without the GIL.
-    fn each<T: Send>(
-        &self,
-        py: Python<'_>,
-        states: &States<'_>,
-        compute: impl Fn(&Columns<'_>, &mut Scratch) -> Result<T, evaluate::NotANumber> + Sync,
-    ) -> PyResult<Vec<T>> {
-        let mut scratch = Scratch::default();
-        let results = states.trajectories(|rows, columns| {
-            let columns = Columns::new(rows, columns).expect("all have the rows of the shape");
-            py.detach(|| compute(&columns, &mut scratch))
-        });
-        results.map_err(|error| not_a_number(self.names(), error))
-    }
-
-    /// An output of `width` numbers for each state.
-    fn by_row<'py, T: numpy::Element + Copy + Default + Send>(
-        &self,
-        states: (&Bound<'py, PyAny>, Option<&Bound<'py, PyAny>>),
-        width: Option<usize>,
-        read: impl Fn(&Columns<'_>, &mut Scratch, &mut [T]) -> Result<(), evaluate::NotANumber> + Sync,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        let py = states.0.py();
-        let states = States::new(self.inner.inputs(), states.0, states.1)?;
-        let each = self.each(py, &states, |columns, scratch| {
-            let mut out = vec![T::default(); columns.rows() * width.unwrap_or(1)];
-            read(columns, scratch, &mut out).map(|()| out)
-        })?;
-        let shape: Vec<usize> = states.shape.iter().copied().chain(width).collect();
-        shaped(py, each.concat(), &shape)
+    fn joined(&self, py: Python<'_>, operator: &str, other: &Self) -> PyResult<Self> {
+        if !self.is_formula() || !other.is_formula() {
+            return Err(wrong("only bare formulas are joined; write the task in the file"));
+        }
+        let text = format!("({}) {operator} ({})", self.source().text(), other.source().text());
+        Self::new(py, &text, Some(self.budget.clone()))
     }
 }
 
@@ -290,7 +140,7 @@ impl Task {
             })
             .map_err(|error| mistaken(py, &error))?;
         warn(py, inner.entry().file().source(), &warnings)?;
-        Ok(Self { inner, budget })
+        Ok(Self::of(inner, budget))
     }
 
     /// The formula, as it was written.
@@ -404,6 +254,26 @@ impl Task {
         let mut state = [q];
         self.automaton().step_batch(&mut state, &row[..]);
         Ok(state[0])
+    }
+
+    /// What holds, in the order of `propositions`: bool, of shape (propositions,). `labels` as for
+    /// `step`.
+    fn valuation<'py>(
+        &self,
+        py: Python<'py>,
+        labels: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let row = labels::row(self.names(), labels)?;
+        let count = row.len();
+        shaped(py, row, &[count])
+    }
+
+    /// By how much a state makes the automaton move on from `q`, the trap apart: ρ(s, D_φ^q). `labels`
+    /// as for `step`; numbers are the robustness of the propositions, and truth values 1 or -1.
+    fn progress_robustness(&self, q: i64, labels: &Bound<'_, PyAny>) -> PyResult<f64> {
+        let q = self.state(q)?;
+        let row = labels::robustness(self.names(), labels)?;
+        Ok(robustness::guard(self.automaton().progress(q), |i| row[i]))
     }
 
     /// The states after `q`, of shape (n,), has read `labels`: truth values of shape (n,
@@ -640,115 +510,6 @@ impl Task {
             Some(name) => format!("<Task {name} = {}>", self.text()),
         }
     }
-}
-
-/// What each row reads: bits, or a truth value for each proposition.
-enum Letters {
-    Bits(Vec<u64>),
-    Labels(Vec<bool>),
-}
-
-impl Task {
-    fn states_of(&self, q: &Bound<'_, PyAny>) -> PyResult<Vec<u32>> {
-        let array = Array::new(q, "q")?;
-        if array.view().shape.len() != 1 {
-            return Err(wrong("q: wanted is an array of shape (n,)"));
-        }
-        let count = u64::from(self.inner.states());
-        let states = array.naturals().ok_or_else(|| {
-            PyTypeError::new_err("q: automaton states are whole numbers from 0 on")
-        })?;
-        match states.iter().position(|&q| q >= count) {
-            Some(at) => Err(PyIndexError::new_err(format!(
-                "q[{at}] is {}, and the automaton has {count} states",
-                states[at]
-            ))),
-            None => Ok(states.into_iter().map(|q| q as u32).collect()),
-        }
-    }
-
-    fn letters_of(&self, labels: &Bound<'_, PyAny>, rows: usize) -> PyResult<Letters> {
-        let array = Array::new(labels, "labels")?;
-        let (shape, width) = (array.view().shape, self.names().len());
-        match shape[..] {
-            [count] if count == rows => {
-                self.few_enough()?;
-                let bits = array.naturals();
-                bits.map(Letters::Bits).ok_or_else(|| {
-                    PyTypeError::new_err(
-                        "labels: letters are whole numbers whose bit i is proposition i; truth \
-                         values have the shape (n, propositions)",
-                    )
-                })
-            }
-            [count, own] if count == rows && own == width => {
-                labels::truths(self.names(), &array).map(Letters::Labels)
-            }
-            _ => Err(wrong(format!(
-                "labels: an array of shape {shape:?}; wanted is ({rows}, {width}), truth values of \
-                 the propositions, or ({rows},), letters"
-            ))),
-        }
-    }
-
-    fn few_enough(&self) -> PyResult<()> {
-        let count = self.names().len();
-        if count <= 64 {
-            return Ok(());
-        }
-        Err(wrong(format!(
-            "a letter has 64 bits, and there are {count} propositions: use rows of labels"
-        )))
-    }
-
-    /// One result for each trajectory of an array (N, T, d), of a list of arrays (T_i, d), or for
-    /// the one of an array (T, d).
-    fn by_trajectory<'py, T: numpy::Element + Copy + Send + for<'a> IntoPyObject<'a>>(
-        &self,
-        states: &Bound<'py, PyAny>,
-        columns: Option<&Bound<'py, PyAny>>,
-        compute: impl Fn(&Columns<'_>, &mut Scratch) -> Result<T, evaluate::NotANumber> + Sync,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        let py = states.py();
-        if let Some(all) = ragged(states)? {
-            let mut results = Vec::new();
-            for states in &all {
-                let states = States::new(self.inner.inputs(), states, columns)?;
-                results.extend(self.each(py, &states, &compute)?);
-            }
-            return shaped(py, results, &[all.len()]);
-        }
-        let states = States::new(self.inner.inputs(), states, columns)?;
-        let results = self.each(py, &states, &compute)?;
-        match &states.shape[..] {
-            [] => Err(wrong("states: one state; wanted is a trajectory, an array of shape (T, d)")),
-            [_] => {
-                let result = shaped(py, results, &[1])?;
-                result.call_method0("item").or_else(|_| result.get_item(0))
-            }
-            [outer @ .., _] => shaped(py, results, outer),
-        }
-    }
-
-    fn joined(&self, py: Python<'_>, operator: &str, other: &Self) -> PyResult<Self> {
-        if !self.is_formula() || !other.is_formula() {
-            return Err(wrong("only bare formulas are joined; write the task in the file"));
-        }
-        let text = format!("({}) {operator} ({})", self.source().text(), other.source().text());
-        Self::new(py, &text, Some(self.budget.clone()))
-    }
-}
-
-/// The arrays of a list, if it is one of arrays with two axes each.
-fn ragged<'py>(states: &Bound<'py, PyAny>) -> PyResult<Option<Vec<Bound<'py, PyAny>>>> {
-    use pyo3::types::{PyList, PyTuple};
-    if !states.is_instance_of::<PyList>() && !states.is_instance_of::<PyTuple>() {
-        return Ok(None);
-    }
-    let all: Vec<Bound<'py, PyAny>> = states.try_iter()?.collect::<PyResult<_>>()?;
-    let ndim =
-        |one: &Bound<'py, PyAny>| one.getattr("ndim").and_then(|n| n.extract::<usize>()).ok();
-    Ok((!all.is_empty() && all.iter().all(|one| ndim(one) == Some(2))).then_some(all))
 }
 
 /// A text that may be too large to be written.

@@ -1,5 +1,5 @@
 from collections.abc import Mapping, Sequence
-from typing import Any, final
+from typing import Any, final, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,6 +18,7 @@ __all__ = [
     "Input",
     "Monitor",
     "Parameter",
+    "Rewards",
     "Run",
     "Task",
     "TaskFile",
@@ -121,6 +122,8 @@ class Task:
     @property
     def warnings(self) -> tuple[Diagnostic, ...]: ...
     def step(self, q: int, labels: Labels) -> int: ...
+    def valuation(self, labels: Labels) -> NDArray[np.bool_]: ...
+    def progress_robustness(self, q: int, labels: Labels) -> float: ...
     def step_batch(
         self, q: ArrayLike, labels: ArrayLike, *, out: NDArray[np.uint32] | None = None
     ) -> NDArray[np.uint32]: ...
@@ -151,6 +154,56 @@ class Task:
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
     def __reduce__(self) -> tuple[Any, ...]: ...
+
+@final
+class Rewards:
+    def __new__(
+        cls,
+        mode: str = "shaped",
+        *,
+        gamma: float = 0.99,
+        bound: float = 1.0,
+        trap_penalty: float = 0.0,
+        step_penalty: float = 0.0,
+        environment: float = 0.0,
+    ) -> Rewards: ...
+    @property
+    def mode(self) -> str: ...
+    @property
+    def gamma(self) -> float: ...
+    @property
+    def bound(self) -> float: ...
+    @property
+    def trap_penalty(self) -> float: ...
+    @property
+    def step_penalty(self) -> float: ...
+    @property
+    def environment(self) -> float: ...
+    @overload
+    def pay(
+        self,
+        task: Task,
+        q: int,
+        next_q: int,
+        *,
+        rho: float | None = None,
+        reward: float | None = None,
+        terminated: bool | None = None,
+    ) -> float: ...
+    @overload
+    def pay(
+        self,
+        task: Task,
+        q: NDArray[Any],
+        next_q: NDArray[Any],
+        *,
+        rho: NDArray[Any] | None = None,
+        reward: NDArray[Any] | None = None,
+        terminated: NDArray[Any] | None = None,
+    ) -> NDArray[np.float64]: ...
+    def __hash__(self) -> int: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def __getnewargs_ex__(self) -> tuple[tuple[str], dict[str, float]]: ...
 
 @final
 class Monitor:

@@ -1,0 +1,248 @@
+"""Gymnasium environments beside tasks: `TaskEnv`.
+
+The agent sees the environment's observation and the automaton's state, and is paid by `Rewards`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from graphlib import CycleError, TopologicalSorter
+from typing import Any, Literal
+from warnings import warn
+
+import numpy as np
+
+from tltl._core import Rewards, Task
+from tltl._errors import TaskWarning
+from tltl._labels import Labels
+
+try:
+    import gymnasium as gym
+    from gymnasium import spaces
+    from gymnasium.utils import RecordConstructorArgs
+except ImportError as error:
+    raise ImportError("tltl.gymnasium needs Gymnasium: pip install 'tltl[gymnasium]'") from error
+
+__all__ = ["TaskEnv"]
+
+#: What holds now: of the environment that is wrapped, its observation and its info.
+LabelFn = Callable[[Any, Any, dict[str, Any]], Labels]
+Columns = Mapping[str, int] | Sequence[str]
+
+#: Resets in search of a start that is not decided already.
+RESETS = 100
+
+
+class TaskEnv(gym.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
+    """An environment with a task: the agent sees the automaton's state, and is paid for the task.
+
+    `labels(env, obs, info)` says what holds, by the names of the formula; `env` is the environment
+    that is wrapped. Where predicates are numeric, `columns` says instead where the observation, made
+    flat, has the numbers.
+
+    - `observe`: `"flat"` appends the state of the automaton, one-hot, to the flattened observation;
+      `"dict"` gives a `Dict` with it under `key`; `"none"` leaves the observation as it is.
+    - `terminate`: whether the episode terminates where the task is satisfied or lost.
+    - `on_decided_reset`: the first observation is read too, so the task may be satisfied or lost
+      before the first action. `"resample"` resets again (at most 100 times); `"raise"` is an
+      error; with `"keep"` the first step pays nothing and terminates.
+
+    The environment's own end stays its own: it satisfies nothing. `info["tltl"]` has, at every step
+    and at reset: `state`, `satisfied`, `lost`, `progress` (whether the automaton moved on), `distance`
+    (moves to acceptance at least, -1 if there is no way), `labels`, `resampled` (resets that were
+    decided), and `rho` where the reward reads it.
+
+    >>> import gymnasium as gym
+    >>> from tltl.gymnasium import TaskEnv
+    >>> def labels(env, obs, info):
+    ...     return {"corner": obs == 3, "goal": obs == 15}
+    >>> env = TaskEnv(gym.make("FrozenLake-v1", is_slippery=False), "corner T goal", labels)
+    >>> obs, info = env.reset(seed=0)
+    >>> obs.shape, info["tltl"]["state"]
+    ((19,), 0)
+    """
+
+    def __init__(
+        self,
+        env: gym.Env[Any, Any],
+        task: Task | str,
+        labels: LabelFn | None = None,
+        *,
+        columns: Columns | None = None,
+        rewards: Rewards | str | None = None,
+        observe: Literal["flat", "dict", "none"] = "flat",
+        key: str = "task_state",
+        terminate: bool = True,
+        on_decided_reset: Literal["resample", "raise", "keep"] = "resample",
+    ) -> None:
+        RecordConstructorArgs.__init__(
+            self,
+            task=task,
+            labels=labels,
+            columns=columns,
+            rewards=rewards,
+            observe=observe,
+            key=key,
+            terminate=terminate,
+            on_decided_reset=on_decided_reset,
+        )
+        super().__init__(env)
+        if (labels is None) == (columns is None):
+            raise ValueError("give `labels` or `columns`: what holds, or where the numbers are")
+        if on_decided_reset not in ("resample", "raise", "keep"):
+            raise ValueError(f"on_decided_reset is {on_decided_reset!r}")
+        self.task = Task(task) if isinstance(task, str) else task
+        self.rewards = Rewards(rewards) if isinstance(rewards, str) else rewards or Rewards()
+        self._labels, self._columns = labels, columns
+        self._terminate, self._on_decided_reset = terminate, on_decided_reset
+        self._pays_rho = self.rewards.mode == "robustness"
+        self._moved = Rewards("progress")
+        self._distances = self.task.distances.tolist()
+        self._observe, self.observation_space = observing(self.task, env, observe, key)
+        self._q = self.task.initial
+        self._last: tuple[Any, dict[str, Any]] | None = None
+        if self.rewards.mode == "progress" and has_a_way_back(self.task):
+            warn(
+                f"the automaton of `{self.task.text}` has a way back: it is paid again and again "
+                "for the same moves, and the best policy need not satisfy the task; use the mode "
+                '"shaped"',
+                TaskWarning,
+                stacklevel=2,
+            )
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Any, dict[str, Any]]:
+        for resampled in range(RESETS + 1):
+            obs, info = self.env.reset(seed=seed if resampled == 0 else None, options=options)
+            self._q = self.task.initial
+            told = self._read(obs, info)
+            told["resampled"] = resampled
+            if not self._is_over(told) or self._on_decided_reset == "keep":
+                break
+            if self._on_decided_reset == "raise":
+                raise RuntimeError(f"the task is decided at the start {obs!r}")
+        else:
+            raise RuntimeError(f"{RESETS} starts were decided; the last is {obs!r}")
+        told["progress"] = False
+        obs, info = self._observe(obs, self._q), {**info, "tltl": told}
+        self._last = (obs, info) if self._is_over(told) else None
+        return obs, info
+
+    def step(self, action: Any) -> tuple[Any, Any, bool, bool, dict[str, Any]]:
+        if self._last is not None:
+            # The task was decided before the first action.
+            obs, info = self._last
+            return obs, 0.0, True, False, info
+        obs, reward, terminated, truncated, info = self.env.step(action)
+        q = self._q
+        told = self._read(obs, info)
+        told["resampled"] = 0
+        rho = told.get("rho")
+        paid = self.rewards.pay(
+            self.task, q, self._q, rho=rho, reward=float(reward), terminated=terminated
+        )
+        over = bool(terminated) or self._is_over(told)
+        return self._observe(obs, self._q), paid, over, truncated, {**info, "tltl": told}
+
+    def _is_over(self, told: dict[str, Any]) -> bool:
+        return self._terminate and bool(told["satisfied"] or told["lost"])
+
+    def _read(self, obs: Any, info: dict[str, Any]) -> dict[str, Any]:
+        """Moves the automaton by what holds now, and says where it is."""
+        task, q = self.task, self._q
+        told: dict[str, Any] = {}
+        if self._labels is None:
+            row = spaces.flatten(self.env.observation_space, obs)
+            holds: Labels = task.labels(row, columns=self._columns)
+            robust: Labels = task.rho(row, columns=self._columns) if self._pays_rho else holds
+        else:
+            holds = robust = self._labels(self.env, obs, info)
+        if self._pays_rho:
+            told["rho"] = task.progress_robustness(q, robust)
+        valuation = task.valuation(holds)
+        self._q = task.step(q, valuation)
+        return told | {
+            "state": self._q,
+            "satisfied": self._q == task.accepting,
+            "lost": self._q == task.trap,
+            "progress": self._moved.pay(task, q, self._q) > 0,
+            "distance": self._distances[self._q],
+            "labels": valuation,
+        }
+
+
+def has_a_way_back(task: Task) -> bool:
+    """Whether some state can be left and come back to."""
+    graph: dict[int, set[int]] = {}
+    for edge in task.edges:
+        if edge.source != edge.target:
+            graph.setdefault(edge.target, set()).add(edge.source)
+    try:
+        TopologicalSorter(graph).prepare()
+    except CycleError:
+        return True
+    return False
+
+
+def observing(
+    task: Task, env: gym.Env[Any, Any], observe: str, key: str
+) -> tuple[Callable[[Any, int], Any], spaces.Space[Any]]:
+    """How an observation and the automaton's state become one, and the space of the result."""
+    base = env.observation_space
+    if observe == "none":
+        return (lambda obs, q: obs), base
+    if observe == "flat":
+        return flat(task, base)
+    if observe == "dict":
+        return named(task, base, key)
+    raise ValueError(f'observe is {observe!r}, not one of "flat", "dict", "none"')
+
+
+def flat(
+    task: Task, base: spaces.Space[Any]
+) -> tuple[Callable[[Any, int], Any], spaces.Space[Any]]:
+    """The flattened observation with the state of the automaton, one-hot, behind it."""
+    box = spaces.flatten_space(base) if is_flat(base) else None
+    if not isinstance(box, spaces.Box):
+        raise ValueError(
+            f'observations of {base} are not made flat: use observe="dict", or put a wrapper '
+            "beneath (for MiniGrid ImgObsWrapper or FlatObsWrapper)"
+        )
+    dtype: Any = box.dtype if np.issubdtype(box.dtype, np.floating) else np.dtype(np.float32)
+    states = np.eye(task.num_states, dtype=dtype)
+    low, high = (
+        np.concatenate([end.astype(dtype), np.full(task.num_states, hot, dtype)])
+        for end, hot in ((box.low, 0), (box.high, 1))
+    )
+
+    def joined(obs: Any, q: int) -> Any:
+        return np.concatenate([spaces.flatten(base, obs), states[q]], dtype=dtype)
+
+    return joined, spaces.Box(low, high, dtype=dtype.type)
+
+
+def is_flat(space: spaces.Space[Any]) -> bool:
+    """Whether flattening loses nothing: no images, texts, graphs or sequences."""
+    if isinstance(space, spaces.Dict):
+        return all(map(is_flat, space.values()))
+    if isinstance(space, spaces.Tuple):
+        return all(map(is_flat, space))
+    if isinstance(space, spaces.Box):
+        return len(space.shape) < 2
+    return isinstance(space, spaces.Discrete | spaces.MultiDiscrete | spaces.MultiBinary)
+
+
+def named(
+    task: Task, base: spaces.Space[Any], key: str
+) -> tuple[Callable[[Any, int], Any], spaces.Space[Any]]:
+    """The observation and the state of the automaton, by name."""
+    state = spaces.Discrete(task.num_states)
+    if not isinstance(base, spaces.Dict):
+        return (
+            (lambda obs, q: {"observation": obs, key: np.int64(q)}),
+            spaces.Dict({"observation": base, key: state}),
+        )
+    if key in base.spaces:
+        raise ValueError(f"the observation has `{key}` already: choose another `key`")
+    return (lambda obs, q: {**obs, key: np.int64(q)}), spaces.Dict({**base.spaces, key: state})

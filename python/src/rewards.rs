@@ -1,0 +1,198 @@
+//! `tltl.Rewards`: what a move of the automaton pays.
+
+use std::fmt::Write as _;
+
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
+use tltl::OutOfRange;
+use tltl::reward::{self, Arrivals, Mode};
+
+use super::array::{Array, shaped};
+use super::error::wrong;
+use super::task::Task;
+
+const MODES: [(&str, Mode); 5] = [
+    ("shaped", Mode::Shaped),
+    ("acceptance", Mode::Acceptance),
+    ("progress", Mode::Progress),
+    ("robustness", Mode::Robustness),
+    ("literal", Mode::Literal),
+];
+
+/// What a move of the automaton pays: the mode, the discount factor that a shaped reward needs, and
+/// penalties.
+///
+/// `shaped`, the default, pays 1 for satisfying the task, and a potential on the way that leaves the
+/// best policies as they are; its `gamma` must be the learner's. `acceptance` is the 1 alone.
+/// `progress` pays 1 for every move that is not into the trap (the paper's reward); where the
+/// automaton has a way back, its best policy need not satisfy the task. `robustness` pays by how much
+/// a state makes the automaton move on, at most `bound`. `literal` pays for being lost too.
+///
+/// `environment` is the weight of the environment's own reward.
+///
+/// >>> from tltl import Rewards, Task
+/// >>> task = Task("F a")
+/// >>> Rewards("acceptance", trap_penalty=1.0).pay(task, 0, 1)
+/// 1.0
+#[pyclass(frozen, eq, from_py_object, module = "tltl")]
+#[derive(Clone, PartialEq)]
+pub struct Rewards(reward::Rewards);
+
+fn out_of_range(error: OutOfRange) -> PyErr {
+    wrong(error.to_string())
+}
+
+#[pymethods]
+impl Rewards {
+    #[new]
+    #[pyo3(signature = (mode="shaped", *, gamma=0.99, bound=1.0, trap_penalty=0.0, step_penalty=0.0, environment=0.0))]
+    fn new(
+        mode: &str,
+        gamma: f64,
+        bound: f64,
+        trap_penalty: f64,
+        step_penalty: f64,
+        environment: f64,
+    ) -> PyResult<Self> {
+        let known = MODES.iter().find(|(name, _)| *name == mode);
+        let (_, mode) = known.ok_or_else(|| {
+            let names: Vec<_> = MODES.iter().map(|(name, _)| *name).collect();
+            wrong(format!("mode is `{mode}`, not one of {}", names.join(", ")))
+        })?;
+        let rewards = reward::Rewards::of(*mode).with_gamma(gamma).map_err(out_of_range)?;
+        let rewards = rewards.with_bound(bound).map_err(out_of_range)?;
+        let rewards = rewards.with_trap_penalty(trap_penalty).map_err(out_of_range)?;
+        let rewards = rewards.with_step_penalty(step_penalty).map_err(out_of_range)?;
+        rewards.with_environment(environment).map(Self).map_err(out_of_range)
+    }
+
+    #[getter]
+    fn mode(&self) -> &'static str {
+        MODES.iter().find(|(_, mode)| *mode == self.0.mode()).map_or("", |(name, _)| name)
+    }
+
+    #[getter]
+    fn gamma(&self) -> f64 {
+        self.0.gamma()
+    }
+
+    #[getter]
+    fn bound(&self) -> f64 {
+        self.0.bound()
+    }
+
+    #[getter]
+    fn trap_penalty(&self) -> f64 {
+        self.0.trap_penalty()
+    }
+
+    #[getter]
+    fn step_penalty(&self) -> f64 {
+        self.0.step_penalty()
+    }
+
+    #[getter]
+    fn environment(&self) -> f64 {
+        self.0.environment()
+    }
+
+    /// What the move from `q` to `next_q` pays, or each of many moves: numbers, or arrays of shape
+    /// (n,).
+    ///
+    /// `rho` is ρ(s', D_φ^q), which the mode `robustness` needs; `reward` is what the environment pays,
+    /// and `terminated` whether it ended the episode itself. Both default to nothing.
+    #[pyo3(signature = (task, q, next_q, *, rho=None, reward=None, terminated=None))]
+    fn pay<'py>(
+        &self,
+        task: &Task,
+        q: &Bound<'py, PyAny>,
+        next_q: &Bound<'py, PyAny>,
+        rho: Option<&Bound<'py, PyAny>>,
+        reward: Option<&Bound<'py, PyAny>>,
+        terminated: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let py = q.py();
+        if self.0.needs_robustness() && rho.is_none() {
+            return Err(wrong("rho is missing, and the mode `robustness` pays it"));
+        }
+        if let (Ok(q), Ok(to)) = (q.extract(), next_q.extract()) {
+            let arrival = reward::Arrival {
+                robustness: rho.map_or(Ok(0.0), |rho| rho.extract())?,
+                reward: reward.map_or(Ok(0.0), |reward| reward.extract())?,
+                terminated: terminated.map_or(Ok(false), |end| end.is_truthy())?,
+                ..reward::Arrival::at(task.state(q)?, task.state(to)?)
+            };
+            return Ok(self.0.pay(&task.ends, &arrival).into_pyobject(py)?.into_any());
+        }
+        let (q, to) = (task.states_of(q)?, task.states_of(next_q)?);
+        let count = q.len();
+        let column = |given: Option<&Bound<'py, PyAny>>, name: &str| match given {
+            None => Ok(Vec::new()),
+            Some(given) => {
+                let array = Array::new(given, name)?;
+                match array.view().shape[..] {
+                    [own] if own == count => Ok(array.robustness()),
+                    ref shape => {
+                        Err(wrong(format!("{name}: shape {shape:?}; q has {count} states")))
+                    }
+                }
+            }
+        };
+        if to.len() != count {
+            return Err(wrong(format!("next_q: {} states; q has {count}", to.len())));
+        }
+        let (robustness, reward) = (column(rho, "rho")?, column(reward, "reward")?);
+        let terminated = column(terminated, "terminated")?;
+        let terminated: Vec<bool> = terminated.iter().map(|end| *end > 0.0).collect();
+        let arrivals = Arrivals {
+            q: &q,
+            to: &to,
+            robustness: &robustness,
+            reward: &reward,
+            terminated: &terminated,
+        };
+        let mut out = vec![0.0; count];
+        py.detach(|| self.0.pay_all(&task.ends, &arrivals, &mut out));
+        shaped(py, out, &[count])
+    }
+
+    fn __getnewargs_ex__<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyTuple>, Bound<'py, PyDict>)> {
+        let named = PyDict::new(py);
+        for (name, value) in self.numbers() {
+            named.set_item(name, value)?;
+        }
+        Ok((PyTuple::new(py, [self.mode()])?, named))
+    }
+
+    fn __hash__(&self) -> u64 {
+        use std::hash::{DefaultHasher, Hash, Hasher};
+        let mut hasher = DefaultHasher::new();
+        // 0 and -0 are equal.
+        let numbers = self.numbers().map(|(_, value)| (value + 0.0).to_bits());
+        (self.mode(), numbers).hash(&mut hasher);
+        hasher.finish()
+    }
+
+    fn __repr__(&self) -> String {
+        let mut text = format!("Rewards({:?}", self.mode());
+        for (name, value) in self.numbers() {
+            let _ = write!(text, ", {name}={value}");
+        }
+        text + ")"
+    }
+}
+
+impl Rewards {
+    fn numbers(&self) -> [(&'static str, f64); 5] {
+        [
+            ("gamma", self.0.gamma()),
+            ("bound", self.0.bound()),
+            ("trap_penalty", self.0.trap_penalty()),
+            ("step_penalty", self.0.step_penalty()),
+            ("environment", self.0.environment()),
+        ]
+    }
+}
