@@ -92,6 +92,24 @@ impl Task {
         }
     }
 
+    /// The robustness of the propositions in so many rows.
+    pub(crate) fn rows_of(&self, labels: &Bound<'_, PyAny>, rows: usize) -> PyResult<Vec<f64>> {
+        let array = Array::new(labels, "labels")?;
+        let (shape, width) = (array.view().shape, self.names().len());
+        if shape != [rows, width] {
+            let wanted = format!("wanted is ({rows}, {width})");
+            return Err(wrong(format!("labels: an array of shape {shape:?}; {wanted}")));
+        }
+        let rho = array.robustness();
+        match rho.iter().position(|rho| rho.is_nan()) {
+            None => Ok(rho),
+            Some(at) => {
+                let (row, name) = (at / width, &self.names()[at % width]);
+                Err(wrong(format!("labels: `{name}` is not a number (NaN) in row {row}")))
+            }
+        }
+    }
+
     pub(crate) fn few_enough(&self) -> PyResult<()> {
         let count = self.names().len();
         if count <= 64 {

@@ -270,10 +270,25 @@ impl Task {
 
     /// By how much a state makes the automaton move on from `q`, the trap apart: ρ(s, D_φ^q). `labels`
     /// as for `step`; numbers are the robustness of the propositions, and truth values 1 or -1.
-    fn progress_robustness(&self, q: i64, labels: &Bound<'_, PyAny>) -> PyResult<f64> {
-        let q = self.state(q)?;
-        let row = labels::robustness(self.names(), labels)?;
-        Ok(robustness::guard(self.automaton().progress(q), |i| row[i]))
+    ///
+    /// Or the same for many: `q` of shape (n,) and `labels` of shape (n, propositions).
+    fn progress_robustness<'py>(
+        &self,
+        q: &Bound<'py, PyAny>,
+        labels: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let py = q.py();
+        let rho = |q, row: &[f64]| robustness::guard(self.automaton().progress(q), |i| row[i]);
+        if let Ok(q) = q.extract() {
+            let row = labels::robustness(self.names(), labels)?;
+            return Ok(rho(self.state(q)?, &row).into_pyobject(py)?.into_any());
+        }
+        let states = self.states_of(q)?;
+        let rows = self.rows_of(labels, states.len())?;
+        let width = self.names().len();
+        let row = |i: usize| &rows[i * width..][..width];
+        let all = states.iter().enumerate().map(|(i, &q)| rho(q, row(i))).collect();
+        shaped(py, all, &[states.len()])
     }
 
     /// The states after `q`, of shape (n,), has read `labels`: truth values of shape (n,

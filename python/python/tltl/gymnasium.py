@@ -98,7 +98,9 @@ class TaskEnv(gym.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
         self._pays_rho = self.rewards.mode == "robustness"
         self._moved = Rewards("progress")
         self._distances = self.task.distances.tolist()
-        self._observe, self.observation_space = observing(self.task, env, observe, key)
+        self._observe, self.observation_space = observing(
+            self.task, env.observation_space, observe, key
+        )
         self._q = self.task.initial
         self._last: tuple[Any, dict[str, Any]] | None = None
         if self.rewards.mode == "progress" and has_a_way_back(self.task):
@@ -186,10 +188,9 @@ def has_a_way_back(task: Task) -> bool:
 
 
 def observing(
-    task: Task, env: gym.Env[Any, Any], observe: str, key: str
+    task: Task, base: spaces.Space[Any], observe: str, key: str
 ) -> tuple[Callable[[Any, int], Any], spaces.Space[Any]]:
     """How an observation and the automaton's state become one, and the space of the result."""
-    base = env.observation_space
     if observe == "none":
         return (lambda obs, q: obs), base
     if observe == "flat":

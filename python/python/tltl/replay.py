@@ -1,0 +1,87 @@
+"""Stored experience, seen by every state of the automaton.
+
+A step of the world does not depend on the task: whoever has (s, a, s') and what holds in s' knows what
+every automaton state would have made of it. So one step teaches as many as there are live states,
+and experience of one task teaches another.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from tltl._core import Rewards, Task
+
+__all__ = ["Relabelled", "relabel"]
+
+
+@dataclass(frozen=True)
+class Relabelled:
+    """Transitions of the augmented world: arrays of shape (m,), one entry for each."""
+
+    #: The stored step that it comes from.
+    index: NDArray[np.int64]
+    #: The automaton state before.
+    q: NDArray[np.uint32]
+    #: The automaton state after.
+    next_q: NDArray[np.uint32]
+    #: What it pays.
+    reward: NDArray[np.float64]
+    #: Whether the episode ends there, for the task or for the environment.
+    terminated: NDArray[np.bool_]
+
+
+def relabel(
+    task: Task,
+    next_labels: ArrayLike,
+    *,
+    rewards: Rewards,
+    reward: ArrayLike | None = None,
+    terminated: ArrayLike | None = None,
+    states: Literal["all"] | int = "all",
+    seed: int | None = None,
+) -> Relabelled:
+    """The transitions that stored steps are for every live automaton state.
+
+    `next_labels`, of shape (n, propositions), is what holds in the state that each step arrives at:
+    truth values, or robustness, which the mode `robustness` pays. `reward` and `terminated`, of shape
+    (n,), are the environment's. With a number of `states`, so many are drawn for each step, with
+    replacement, by `seed`.
+
+    >>> import numpy as np
+    >>> from tltl import Rewards, Task
+    >>> from tltl.replay import relabel
+    >>> seen = relabel(Task("a T b"), [[True, False], [False, True]], rewards=Rewards("acceptance"))
+    >>> seen.index.tolist(), seen.q.tolist(), seen.next_q.tolist(), seen.reward.tolist()
+    ([0, 0, 1, 1], [0, 1, 0, 1], [1, 1, 0, 2], [0.0, 0.0, 0.0, 1.0])
+    """
+    rho = np.asarray(next_labels)
+    if rho.ndim != 2 or rho.shape[1] != len(task.propositions):
+        wanted = f"(n, {len(task.propositions)}): {', '.join(task.propositions)}"
+        raise ValueError(f"next_labels: shape {rho.shape}; wanted is {wanted}")
+    is_end = np.isin(np.arange(task.num_states), [end for end in ends(task) if end is not None])
+    live = np.flatnonzero(~is_end).astype(np.uint32)
+    steps = len(rho)
+    if states == "all":
+        each, q = len(live), np.tile(live, steps)
+    else:
+        each = states if len(live) else 0
+        q = np.random.default_rng(seed).choice(live, each * steps) if each else live
+    index = np.repeat(np.arange(steps), each)
+    rows = rho[index]
+    next_q = task.step_batch(q, rows)
+    over = np.zeros(steps, bool) if terminated is None else np.asarray(terminated, bool)
+    given: Any = np.zeros(steps) if reward is None else np.asarray(reward)
+    progress = task.progress_robustness(q, rows) if rewards.mode == "robustness" else None
+    paid = rewards.pay(
+        task, q, next_q, rho=progress, reward=given[index], terminated=over[index]
+    )
+    return Relabelled(index, q, next_q, paid, over[index] | is_end[next_q])
+
+
+def ends(task: Task) -> tuple[int | None, int | None]:
+    """The states in which an episode is over."""
+    return task.accepting, task.trap
