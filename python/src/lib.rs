@@ -7,6 +7,7 @@
 //! | `labels` | what holds in a state, as mappings, names or arrays |
 //! | `task`, `batch`, `monitor`, `file` | tasks |
 //! | `rewards` | what moves pay |
+//! | `model`, `solution` | finite worlds, and what policies are worth in them |
 //! | `values` | what tasks take and give, as data |
 //! | `error` | mistakes of a source into exceptions and warnings |
 //!
@@ -20,8 +21,10 @@ mod batch;
 mod error;
 mod file;
 mod labels;
+mod model;
 mod monitor;
 mod rewards;
+mod solution;
 mod states;
 mod task;
 mod values;
@@ -40,9 +43,13 @@ mod _core {
     #[pymodule_export]
     use super::file::{Parameter, TaskFile};
     #[pymodule_export]
+    use super::model::FiniteModel;
+    #[pymodule_export]
     use super::monitor::Monitor;
     #[pymodule_export]
     use super::rewards::Rewards;
+    #[pymodule_export]
+    use super::solution::{Certificate, Solution, solve};
     #[pymodule_export]
     use super::task::{Task, restore};
     #[pymodule_export]

@@ -36,7 +36,7 @@ const MODES: [(&str, Mode); 5] = [
 /// 1.0
 #[pyclass(frozen, eq, from_py_object, module = "tltl")]
 #[derive(Clone, PartialEq)]
-pub struct Rewards(reward::Rewards);
+pub struct Rewards(pub(crate) reward::Rewards);
 
 fn out_of_range(error: OutOfRange) -> PyErr {
     wrong(error.to_string())

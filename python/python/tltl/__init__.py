@@ -16,15 +16,19 @@ True
 
 from tltl._core import (
     Budget,
+    Certificate,
     Edge,
+    FiniteModel,
     Input,
     Monitor,
     Parameter,
     Rewards,
     Run,
+    Solution,
     Task,
     TaskFile,
     __version__,
+    solve,
 )
 from tltl._errors import CompileError, Diagnostic, TaskWarning
 from tltl._labels import Labels, labels
@@ -32,19 +36,23 @@ from tltl._load import load
 
 __all__ = [
     "Budget",
+    "Certificate",
     "CompileError",
     "Diagnostic",
     "Edge",
+    "FiniteModel",
     "Input",
     "Labels",
     "Monitor",
     "Parameter",
     "Rewards",
     "Run",
+    "Solution",
     "Task",
     "TaskFile",
     "TaskWarning",
     "__version__",
     "labels",
     "load",
+    "solve",
 ]

@@ -1,4 +1,4 @@
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from typing import Any, final, overload
 
 import numpy as np
@@ -6,6 +6,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from tltl._errors import Diagnostic
 from tltl._labels import Labels
+from tltl._model import EventFn, Table
 
 _States = ArrayLike | Sequence[NDArray[Any]] | Mapping[str, ArrayLike]
 _Columns = Mapping[str, int] | Sequence[str]
@@ -14,17 +15,21 @@ __version__: str
 
 __all__ = [
     "Budget",
+    "Certificate",
     "Edge",
+    "FiniteModel",
     "Input",
     "Monitor",
     "Parameter",
     "Rewards",
     "Run",
+    "Solution",
     "Task",
     "TaskFile",
     "__version__",
     "main",
     "restore",
+    "solve",
 ]
 
 @final
@@ -251,3 +256,88 @@ def restore(
     fingerprint: str,
 ) -> Task: ...
 def main(arguments: Sequence[str]) -> int: ...
+
+@final
+class FiniteModel:
+    @staticmethod
+    def from_arrays(
+        indptr: ArrayLike,
+        indices: ArrayLike,
+        probabilities: ArrayLike,
+        *,
+        actions: int,
+        ends: ArrayLike | None = None,
+        starts: ArrayLike | None = None,
+        horizon: int | None = None,
+        origin: Sequence[int] | None = None,
+        event: tuple[Hashable, ...] | None = None,
+    ) -> FiniteModel: ...
+    @staticmethod
+    def from_transitions(
+        transitions: Table,
+        *,
+        starts: ArrayLike | None = None,
+        events: EventFn | None = None,
+        horizon: int | None = None,
+    ) -> FiniteModel: ...
+    @staticmethod
+    def from_env(env: Any, *, events: EventFn | None = None) -> FiniteModel: ...
+    @property
+    def num_states(self) -> int: ...
+    @property
+    def num_actions(self) -> int: ...
+    @property
+    def horizon(self) -> int | None: ...
+    @property
+    def origin(self) -> NDArray[np.int32]: ...
+    @property
+    def event(self) -> tuple[Hashable, ...]: ...
+
+@final
+class Solution:
+    @property
+    def satisfied(self) -> NDArray[np.float64]: ...
+    @property
+    def steps(self) -> NDArray[np.float64]: ...
+    @property
+    def policy(self) -> NDArray[np.int64]: ...
+    @property
+    def Q(self) -> NDArray[np.float64]: ...
+    def certify(
+        self, policy: ArrayLike | Callable[[int, int], int], *, within: int | None = None
+    ) -> Certificate: ...
+
+@final
+class Certificate:
+    @property
+    def satisfied(self) -> float: ...
+    @property
+    def steps(self) -> float | None: ...
+    @property
+    def optimal_satisfied(self) -> float: ...
+    @property
+    def optimal_steps(self) -> float | None: ...
+    @property
+    def regret_satisfied(self) -> float: ...
+    @property
+    def regret_steps(self) -> float | None: ...
+    @property
+    def worst_regret_satisfied(self) -> float: ...
+    @property
+    def fraction_optimal(self) -> float: ...
+    @property
+    def within(self) -> int | None: ...
+    @property
+    def satisfied_within(self) -> float | None: ...
+    @property
+    def optimal_satisfied_within(self) -> float | None: ...
+    @property
+    def starts(self) -> tuple[tuple[int, float, float | None], ...]: ...
+
+def solve(
+    model: FiniteModel,
+    task: Task | str,
+    labels: ArrayLike | Callable[..., Labels],
+    *,
+    rewards: Rewards | None = None,
+) -> Solution: ...

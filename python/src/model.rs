@@ -1,0 +1,229 @@
+//! `tltl.FiniteModel`: a finite world as sparse rows.
+
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
+use tltl::model::{Dynamics, FiniteModel as Model};
+
+use super::array::{Array, frozen};
+use super::error::wrong;
+
+/// Sparse rows of outcomes, as they came.
+struct Rows {
+    actions: usize,
+    first: Vec<usize>,
+    to: Vec<usize>,
+    probability: Vec<f64>,
+    ends: Vec<bool>,
+    starts: Option<Vec<f64>>,
+}
+
+impl Rows {
+    fn outcomes(&self, s: usize, a: usize, ends: bool, mut outcome: impl FnMut(usize, f64)) {
+        let row = s * self.actions + a;
+        for at in self.first[row]..self.first[row + 1] {
+            if self.ends[at] == ends {
+                outcome(self.to[at], self.probability[at]);
+            }
+        }
+    }
+}
+
+impl Model for Rows {
+    type State = usize;
+
+    fn states(&self) -> usize {
+        (self.first.len() - 1) / self.actions
+    }
+
+    fn actions(&self) -> usize {
+        self.actions
+    }
+
+    fn state(&self, s: usize) -> usize {
+        s
+    }
+
+    fn transitions(&self, s: usize, a: usize, outcome: impl FnMut(usize, f64)) {
+        self.outcomes(s, a, false, outcome);
+    }
+
+    fn endings(&self, s: usize, a: usize, outcome: impl FnMut(usize, f64)) {
+        self.outcomes(s, a, true, outcome);
+    }
+
+    fn start(&self, s: usize) -> f64 {
+        self.starts.as_ref().map_or(1.0, |starts| starts[s])
+    }
+}
+
+/// A finite world whose probabilities are known.
+///
+/// Where an outcome ends the episode, its state is read, and nothing after it.
+///
+/// >>> from tltl import FiniteModel
+/// >>> # Two states; the only action goes on, and ends in state 1.
+/// >>> model = FiniteModel.from_arrays([0, 1, 2], [1, 1], [1.0, 1.0], actions=1, ends=[True, True])
+/// >>> model.num_states, model.num_actions
+/// (2, 1)
+#[pyclass(frozen, module = "tltl")]
+pub struct FiniteModel {
+    pub(crate) dynamics: Dynamics,
+    #[pyo3(get)]
+    pub(crate) horizon: Option<u64>,
+    origin: Vec<i32>,
+    /// What happened on the way into each state; nothing where it was not asked for.
+    #[pyo3(get)]
+    event: Py<PyTuple>,
+}
+
+impl FiniteModel {
+    pub(crate) fn origins(&self) -> &[i32] {
+        &self.origin
+    }
+
+    pub(crate) fn events<'py>(&self, py: Python<'py>) -> &Bound<'py, PyTuple> {
+        self.event.bind(py)
+    }
+}
+
+/// The numbers of an argument, of one axis.
+fn numbers(object: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<f64>> {
+    let array = Array::new(object, name)?;
+    match array.view().shape[..] {
+        [_] => Ok(array.robustness()),
+        ref shape => Err(wrong(format!("{name}: an array of shape {shape:?}; wanted is one axis"))),
+    }
+}
+
+/// The indices of an argument, of one axis, none above `most`.
+fn indices(object: &Bound<'_, PyAny>, name: &str, most: usize) -> PyResult<Vec<usize>> {
+    let array = Array::new(object, name)?;
+    if array.view().shape.len() != 1 {
+        return Err(wrong(format!("{name}: wanted is an array of one axis")));
+    }
+    let found = array
+        .naturals()
+        .ok_or_else(|| wrong(format!("{name}: wanted are whole numbers from 0 on")))?;
+    match found.iter().position(|&index| index > most as u64) {
+        Some(at) => Err(wrong(format!("{name}[{at}] is {}, and the largest is {most}", found[at]))),
+        None => Ok(found.into_iter().map(|index| index as usize).collect()),
+    }
+}
+
+/// A column that has an entry for each of `count`.
+fn expect<T>(column: Vec<T>, name: &str, count: usize) -> PyResult<Vec<T>> {
+    if column.len() == count {
+        return Ok(column);
+    }
+    Err(wrong(format!("{name}: {} entries; wanted are {count}", column.len())))
+}
+
+#[pymethods]
+impl FiniteModel {
+    /// The world of sparse rows (CSR): row s * actions + a are the outcomes of action a in state s.
+    ///
+    /// `ends` says of each outcome whether the episode is over there, `starts` how probable each state
+    /// is at first (equally, if left out), and `horizon` after how many steps an episode is cut.
+    ///
+    /// Raises `ValueError` if the outcomes of an action are not a distribution.
+    #[staticmethod]
+    #[pyo3(signature = (indptr, indices, probabilities, *, actions, ends=None, starts=None, horizon=None, origin=None, event=None))]
+    #[allow(clippy::too_many_arguments, reason = "each is a column of the model")]
+    fn from_arrays(
+        py: Python<'_>,
+        indptr: &Bound<'_, PyAny>,
+        indices: &Bound<'_, PyAny>,
+        probabilities: &Bound<'_, PyAny>,
+        actions: usize,
+        ends: Option<&Bound<'_, PyAny>>,
+        starts: Option<&Bound<'_, PyAny>>,
+        horizon: Option<u64>,
+        origin: Option<Vec<i32>>,
+        event: Option<Bound<'_, PyTuple>>,
+    ) -> PyResult<Self> {
+        let probability = numbers(probabilities, "probabilities")?;
+        let count = probability.len();
+        let first = self::indices(indptr, "indptr", count)?;
+        if actions == 0 || first.len() < 2 || !(first.len() - 1).is_multiple_of(actions) {
+            return Err(wrong("indptr: wanted is a row for each state and action, and the end"));
+        }
+        if first[0] != 0 || first[first.len() - 1] != count || !first.is_sorted() {
+            return Err(wrong("indptr: rows must ascend from 0 to the number of outcomes"));
+        }
+        let states = (first.len() - 1) / actions;
+        let to = expect(self::indices(indices, "indices", states - 1)?, "indices", count)?;
+        let ends = ends.map(|ends| numbers(ends, "ends")).transpose()?;
+        let ends = ends
+            .map_or_else(|| vec![false; count], |ends| ends.iter().map(|end| *end > 0.0).collect());
+        let ends = expect(ends, "ends", count)?;
+        let starts = starts.map(|starts| expect(numbers(starts, "starts")?, "starts", states));
+        let rows = Rows { actions, first, to, probability, ends, starts: starts.transpose()? };
+        let dynamics =
+            py.detach(|| Dynamics::new(&rows)).map_err(|error| wrong(error.to_string()))?;
+        let origin = origin.unwrap_or_else(|| (0..states as i32).collect());
+        let event = event.unwrap_or_else(|| PyTuple::empty(py));
+        Ok(Self {
+            dynamics,
+            horizon,
+            origin: expect(origin, "origin", states)?,
+            event: event.unbind(),
+        })
+    }
+
+    /// The world of Gymnasium's tables: `P[state][action]` are outcomes (probability, next state,
+    /// reward, done), for states and actions numbered from 0.
+    ///
+    /// With `events`, a function of (state, action, next state, reward), a next state is split by what
+    /// happened on the way to it, and labels may depend on that.
+    #[staticmethod]
+    #[pyo3(signature = (transitions, *, starts=None, events=None, horizon=None))]
+    fn from_transitions<'py>(
+        py: Python<'py>,
+        transitions: &Bound<'py, PyAny>,
+        starts: Option<&Bound<'py, PyAny>>,
+        events: Option<&Bound<'py, PyAny>>,
+        horizon: Option<u64>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let named = PyDict::new(py);
+        named.set_item("starts", starts)?;
+        named.set_item("events", events)?;
+        named.set_item("horizon", horizon)?;
+        let module = py.import("tltl._model")?;
+        module.getattr("of_transitions")?.call((transitions,), Some(&named))
+    }
+
+    /// The world of a Gymnasium environment that has its tables (`env.unwrapped.P`), with its starts
+    /// and its time limit.
+    #[staticmethod]
+    #[pyo3(signature = (env, *, events=None))]
+    fn from_env<'py>(
+        py: Python<'py>,
+        env: &Bound<'py, PyAny>,
+        events: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let named = PyDict::new(py);
+        named.set_item("events", events)?;
+        py.import("tltl._model")?.getattr("of_env")?.call((env,), Some(&named))
+    }
+
+    #[getter]
+    fn num_states(&self) -> usize {
+        self.dynamics.states()
+    }
+
+    #[getter]
+    fn num_actions(&self) -> usize {
+        self.dynamics.actions()
+    }
+
+    /// The state of the tables that each state is: int32, of shape (states,).
+    #[getter]
+    fn origin<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        frozen(py, self.origin.clone(), &[self.origin.len()])
+    }
+
+    fn __repr__(&self) -> String {
+        let (states, actions) = (self.num_states(), self.num_actions());
+        format!("<FiniteModel of {states} states and {actions} actions>")
+    }
+}
