@@ -252,4 +252,28 @@ pub struct Shielded {
     pub smallest_lost: f64,
     /// The fraction of live pairs in which the shield overrules the policy.
     pub overruled: f64,
+    /// What the allowed actions can come to; none in documents of earlier versions.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub allowed: Option<Allowed>,
+}
+
+/// What the actions that a shield allows can come to, at worst and at best: means over the starts,
+/// `s_0` read.
+///
+/// The shield costs `satisfied` against [`Certificate::optimal_satisfied`], and `steps` against
+/// [`Certificate::optimal_steps`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Allowed {
+    /// The ε of the shield's promise; none if it was made of what was seen.
+    pub epsilon: Option<f64>,
+    /// The fraction of the actions of live pairs that is allowed.
+    pub fraction: f64,
+    /// The largest P(the trap is entered) of a policy of allowed actions, whatever it remembers.
+    pub lost: f64,
+    /// The largest P(satisfied) of a policy of allowed actions.
+    pub satisfied: f64,
+    /// The fewest E\[steps\] for it, given success; `None` if `satisfied` is 0.
+    pub steps: Option<f64>,
 }

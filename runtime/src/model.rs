@@ -375,7 +375,7 @@ impl Dynamics {
 
     /// The arrivals of action `a` in state `s`, with their probabilities.
     #[inline]
-    fn row(&self, s: usize, a: usize) -> impl Iterator<Item = (usize, f64)> {
+    pub(crate) fn row(&self, s: usize, a: usize) -> impl Iterator<Item = (usize, f64)> {
         let successors = self.successors(s);
         let row = &self.matrix(s)[a * successors.len()..][..successors.len()];
         let all = successors.iter().map(|&to| to as usize).zip(row.iter().copied());

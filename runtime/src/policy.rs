@@ -56,7 +56,14 @@
 //!     "lost_before": 0.02,             P(the trap is entered), and the smallest possible
 //!     "lost_after": 0.015,
 //!     "smallest_lost": 0.015,
-//!     "overruled": 0.01                fraction of live pairs in which it overrules the policy
+//!     "overruled": 0.01,               fraction of live pairs in which it overrules the policy
+//!     "allowed": {                     optional: what the allowed actions can come to
+//!       "epsilon": 0.001,              what is promised; null: nothing
+//!       "fraction": 0.7,               of the actions of live pairs
+//!       "lost": 0.016,                 the largest P(the trap is entered)
+//!       "satisfied": 0.985,            the largest P(satisfied), and the fewest steps for it
+//!       "steps": 11.7
+//!     }
 //!   },
 //!   "starts": {                        optional: the worth from each start, s_0 read
 //!     "state": [0, 1, ...],            ascending
@@ -364,7 +371,7 @@ impl Policy {
     /// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
     /// let task = Labelled::of_model(&row, &tltl! { |s: &usize| ({ *s } != 0) U ({ *s } == 4) })?;
     /// let problem = Problem::new(&Dynamics::new(&row)?, &task)?;
-    /// let (optimum, shield) = (problem.optimum(&Rewards::default()), Shield::of_model(&problem));
+    /// let (optimum, shield) = (problem.optimum(&Rewards::default()), Shield::safest(&problem, 0.0)?);
     /// let unlearned = QTable::zeros(&task); // ties go to action 0, to the left
     /// let worth = optimum.certify_shield(&shield, &unlearned)?;
     /// let policy = shield.policy(&unlearned)?.shielded(worth);

@@ -75,7 +75,7 @@ fn other_tasks_and_worlds_are_refused() {
     assert_eq!((error.found(), error.expected()), (own, foreign));
     let error = Learner::resume(&other, learner.checkpoint()).unwrap_err();
     assert_eq!(error.to_string(), format!("a checkpoint{refused}"));
-    let shield = Shield::of_model(&problem(&other));
+    let shield = Shield::safest(&problem(&other), 0.0).unwrap();
     let error = shield.policy(learner.q()).unwrap_err();
     assert_eq!(error.to_string(), format!("a table{refused}"));
 
@@ -219,7 +219,7 @@ fn certificates_travel() {
         policy
     };
 
-    let shield = Shield::of_model(optimum.problem());
+    let shield = Shield::safest(optimum.problem(), 0.0).unwrap();
     let worth = optimum.certify_shield(&shield, q).unwrap();
     let policy = survives(shield.policy(q).unwrap().shielded(worth.clone()));
     assert_eq!(policy.certificate(), Some(&worth.after));

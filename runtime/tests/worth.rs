@@ -150,14 +150,15 @@ fn certificates_print_what_is_small_and_what_is_not_there() {
 fn shields_keep_out_of_the_trap() {
     let task = on_paper(&avoid(C, A));
     let optimum = problem(&task).optimum(&Rewards::of(Mode::Literal));
-    let shield = Shield::of_model(optimum.problem());
+    let shield = Shield::safest(optimum.problem(), 0.0).unwrap();
     let worth = optimum.certify_shield(&shield, optimum.q()).unwrap();
     assert!(worth.lost_before > 0.4 && worth.overruled > 0.0, "{worth:?}");
     assert!((worth.lost_after - worth.smallest_lost).abs() < 1e-6, "{worth:?}");
     // Without a model: the step into the trap itself.
     let mut learner = Learner::new(&task, Settings::default(), 1);
     learner.train(&mut ModelEnv::new(PAPER).unwrap(), 200_000).unwrap();
-    let shield = Shield::one_step(learner.experience(), &task).unwrap();
+    let mut shield = Shield::one_step(&task);
+    shield.extend(learner.experience()).unwrap();
     let (beside, up) = (index(&C) - 8, 0);
     assert!(!shield.allows(0, beside, up) && shield.allows(0, 0, up));
 }

@@ -24,6 +24,7 @@ fn policy() -> Value {
         "shield": {
             "before": certificate, "after": certificate,
             "lost_before": 0.5, "lost_after": 0.25, "smallest_lost": 0.25, "overruled": 0.125,
+            "allowed": {"epsilon": 0.01, "fraction": 0.5, "lost": 0.26, "satisfied": 0.75, "steps": 3.5},
         },
         "starts": {"state": [1], "satisfied": [1.0], "steps": [0.0]},
     })
@@ -53,6 +54,10 @@ fn certificates_are_told() {
     let text = emitted(&policy());
     assert!(text.contains("overrules 12.50 % of the actions"), "{text}");
     assert!(text.contains("probability 0.250000 (smallest possible 0.250000)"), "{text}");
+    assert!(text.contains("enter the trap with probability 0.260000 at most"), "{text}");
+    let mut earlier = policy();
+    earlier["shield"].as_object_mut().unwrap().remove("allowed");
+    assert!(!emitted(&earlier).contains("at most"), "documents of earlier versions do not say it");
     assert!(text.contains("STARTS: [(f64, f64); 2] = [ (f64::NAN, f64::NAN), (1.0, 0.0), ]"));
     let mut bare = policy();
     for field in ["shield", "starts", "certificate"] {

@@ -12,7 +12,7 @@ use alloc::vec::Vec;
 use rand::SeedableRng;
 use rand::rngs::Xoshiro256PlusPlus;
 
-use super::mask::{Mask, Masked};
+use super::shielding::Shielding;
 use super::table::{Fixed, IndexedWorld, Tabular, Width};
 use super::{Checkpoint, Experience, Settings, TrainError};
 use crate::augmented::Labelled;
@@ -23,6 +23,7 @@ use crate::model::{Dynamics, ModelError};
 use crate::policy::{Policy, Training};
 use crate::q::QTable;
 use crate::reward::Rewards;
+use crate::shield::Shield;
 use crate::solve::{Certificate, Problem};
 
 /// A tabular Q-learner (Watkins 1989) on the augmented MDP of a finite environment.
@@ -126,11 +127,18 @@ impl Learner {
         self.run_as(env, total, width, |agent: Tabular<'_, W, PLAIN>| agent)
     }
 
-    /// [`Self::train`] behind a mask, which leaves only some actions to explore; the settings say
-    /// how to choose among them. Slower: actions are looked up at every step.
+    /// [`Self::train`] behind a shield: only actions that it allows are taken, and it is told each step.
+    /// The settings say how to choose among them. Slower: actions are looked up at every step.
+    ///
+    /// On `!c U a` of the paper's grid, a million random steps: 46 % of the episodes end in the trap
+    /// without a shield, 19 % behind one that looks one step ahead, and 1.6 % behind the safest one,
+    /// none of them by an action that could have been a safer one (c is one of 80 starts).
+    ///
+    /// What it costs: actions that are barred are not learned about, so a table is worth its
+    /// certificate only under the same shield
+    /// ([`Optimum::certify_shield`](crate::solve::Optimum::certify_shield)).
     ///
     /// ```
-    /// use tltl::learn::Mask;
     /// use tltl::model;
     /// use tltl::prelude::*;
     /// use tltl::shield::Shield;
@@ -140,36 +148,31 @@ impl Learner {
     /// let row = model::from_fn(5, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(4)][a], 1.0)]);
     /// let mut env = ModelEnv::new(row)?;
     /// let task = Labelled::of_env(&env, &tltl! { |s: &usize| ({ *s } != 0) U ({ *s } == 4) })?;
-    /// let shield = Shield::of_model(&Problem::new(env.dynamics(), &task)?);
-    /// let mut learner = Learner::new(&task, Settings::safe(), 1);
-    /// learner.train_masked(&mut env, Mask::Shield(&shield), 2_000)?;
+    /// let mut shield = Shield::safest(&Problem::new(env.dynamics(), &task)?, 0.0)?;
+    /// let mut learner = Learner::new(&task, Settings::default(), 1);
+    /// learner.train_shielded(&mut env, &mut shield, 2_000)?;
     /// assert_eq!(learner.experience().tried(1, 0), 0, "what would be lost is never tried");
+    ///
+    /// // Without a model the shield learns, and a few accidents are its lesson.
+    /// let mut shield = Shield::one_step(&task);
+    /// let mut learner = Learner::new(&task, Settings::default(), 1);
+    /// learner.train_shielded(&mut env, &mut shield, 2_000)?;
+    /// let seen = learner.experience();
+    /// assert!(seen.tried(1, 0) > 0 && 20 * seen.tried(1, 0) < seen.tried(1, 1));
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```
     ///
     /// # Errors
     /// As [`Self::train`], or if the shield is of another task.
-    ///
-    /// # Panics
-    /// If the mask looks one step ahead and the settings keep no experience.
-    #[track_caller]
-    pub fn train_masked<E: FiniteEnv>(
+    pub fn train_shielded<E: FiniteEnv>(
         &mut self,
         env: &mut E,
-        mask: Mask<'_>,
+        shield: &mut Shield,
         total: u64,
     ) -> Result<(), TrainError> {
-        match mask {
-            Mask::Shield(shield) => self.task().check("a shield", shield.task())?,
-            Mask::OneStep => {
-                let remembers = self.settings.remembers();
-                assert!(remembers, "looking one step ahead needs `Memory::Experience`");
-            }
-        }
-        let task = self.task().clone();
-        let width = task.actions();
-        let masked = |agent| Masked { agent, task: &task, mask, allowed: Vec::new() };
-        self.run_as(env, total, width, masked)
+        self.task().check("a shield", shield.task())?;
+        let width = self.task().actions();
+        self.run_as(env, total, width, |agent| Shielding { agent, shield, allowed: Vec::new() })
     }
 
     /// Runs as the agent that `wrap` makes of the table.

@@ -1,8 +1,8 @@
 //! Tabular Q-learning on the FSA-augmented MDP.
 //!
 //! A [`Learner`] turns experience of a finite environment into action values; its [`Settings`] say
-//! how, and its [`Experience`] is what replay and composition need. A [`Mask`] keeps it from actions
-//! while it explores. [`TrajectoryLearner`] is the baseline that is paid at the end of episodes only.
+//! how, and its [`Experience`] is what replay and composition need. Behind a
+//! [`Shield`](crate::shield::Shield) it explores by allowed actions only. [`TrajectoryLearner`] is the baseline that is paid at the end of episodes only.
 //! All learners run in the one loop of [`episode`]. Networks are trained in `deep`.
 //!
 //! [`Settings::paper`] is the paper's recipe. [`Settings::default`] learns better from the same
@@ -14,9 +14,9 @@
 
 mod checkpoint;
 mod learner;
-mod mask;
 #[cfg(feature = "std")]
 mod seeds;
+mod shielding;
 mod table;
 mod trajectory;
 
@@ -25,7 +25,6 @@ use core::fmt;
 
 pub use checkpoint::Checkpoint;
 pub use learner::Learner;
-pub use mask::Mask;
 #[cfg(feature = "std")]
 pub use seeds::seeds;
 pub use trajectory::{Observation, TerminalReward, TrajectoryLearner};

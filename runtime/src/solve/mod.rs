@@ -396,7 +396,6 @@ impl Problem {
 
     /// The smallest or the largest P(the trap is ever entered) among the policies that use allowed
     /// actions only; 1 at the trap. Every live pair has an allowed action.
-    #[allow(dead_code, reason = "shields are certified by it")]
     #[inline]
     pub(crate) fn lost_within(&self, allowed: &Actions, objective: Objective) -> Values {
         let rule = match objective {
@@ -406,22 +405,6 @@ impl Problem {
         let mut lost = self.lost_by(&self.entering(End::Lost), &rule);
         self.set_end(End::Lost, &mut lost, 1.0);
         Values::new(self, lost)
-    }
-
-    /// The actions with which P(the trap is ever entered) can stay `lost`, within 1e-9.
-    #[inline]
-    pub(crate) fn avoiding(&self, lost: &Values) -> Actions {
-        let lost = lost.as_slice();
-        let mut avoiding = Actions::none(self.task.pairs(), self.dynamics.actions());
-        self.backups(&self.arrivals(&self.nothing(), 1.0, lost), &mut |q, s, actions| {
-            let pair = self.task.pair(q, s);
-            for (a, &p) in actions.iter().enumerate() {
-                if p <= lost[pair] + 1e-9 {
-                    avoiding.insert(pair, a);
-                }
-            }
-        });
-        avoiding
     }
 
     /// Sweeps from 0, which is below: the least fixed point, for being lost needs an entry into the

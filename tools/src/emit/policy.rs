@@ -14,7 +14,7 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 use tltl::network::policy::NetworkPolicy;
 use tltl::policy::{Document, Policy, Starts, States, Training};
-use tltl::shield::Shielded;
+use tltl::shield::{Allowed, Shielded};
 use tltl::solve::Certificate;
 use tltl_compiler::source::visible;
 
@@ -205,12 +205,25 @@ fn certified(certificate: &Certificate) -> String {
 fn shielded(worth: &Shielded) -> String {
     format!(
         "Under a shield, which overrules {:.2} % of the actions: the trap is entered with \
-         probability {:.6} (smallest possible {:.6}); without it with {:.6}. {}",
+         probability {:.6} (smallest possible {:.6}); without it with {:.6}. {}{}",
         100.0 * worth.overruled,
         worth.lost_after,
         worth.smallest_lost,
         worth.lost_before,
+        worth.allowed.as_ref().map(allowed).unwrap_or_default(),
         certified(&worth.before).replace("Exact value", "Without it")
+    )
+}
+
+/// What the actions that a shield allows can come to, as a sentence.
+fn allowed(allowed: &Allowed) -> String {
+    let steps = allowed.steps.map_or("unknown".to_owned(), |steps| format!("{steps:.4}"));
+    format!(
+        "The actions that it allows ({:.2} %) enter the trap with probability {:.6} at most, and \
+         satisfy the task with {:.6} at best, E[steps | satisfied] = {steps}. ",
+        100.0 * allowed.fraction,
+        allowed.lost,
+        allowed.satisfied
     )
 }
 
