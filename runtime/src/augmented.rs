@@ -16,6 +16,7 @@ mod moves;
 
 use rand::Rng;
 
+pub(crate) use joint::Joint;
 pub use label::{LabelError, Labelled};
 pub(crate) use label::{LabelTable, Payment};
 pub(crate) use moves::Moves;

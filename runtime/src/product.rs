@@ -64,12 +64,48 @@ pub enum Operator {
 impl Operator {
     /// What stands between two operands; `;` is what programs write between two steps.
     #[inline]
-    const fn symbol(self) -> &'static str {
+    pub(crate) const fn symbol(self) -> &'static str {
         match self {
             Self::Conjunction => " && ",
             Self::Disjunction => " || ",
             Self::Sequence => "; ",
         }
+    }
+
+    /// What a product of so many operands makes of how each of them has ended. `running` is the operand of
+    /// a sequence that has just moved, `None` before the first state is read.
+    ///
+    /// A sequence of several skips no operand before the first state is read, also where that is satisfied
+    /// by every state: each operand has a part of the trajectory of its own, of one state at least.
+    #[inline]
+    pub(crate) fn land(
+        self,
+        operands: usize,
+        running: Option<usize>,
+        accepting: impl Fn(usize) -> bool,
+        lost: impl Fn(usize) -> bool,
+    ) -> Landing {
+        let mut all = 0..operands;
+        match self {
+            Self::Conjunction if all.clone().any(&lost) => Landing::Lost,
+            Self::Conjunction if all.all(&accepting) => Landing::Accepted,
+            Self::Disjunction if all.clone().any(&accepting) => Landing::Accepted,
+            Self::Disjunction if all.all(&lost) => Landing::Lost,
+            Self::Sequence => match running {
+                None if operands == 1 && accepting(0) => Landing::Accepted,
+                _ if all.any(&lost) => Landing::Lost,
+                Some(i) if accepting(i) && i + 1 == operands => Landing::Accepted,
+                Some(i) => Landing::To(i + usize::from(accepting(i))),
+                None => Landing::To(0),
+            },
+            _ => Landing::To(0),
+        }
+    }
+
+    /// Whether operand `i` reads states while `running` runs.
+    #[inline]
+    pub(crate) fn moves(self, i: usize, running: usize) -> bool {
+        self != Self::Sequence || i == running
     }
 }
 
@@ -84,8 +120,8 @@ struct Key {
     code: u128,
 }
 
-/// Where a move of the product leads: to an end, or on with some operand running.
-enum Landing {
+/// Where a move of a product leads: to an end, or on with some operand running.
+pub(crate) enum Landing {
     Accepted,
     Lost,
     To(usize),
@@ -353,7 +389,7 @@ impl<'a, S: ?Sized> Product<'a, S> {
         let mut tuples = alloc::vec![Vec::new()];
         for (i, &at) in self.components(q).iter().enumerate() {
             let mut edges = Vec::new();
-            if self.moves(i, running) {
+            if self.operator.moves(i, running) {
                 self.operands[i].successors(at, &mut |to| edges.push(to));
             } else {
                 edges.push(at);
@@ -395,34 +431,11 @@ impl<'a, S: ?Sized> Product<'a, S> {
         tuple.iter().zip(&self.strides).map(|(&q, stride)| u128::from(q) * stride).sum()
     }
 
-    /// Whether operand `i` reads states while `running` runs.
-    fn moves(&self, i: usize, running: usize) -> bool {
-        self.operator != Operator::Sequence || i == running
-    }
-
-    /// What the product makes of the operands' states. `running` is the operand of a sequence that
-    /// has just moved, `None` before the first state is read.
-    ///
-    /// A sequence of several skips no operand before the first state is read, also where that is satisfied
-    /// by every state: each operand has a part of the trajectory of its own, of one state at least.
+    /// What the product makes of the operands' states.
     fn judge(&self, tuple: &[u32], running: Option<usize>) -> Landing {
         let accepting = |i: usize| self.operands[i].is_accepting(tuple[i]);
         let lost = |i: usize| self.operands[i].is_trap(tuple[i]);
-        let mut all = 0..tuple.len();
-        match self.operator {
-            Operator::Conjunction if all.clone().any(lost) => Landing::Lost,
-            Operator::Conjunction if all.all(accepting) => Landing::Accepted,
-            Operator::Disjunction if all.clone().any(accepting) => Landing::Accepted,
-            Operator::Disjunction if all.all(lost) => Landing::Lost,
-            Operator::Sequence => match running {
-                None if all.len() == 1 && accepting(0) => Landing::Accepted,
-                _ if all.any(lost) => Landing::Lost,
-                Some(i) if accepting(i) && i + 1 == tuple.len() => Landing::Accepted,
-                Some(i) => Landing::To(i + usize::from(accepting(i))),
-                None => Landing::To(0),
-            },
-            _ => Landing::To(0),
-        }
+        self.operator.land(tuple.len(), running, accepting, lost)
     }
 
     fn is_end(&self, q: u32) -> bool {
@@ -553,7 +566,7 @@ impl<S: ?Sized> Monitor<S> for Product<'_, S> {
         let running = self.keys[q as usize].running;
         let mut tuple = self.components(q).to_vec();
         for (i, at) in tuple.iter_mut().enumerate() {
-            if self.moves(i, running) {
+            if self.operator.moves(i, running) {
                 *at = self.operands[i].next(*at, s)?;
             }
         }

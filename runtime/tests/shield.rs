@@ -182,7 +182,7 @@ fn every_allowed_policy_of_a_small_world_keeps_the_promise() {
         let formula = tltl! { |s: &usize| ({ *s } != 1) U ({ *s } == 0) };
         let task = Labelled::of_model(&model, &formula).unwrap();
         let problem = Problem::new(&Dynamics::new(&model).unwrap(), &task).unwrap();
-        let mut smallest = vec![1.0; 6];
+        let mut smallest = [1.0; 6];
         for policy in policies(|s| if s < 2 { vec![0] } else { vec![0, 1, 2] }) {
             let lost = eliminated(&outcomes, &policy);
             smallest.iter_mut().zip(lost).for_each(|(least, p)| *least = p.min(*least));

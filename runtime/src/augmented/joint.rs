@@ -1,10 +1,12 @@
-//! Factored tasks as tables, without multiplying out their automata.
+//! Tasks that are made of others as tables, without multiplying out their automata.
 //!
 //! The product of n parts has as many states as the product of their sizes, but a world reaches only
 //! some of them. This search starts from the initial states of all parts, reads every combination of
 //! classes that some world state shows (a *letter*), and numbers the joint states as it finds them.
 //! Cost: joint states × letters. All joint states that accept are one state, all that are lost
 //! another, as in a product.
+//!
+//! Factored tasks are conjunctions; compositions of skills may be any product.
 
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -12,6 +14,7 @@ use alloc::vec::Vec;
 use super::label::{LabelError, LabelTable, Labelled};
 use crate::factored::Factored;
 use crate::interner::Interner;
+use crate::product::{Landing, Operator};
 use crate::reward::{End, Ends};
 use crate::robustness::Predicates;
 
@@ -48,34 +51,62 @@ impl Labelled {
         let actions: Vec<String> = actions.into_iter().map(Into::into).collect();
         let part = |i| Self::new(states.clone(), actions.clone(), &task.part(i));
         let parts = (0..task.len()).map(part).collect::<Result<Vec<_>, _>>()?;
-        let (class, letters) = letters(&parts);
+        let names = (task.name().into(), task.formula().text().into());
+        Ok(Joint::new(Operator::Conjunction, &parts, names, budget)?.task)
+    }
+}
+
+/// A task that is made of others on the same world, and which states of them each of its states is.
+pub(crate) struct Joint {
+    pub(crate) task: Labelled,
+    /// The parts' states at each state, one after the other.
+    pub(crate) components: Vec<u32>,
+    /// Which part of a sequence runs at each state; 0 for the other operators.
+    pub(crate) running: Vec<usize>,
+}
+
+impl Joint {
+    /// The product of `parts`, all of the same world; it is called by a name and a formula.
+    #[inline]
+    pub(crate) fn new(
+        operator: Operator,
+        parts: &[Labelled],
+        (name, formula): (String, String),
+        budget: usize,
+    ) -> Result<Self, LabelError> {
+        let (class, letters) = letters(parts);
         let letters = letters.items();
-        let mut joint = JointStates::new(&parts);
+        let mut joint = JointStates::new(operator, parts);
         let (mut next, mut q) = (Vec::new(), 0);
         // Rows are made in the order of the numbers; each may find more.
         while let Some(&tuple) = joint.found.get(q) {
             let tuple = joint.tuples.items()[tuple].clone();
             for letter in letters {
-                next.push(joint.read(&tuple, letter));
+                next.push(if joint.ends[q].is_some() {
+                    q as u32
+                } else {
+                    joint.read(&tuple, letter)
+                });
                 if joint.numbers.len() > budget {
-                    return Err(LabelError::TooLarge { parts: task.len(), budget });
+                    return Err(LabelError::TooLarge { parts: parts.len(), budget });
                 }
             }
             q += 1;
         }
-        let classes = letters.len();
+        let (components, running) = joint.parts_of_states();
         let distance = LabelTable::distances(&joint.ends, &next);
-        Self::from_tables(LabelTable {
-            name: task.name().into(),
-            formula: task.formula().text().into(),
-            actions,
-            classes,
+        let task = Labelled::from_tables(LabelTable {
+            name,
+            formula,
+            actions: parts.first().map_or_else(Vec::new, |part| part.action_names().to_vec()),
+            classes: letters.len(),
             class,
             next,
             initial: 0,
             ends: Ends::new(joint.ends, distance),
             robustness: Vec::new(),
-        })
+        })?;
+        Ok(Self { task, components, running })
     }
 }
 
@@ -101,8 +132,9 @@ fn letters(parts: &[Labelled]) -> (Vec<u32>, Interner<u32>) {
 /// A tuple and a number are two things: every tuple that loses has the one number of the trap, every
 /// one that accepts that of acceptance, so `numbers` maps many tuples to one.
 struct JointStates<'a> {
+    operator: Operator,
     parts: &'a [Labelled],
-    /// The parts' states.
+    /// The parts' states, and after them the part that runs.
     tuples: Interner<u32>,
     /// The number of each tuple.
     numbers: Vec<u32>,
@@ -116,8 +148,9 @@ struct JointStates<'a> {
 
 impl<'a> JointStates<'a> {
     #[inline]
-    fn new(parts: &'a [Labelled]) -> Self {
+    fn new(operator: Operator, parts: &'a [Labelled]) -> Self {
         let mut joint = Self {
+            operator,
             parts,
             tuples: Interner::new(),
             numbers: Vec::new(),
@@ -126,30 +159,40 @@ impl<'a> JointStates<'a> {
             accepted: None,
             lost: None,
         };
-        joint.number(&alloc::vec![0; parts.len()]);
+        joint.number(parts.iter().map(|part| part.tables().initial).collect(), None);
         joint
     }
 
-    /// The number of the state that follows `q` on a letter.
+    /// The number of the state that follows a tuple on a letter.
     #[inline]
-    fn read(&mut self, q: &[u32], letter: &[u32]) -> u32 {
-        let mut next = Vec::with_capacity(q.len());
-        for ((part, &q), &class) in self.parts.iter().zip(q).zip(letter) {
+    fn read(&mut self, tuple: &[u32], letter: &[u32]) -> u32 {
+        let running = tuple[self.parts.len()] as usize;
+        let mut next = Vec::with_capacity(tuple.len());
+        for (i, ((part, &q), &class)) in self.parts.iter().zip(tuple).zip(letter).enumerate() {
             let LabelTable { next: table, classes, .. } = part.tables();
-            next.push(table[q as usize * classes + class as usize]);
+            let to = table[q as usize * classes + class as usize];
+            next.push(if self.operator.moves(i, running) { to } else { q });
         }
-        self.number(&next)
+        self.number(next, Some(running))
     }
 
-    /// The number of a tuple of the parts' states: the one it has, or the next.
+    /// The number of the parts' states, of which `running` has just moved: the one they have, or the next.
     #[inline]
-    fn number(&mut self, q: &[u32]) -> u32 {
-        let tuple = self.tuples.number(q) as usize;
+    fn number(&mut self, mut parts: Vec<u32>, running: Option<usize>) -> u32 {
+        let accepting = |i: usize| self.parts[i].end(parts[i]) == Some(End::Accepted);
+        let lost = |i: usize| self.parts[i].end(parts[i]) == Some(End::Lost);
+        let landing = self.operator.land(parts.len(), running, accepting, lost);
+        let (end, runs) = match landing {
+            Landing::Accepted => (Some(End::Accepted), 0),
+            Landing::Lost => (Some(End::Lost), 0),
+            Landing::To(runs) => (None, runs),
+        };
+        parts.push(runs as u32);
+        let tuple = self.tuples.number(&parts) as usize;
         if let Some(&number) = self.numbers.get(tuple) {
             return number;
         }
         let fresh = self.ends.len() as u32;
-        let end = self.end(q);
         let number = match end {
             Some(End::Accepted) => *self.accepted.get_or_insert(fresh),
             Some(End::Lost) => *self.lost.get_or_insert(fresh),
@@ -163,16 +206,12 @@ impl<'a> JointStates<'a> {
         number
     }
 
-    /// How a tuple ends: one lost part loses a conjunction, and only all together accept.
+    /// The parts' states at each state, and which part runs.
     #[inline]
-    fn end(&self, q: &[u32]) -> Option<End> {
-        let mut accepted = true;
-        for (part, &q) in self.parts.iter().zip(q) {
-            match part.end(q) {
-                Some(End::Lost) => return Some(End::Lost),
-                end => accepted &= end == Some(End::Accepted),
-            }
-        }
-        accepted.then_some(End::Accepted)
+    fn parts_of_states(&self) -> (Vec<u32>, Vec<usize>) {
+        let n = self.parts.len();
+        let tuples = || self.found.iter().map(|&tuple| &self.tuples.items()[tuple]);
+        let components = tuples().flat_map(|tuple| tuple[..n].iter().copied()).collect();
+        (components, tuples().map(|tuple| tuple[n] as usize).collect())
     }
 }

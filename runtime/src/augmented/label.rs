@@ -83,7 +83,9 @@ pub enum LabelError {
         /// The number of actions.
         actions: usize,
     },
-    /// More joint states of a factored task can be reached than the budget allows.
+    /// Tasks that are to be one are of different worlds.
+    Mismatch(Mismatch),
+    /// More joint states of several tasks can be reached than the budget allows.
     TooLarge {
         /// The number of parts.
         parts: usize,
@@ -97,6 +99,7 @@ impl fmt::Display for LabelError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NotANumber(error) => error.fmt(f),
+            Self::Mismatch(error) => error.fmt(f),
             Self::Size { states, actions } => {
                 write!(f, "a world needs states and actions, this has {states} and {actions}")
             }
@@ -110,6 +113,13 @@ impl fmt::Display for LabelError {
 }
 
 impl core::error::Error for LabelError {}
+
+impl From<Mismatch> for LabelError {
+    #[inline]
+    fn from(error: Mismatch) -> Self {
+        Self::Mismatch(error)
+    }
+}
 
 impl Labelled {
     /// The table of `monitor` over a world's states, in the order of their numbers; `actions` are
