@@ -9,6 +9,8 @@
 //! Any text is a sequence of tokens, broken ones included: an unclosed comment ends with the text,
 //! and an unknown character is a token by itself. Nothing here fails.
 
+use unicode_ident::is_xid_continue;
+
 use crate::reserved::bare;
 use crate::source::Span;
 
@@ -108,8 +110,7 @@ pub(crate) fn compact(text: &str) -> String {
     let mut compact = String::new();
     for token in Tokens::new(text, 0) {
         let word = &text[token.start..token.end];
-        let wordy = |c: char| c.is_alphanumeric() || c == '_';
-        if compact.ends_with(wordy) && word.starts_with(wordy) {
+        if compact.ends_with(goes_on) && word.starts_with(goes_on) {
             compact.push(' ');
         }
         compact.push_str(word);
@@ -128,7 +129,7 @@ pub(crate) fn open_comment(text: &str, from: usize) -> Option<usize> {
 pub(crate) fn unquoted(text: &str) -> &str {
     let name = text.strip_prefix('"').and_then(|text| text.strip_suffix('"')).unwrap_or(text);
     let is_plain = name.starts_with(is_word_start)
-        && name.chars().all(|c| c.is_alphanumeric() || c == '_')
+        && name.chars().all(is_xid_continue)
         && keyword(name).is_none();
     if is_plain { name } else { text }
 }
@@ -212,7 +213,7 @@ impl Iterator for Tokens<'_> {
         let raw = rest.strip_prefix("r#").filter(|word| word.starts_with(is_word_start));
         let length = if is_word_start(first) || first.is_ascii_digit() {
             let word = raw.unwrap_or(rest);
-            let end = word.find(|c: char| !c.is_alphanumeric() && c != '_');
+            let end = word.find(|c: char| !goes_on(c));
             rest.len() - word.len() + end.unwrap_or(word.len())
         } else {
             let symbol = SYMBOLS.iter().find(|symbol| rest.starts_with(**symbol));
@@ -225,6 +226,12 @@ impl Iterator for Tokens<'_> {
         }
         Some(token)
     }
+}
+
+/// Whether a name or a number may have `c` after its first character: marks that combine with
+/// letters are parts of names, and digits of any script.
+pub(crate) fn goes_on(c: char) -> bool {
+    c.is_alphanumeric() || is_xid_continue(c)
 }
 
 /// Whether a name can begin with `c`.

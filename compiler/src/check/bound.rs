@@ -141,7 +141,12 @@ fn empty(
         format!("{first} is greater than {last}: the smaller number stands first")
     };
     let message = format!("the bound `{text}` is empty: no instant lies in it");
-    Error::new(Kind::Bound, message, bound.span).help(help)
+    let error = Error::new(Kind::Bound, message, bound.span).help(help);
+    let named = bound.ends.iter().any(|end| matches!(resolved.ast.node(end.node), Node::Name));
+    if !named {
+        return error;
+    }
+    error.help("if `for` gives the number, let its range begin later: a condition such as `i > 0 => …` leaves no bound out")
 }
 
 /// The error for a bound that this operator cannot have.

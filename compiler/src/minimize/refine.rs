@@ -36,7 +36,10 @@ struct Refinement<'a> {
     places: Vec<u32>,
     /// Where the members of each class begin and end.
     ranges: Vec<(u32, u32)>,
-    /// Functions with classes as leaves. Nothing is ever removed, so equal images are equal.
+    /// The nodes that the states need, children before parents.
+    order: Vec<u32>,
+    /// Functions with classes as leaves. Nothing is removed but all at once, so equal images are
+    /// equal.
     rewritten: Diagram,
     /// The image in `rewritten` of each node.
     images: Vec<Bdd>,
@@ -75,10 +78,20 @@ impl<'a> Refinement<'a> {
             signatures: Vec::new(),
             waiting: vec![Vec::new(); dfa.propositions.len()],
             waits,
+            order,
         };
-        order.iter().for_each(|&node| refinement.images[node as usize] = refinement.image(node));
-        refinement.signatures = dfa.transitions.iter().map(|&root| refinement.of(root)).collect();
+        refinement.rewrite_all();
         refinement
+    }
+
+    /// Rewrites all nodes, in a diagram without the images of earlier rounds.
+    fn rewrite_all(&mut self) {
+        self.rewritten.clear();
+        for place in 0..self.order.len() {
+            let node = self.order[place];
+            self.images[node as usize] = self.image(node);
+        }
+        self.signatures = self.dfa.transitions.iter().map(|&root| self.of(root)).collect();
     }
 
     /// The image of a function, whose nodes have theirs.
@@ -149,6 +162,13 @@ impl<'a> Refinement<'a> {
     /// Rewrites the nodes above states whose class has a new number, lowest first and only as far
     /// up as images change. Returns the states whose transitions changed.
     fn rewrite(&mut self, moved: &[State]) -> Vec<State> {
+        // Where most nodes are to be rewritten, to look for them costs more than to take all, and a
+        // diagram that is small stays in the cache: the tool takes 170 ms for the 65,537 states of
+        // `F (a && X[16] b)`, and took 200.
+        if moved.len() > self.classes.len() / 8 {
+            self.rewrite_all();
+            return self.dfa.states().collect();
+        }
         let mut roots = Vec::new();
         moved.iter().for_each(|&q| self.wake(Bdd::leaf(q), &mut roots));
         for level in (0..self.waiting.len()).rev() {

@@ -3,7 +3,7 @@
 use crate::error::{Error, Kind};
 use crate::grammar::{self, Rule};
 use crate::source::Span;
-use crate::token::Tokens;
+use crate::token::{self, Tokens};
 
 /// The error for the word or sign of another tool at `span` of a text.
 pub(super) fn foreign(word: &str, text: &str, span: Span) -> Error {
@@ -46,7 +46,6 @@ fn rewritten(text: &str) -> Option<String> {
     const MOST: usize = 100;
     let mut rewritten = String::new();
     let mut end = 0;
-    let wordy = |c: char| c.is_alphanumeric() || c == '_';
     let mut tokens = Tokens::new(text.get(..text.len().min(MOST + 1))?, 0).peekable();
     while let Some(token) = tokens.next() {
         rewritten.push_str(&text[end..token.start]);
@@ -57,7 +56,7 @@ fn rewritten(text: &str) -> Option<String> {
             None if is_bounded && is_bounded_word(word) => letter(word),
             None => word,
         };
-        if rewritten.ends_with(wordy) && word.starts_with(wordy) {
+        if rewritten.ends_with(token::goes_on) && word.starts_with(token::goes_on) {
             rewritten.push(' ');
         }
         rewritten.push_str(word);

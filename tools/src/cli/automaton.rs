@@ -22,7 +22,7 @@ pub(super) fn run(arguments: &Automaton, streams: &mut Streams<'_>) -> Outcome {
         _ => arguments.limits.shown(),
     };
     if let Some(list) = &arguments.formulas {
-        let list = streams.read(list)?;
+        let list = streams.read_lines(list)?;
         return formulas(arguments, &list, budget, streams);
     }
     if let Some(formula) = &arguments.formula {
@@ -81,7 +81,7 @@ fn single(
 /// reported in its place and the rest goes on, so that in JSON there is a line for each formula.
 fn formulas(
     arguments: &Automaton,
-    list: &str,
+    list: &[String],
     budget: Budget,
     streams: &mut Streams<'_>,
 ) -> Outcome {
@@ -90,8 +90,8 @@ fn formulas(
     }
     let mut all_well = true;
     let is_formula =
-        |line: &str| !line.trim().is_empty() && !line.trim_start().starts_with(['#', '/']);
-    for (number, formula) in list.lines().enumerate().filter(|(_, line)| is_formula(line)) {
+        |line: &str| !["#", "//"].iter().any(|mark| line.starts_with(mark)) && !line.is_empty();
+    for (number, formula) in list.iter().enumerate().filter(|(_, line)| is_formula(line.trim())) {
         let shown = one_of_many(arguments, (number, formula), budget);
         all_well &= shown.is_ok();
         streams.print(&shown.unwrap_or_else(|failure| failure))?;

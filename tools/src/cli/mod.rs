@@ -127,6 +127,8 @@ enum Command {
     /// Of several trajectories the text has one line each, and a summary.
     Run(Run),
     /// Lays out task files in place; comments, spellings and line breaks stay.
+    ///
+    /// All lines end as the first one does; a byte order mark is left out.
     Fmt {
         /// The task files; `-` takes the standard input to the standard output.
         #[arg(required = true)]

@@ -93,12 +93,12 @@ fn reading(run: &Run, streams: &mut Streams<'_>) -> Result<Option<Reading>, Stri
 
 /// The columns that the user has chosen, by field: those of the file, then those of the arguments.
 fn map(run: &Run, streams: &mut Streams<'_>) -> Result<Vec<(String, String)>, String> {
-    let file = run.map_file.as_deref().map_or(Ok(String::new()), |path| streams.read(path))?;
-    let lines = file.lines().map(str::trim).filter(|line| !line.is_empty());
+    let file = run.map_file.as_deref().map_or(Ok(Vec::new()), |path| streams.read_lines(path))?;
+    let lines = file.iter().map(|line| line.trim()).filter(|line| !line.is_empty());
     let lines = lines.filter(|line| !line.starts_with('#'));
-    let pair = |text: &str| match text.split_once('=') {
-        Some((field, column)) => Ok((field.trim().to_owned(), column.trim().to_owned())),
-        None => Err(format!("`{text}` maps nothing: write FIELD=COLUMN")),
+    let pair = |text: &str| match text.split_once('=').map(|(a, b)| (a.trim(), b.trim())) {
+        None | Some(("", _) | (_, "")) => Err(format!("`{text}` maps nothing: write FIELD=COLUMN")),
+        Some((field, column)) => Ok((field.to_owned(), column.to_owned())),
     };
     lines.chain(run.map.iter().map(String::as_str)).map(pair).collect()
 }

@@ -46,6 +46,12 @@ impl Streams<'_> {
         read.map(|_| text).map_err(|error| unreadable(path, &error))
     }
 
+    /// The lines of such a text, without the byte order mark that some editors put before it.
+    pub(super) fn read_lines(&mut self, path: &Path) -> Result<Vec<String>, String> {
+        let text = self.read(path)?;
+        Ok(text.trim_start_matches('\u{feff}').lines().map(str::to_owned).collect())
+    }
+
     /// Writes a result; see [`Output::print`].
     pub(super) fn print(&mut self, text: &str) -> Outcome {
         self.out.print(text)

@@ -95,7 +95,8 @@ fn whole(lines: &mut Lines<'_>, text: &[u8], error: &Error) -> Result<Value, Str
     while lines.append(&mut all)? {
         all.push(b'\n');
     }
-    value(&all).map_err(|whole| {
+    // An end that comes too early is that of the last line.
+    value(all.trim_ascii_end()).map_err(|whole| {
         let is_array = text.trim_ascii_start().starts_with(b"[");
         // An object that is cut off at the end of its line is meant as one of many lines.
         if is_array || error.is_eof() {
