@@ -27,6 +27,7 @@ mod semantics;
 mod static_corpus;
 mod stages;
 mod static_corpus_source;
+mod straight;
 mod surface;
 mod tables;
 mod tasks;

@@ -242,6 +242,37 @@ pub struct Edge<'a> {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Automaton {
     tables: Tables,
+    /// The transition function once more, where it is small.
+    shifts: Option<[u64; SMALL]>,
+}
+
+/// An automaton of up to so many states and valuations also has its transition function as shifts: a
+/// number for each valuation, in which the four bits from 4q on are the state after q. A step then
+/// waits for the state before it through a shift and a mask, and not through a look-up.
+const SMALL: usize = 16;
+
+#[cold]
+#[inline(never)]
+fn no_state(q: u32) -> ! {
+    panic!("there is no state {q}")
+}
+
+/// The transition function as shifts.
+const fn shifts(states: u32, class: &[u16], width: u32, next: &[u32]) -> Option<[u64; SMALL]> {
+    if states as usize > SMALL || class.len() > SMALL {
+        return None;
+    }
+    let (mut shifts, mut letter) = ([0; SMALL], 0);
+    while letter < class.len() {
+        let mut q = 0;
+        while q < states {
+            let to = next[q as usize * width as usize + class[letter] as usize];
+            shifts[letter] |= (to as u64) << (4 * q);
+            q += 1;
+        }
+        letter += 1;
+    }
+    Some(shifts)
 }
 
 impl Automaton {
@@ -298,14 +329,27 @@ impl Automaton {
     #[cfg(feature = "alloc")]
     pub fn new(tables: Tables) -> Result<Self, TableError> {
         check::automaton(&tables)?;
-        Ok(Self { tables })
+        let shifts = match &tables.transitions {
+            Transitions::Table { class, width, next } => shifts(tables.states, class, *width, next),
+            Transitions::Diagram { .. } => None,
+        };
+        Ok(Self { tables, shifts })
     }
 
     /// For generated code, whose tables are right by construction.
     #[doc(hidden)]
     #[must_use]
     pub const fn trusted(tables: Tables) -> Self {
-        Self { tables }
+        let shifts = match &tables.transitions {
+            Transitions::Table { class, width, next } => {
+                match (class.in_static(), next.in_static()) {
+                    (Some(class), Some(next)) => shifts(tables.states, class, *width, next),
+                    _ => None,
+                }
+            }
+            Transitions::Diagram { .. } => None,
+        };
+        Self { tables, shifts }
     }
 
     /// All data of the automaton.
@@ -365,6 +409,25 @@ impl Automaton {
                     at = if holds(proposition as usize)? { high } else { low };
                 }
                 Ok(at - Transitions::LEAF)
+            }
+        }
+    }
+
+    /// The next state from `q` under a valuation, of which bit i is proposition i.
+    #[inline(always)]
+    pub(crate) fn of_letter(&self, q: u32, letter: usize) -> u32 {
+        if let Some(shifts) = &self.shifts {
+            if q >= self.tables.states {
+                no_state(q);
+            }
+            return (shifts[letter % SMALL] >> (4 * q)) as u32 % SMALL as u32;
+        }
+        match &self.tables.transitions {
+            Transitions::Table { class, width, next } => {
+                next[q as usize * *width as usize + usize::from(class[letter])]
+            }
+            Transitions::Diagram { nodes, roots } => {
+                batch::descend(nodes, roots[q as usize], |i| letter >> i & 1 == 1)
             }
         }
     }

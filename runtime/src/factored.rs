@@ -268,7 +268,7 @@ impl<P> Factored<P> {
     where
         P: Predicates<S>,
     {
-        let mut parts = self.readers().map(|part| part.robustness(trajectory));
+        let mut parts = self.readers().map(|part| part.robustness(trajectory, &mut []));
         parts.try_fold(f64::INFINITY, |least, rho| Ok(least.min(rho?)))
     }
 
@@ -302,7 +302,7 @@ impl<P> Factored<P> {
     fn reader<'a>(&'a self, part: &'a Part) -> Reader<'a, Select<'a, P>> {
         let Part { formula, automaton, predicates } = part;
         let predicates = Select { predicates: &self.predicates, chosen: predicates };
-        Reader { formula, automaton, predicates }
+        Reader { formula, automaton, predicates, is_generated: false }
     }
 }
 

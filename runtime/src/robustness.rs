@@ -8,9 +8,15 @@
 //! A value that is not a number (NaN) is an error of the caller. It is reported and never taken as
 //! false, which is why a predicate answers with a `Result`.
 //!
+//! The robustness of a compiled task is straight-line code, made from the type of its formula, if that
+//! has at most 32 operators and its bounds add up to at most 4,000 steps; [`trajectory`] interprets all
+//! others.
+//!
 //! [`guard`], [`trajectory`] and [`best_run`] work on the robustness of propositions, wherever that
 //! comes from; [`Task`](crate::Task) applies them to states.
 
+#[doc(hidden)]
+pub mod typed;
 mod window;
 
 use core::{fmt, mem};
@@ -189,14 +195,15 @@ impl<S: ?Sized, F: Fn(&S) -> bool> Predicate<S> for Boolean<F> {
 ///         let rho = self.robustness(i, s);
 ///         if rho.is_nan() { Err(NotANumber) } else { Ok(rho > 0.0) }
 ///     }
-/// #   #[cfg(not(feature = "alloc"))]
-/// #   fn with_scratch<R>(&self, _: usize, f: impl FnOnce(&mut [f64], &mut [f64]) -> R) -> R {
-/// #       f(&mut [], &mut [])
-/// #   }
 /// }
 /// assert_eq!(Above.holds(1, &[0.0, 0.75]), Ok(true));
 /// ```
 pub trait Predicates<S: ?Sized> {
+    /// The number of predicates, if it is known and the automaton they were generated with is a table:
+    /// then a step reads all of them.
+    #[doc(hidden)]
+    const DENSE: usize = 0;
+
     /// Robustness of predicate `i` at `s`; NaN if `s` holds one.
     ///
     /// # Panics
@@ -212,23 +219,37 @@ pub trait Predicates<S: ?Sized> {
     /// If there is no predicate `i`.
     fn holds(&self, i: usize, s: &S) -> Result<bool, NotANumber>;
 
-    /// Calls `f` with two buffers, the first of at least `cells` numbers, the second with one for
-    /// each operator of the formula or state of the automaton. Generated code knows the numbers and
-    /// gives two arrays, so that the robustness of a trajectory allocates nothing.
-    #[cfg(feature = "alloc")]
+    /// The robustness of the formula that these predicates were generated with, where its
+    /// [type](typed) is known: of a whole trajectory, and where `signal` has a place for each instant,
+    /// from each on. NaN if a predicate is.
     #[doc(hidden)]
-    fn with_scratch<R>(&self, cells: usize, f: impl FnOnce(&mut [f64], &mut [f64]) -> R) -> R {
-        f(&mut alloc::vec![0.0; cells], &mut alloc::vec![0.0; cells])
+    #[inline]
+    fn straight(&self, trajectory: &[S], signal: &mut [f64]) -> Option<f64>
+    where
+        S: Sized,
+    {
+        let _ = (trajectory, signal);
+        None
     }
 
     /// Calls `f` with two buffers, the first of at least `cells` numbers, the second with one for
-    /// each operator of the formula or state of the automaton.
-    #[cfg(not(feature = "alloc"))]
+    /// each operator of the formula or state of the automaton. Generated code that has no straight
+    /// line knows the numbers and gives two arrays, so that robustness allocates nothing.
     #[doc(hidden)]
-    fn with_scratch<R>(&self, cells: usize, f: impl FnOnce(&mut [f64], &mut [f64]) -> R) -> R;
+    fn with_scratch<R>(&self, cells: usize, f: impl FnOnce(&mut [f64], &mut [f64]) -> R) -> R {
+        #[cfg(feature = "alloc")]
+        return f(&mut alloc::vec![0.0; cells], &mut alloc::vec![0.0; cells]);
+        #[cfg(not(feature = "alloc"))]
+        {
+            let _ = cells;
+            f(&mut [], &mut [])
+        }
+    }
 }
 
 impl<S: ?Sized, P: Predicates<S>> Predicates<S> for &P {
+    const DENSE: usize = P::DENSE;
+
     #[inline]
     fn robustness(&self, i: usize, s: &S) -> f64 {
         (**self).robustness(i, s)
@@ -239,9 +260,38 @@ impl<S: ?Sized, P: Predicates<S>> Predicates<S> for &P {
         (**self).holds(i, s)
     }
 
+    #[inline]
+    fn straight(&self, trajectory: &[S], signal: &mut [f64]) -> Option<f64>
+    where
+        S: Sized,
+    {
+        (**self).straight(trajectory, signal)
+    }
+
     fn with_scratch<R>(&self, cells: usize, f: impl FnOnce(&mut [f64], &mut [f64]) -> R) -> R {
         (**self).with_scratch(cells, f)
     }
+}
+
+/// The valuation of all predicates at `s`, where there are [so many](Predicates::DENSE): bit i is
+/// predicate i. After it, whether one of them is not a number.
+///
+/// Each number is written out, so that each predicate is inlined, and errors are looked at together:
+/// a branch for each costs more than the comparison.
+#[inline(always)]
+pub(crate) fn letter<S: ?Sized, P: Predicates<S>>(predicates: &P, s: &S) -> (u16, bool) {
+    let (mut letter, mut is_nan) = (0, false);
+    macro_rules! each {
+        ($($i:literal)*) => {$(
+            if $i < P::DENSE {
+                let holds = predicates.holds($i, s);
+                letter |= u16::from(holds == Ok(true)) << $i;
+                is_nan |= holds.is_err();
+            }
+        )*};
+    }
+    each! { 0 1 2 3 4 5 6 7 8 9 }
+    (letter, is_nan)
 }
 
 /// Robustness of a guard: max over its cubes, min over their literals, where `rho` gives the
@@ -347,6 +397,18 @@ pub fn trajectory<E>(
     length: usize,
     now: &mut [f64],
     next: &mut [f64],
+    rho: impl FnMut(usize, usize) -> Result<f64, E>,
+) -> Result<f64, E> {
+    signal(operators, length, now, next, &mut [], rho)
+}
+
+/// The same, and where `signal` has a place for each instant, the robustness from each on.
+pub(crate) fn signal<E>(
+    operators: &[Op],
+    length: usize,
+    now: &mut [f64],
+    next: &mut [f64],
+    signal: &mut [f64],
     mut rho: impl FnMut(usize, usize) -> Result<f64, E>,
 ) -> Result<f64, E> {
     now.fill(f64::NEG_INFINITY);
@@ -378,8 +440,11 @@ pub fn trajectory<E>(
             };
         }
         next.copy_from_slice(now);
+        if let (Some(signal), Some(whole)) = (signal.get_mut(t), now.last()) {
+            *signal = *whole;
+        }
     }
-    Ok(operators.len().checked_sub(1).map_or(f64::NEG_INFINITY, |last| now[last]))
+    Ok(now.last().copied().unwrap_or(f64::NEG_INFINITY))
 }
 
 /// The number of cells that the robustness of a formula needs on a trajectory of so many states: one
@@ -448,6 +513,44 @@ pub fn best_run<E>(
     Ok(accepting.map_or(f64::NEG_INFINITY, |q| now[q as usize]))
 }
 
+/// [`best_run`] from each instant on, in one backward pass: `now` and `next` have for each state of the
+/// automaton the robustness of the best run from there into the accepting state.
+pub(crate) fn best_runs<E>(
+    automaton: &Automaton,
+    now: &mut [f64],
+    next: &mut [f64],
+    signal: &mut [f64],
+    mut rho: impl FnMut(usize, usize) -> Result<f64, E>,
+) -> Result<(), E> {
+    next.fill(f64::NEG_INFINITY);
+    if let Some(accepting) = automaton.accepting() {
+        next[accepting as usize] = f64::INFINITY;
+    }
+    for (t, signal) in signal.iter_mut().enumerate().rev() {
+        now.fill(f64::NEG_INFINITY);
+        for edge in automaton.edges() {
+            let taken = try_guard(edge.guard, |i| rho(i, t))?;
+            let from = &mut now[edge.from as usize];
+            *from = max(*from, min(next[edge.to as usize], taken));
+        }
+        next.copy_from_slice(now);
+        *signal = now[Automaton::INITIAL as usize];
+    }
+    Ok(())
+}
+
+/// Robustness of a guard whose propositions may have none.
+fn try_guard<E>(of: Guard<'_>, mut rho: impl FnMut(usize) -> Result<f64, E>) -> Result<f64, E> {
+    let mut error = None;
+    let taken = guard(of, |i| {
+        rho(i).unwrap_or_else(|e| {
+            error = Some(e);
+            f64::NEG_INFINITY
+        })
+    });
+    error.map_or(Ok(taken), Err)
+}
+
 /// One state of [`best_run`]: `now` has the robustness of the best run into each automaton state,
 /// and `next` gets that after one more state of the world, in which proposition `i` has robustness
 /// `rho(i)`. Before the first, it is ∞ in the initial state and -∞ elsewhere.
@@ -478,16 +581,7 @@ pub fn advance_runs<E>(
 ) -> Result<(), E> {
     next.fill(f64::NEG_INFINITY);
     for edge in automaton.edges() {
-        let mut error = None;
-        let taken = guard(edge.guard, |i| {
-            rho(i).unwrap_or_else(|e| {
-                error = Some(e);
-                f64::NEG_INFINITY
-            })
-        });
-        if let Some(error) = error {
-            return Err(error);
-        }
+        let taken = try_guard(edge.guard, &mut rho)?;
         let to = &mut next[edge.to as usize];
         *to = max(*to, min(now[edge.from as usize], taken));
     }

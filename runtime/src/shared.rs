@@ -57,6 +57,15 @@ impl<T: ?Sized> Shared<T> {
         Self(Place::Static(value))
     }
 
+    /// The value if it is static, also in a constant.
+    pub(crate) const fn in_static(&self) -> Option<&'static T> {
+        match &self.0 {
+            Place::Static(value) => Some(value),
+            #[cfg(feature = "alloc")]
+            Place::Counted(_) => None,
+        }
+    }
+
     /// A part of the value: a reference into it if it is static, otherwise a copy of that part,
     /// because a counted pointer cannot point into the middle of what it counts.
     pub(crate) fn project<U: Clone>(&self, part: impl FnOnce(&T) -> &U) -> Shared<U> {

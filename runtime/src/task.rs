@@ -4,6 +4,7 @@
 //! at run time owns its tables. Both are [`Task`]. A task holds no automaton state: the state `q`
 //! is the caller's, one `u32`, and one task serves any number of trajectories at once.
 
+mod batch;
 mod parametric;
 
 use core::fmt;
@@ -12,13 +13,13 @@ pub use parametric::Parametric;
 
 #[cfg(feature = "alloc")]
 use crate::automaton::TableError;
-use crate::automaton::{Automaton, Guard};
+use crate::automaton::{Automaton, Guard, proposition};
 pub use crate::formula::Formula;
 #[cfg(feature = "alloc")]
 use crate::formula::check_operators;
 use crate::monitor::{Acceptor, Monitor};
 pub use crate::robustness::Error;
-use crate::robustness::{self, NotANumber, Predicates};
+use crate::robustness::{self, NotANumber, Op, Predicates};
 use crate::shared::Shared;
 
 /// A compiled task over states of any type that its predicates `P` read.
@@ -46,6 +47,8 @@ pub struct Task<P> {
     formula: Shared<Formula>,
     automaton: Shared<Automaton>,
     predicates: P,
+    /// Whether the predicates were generated with this formula, and not with another one.
+    is_generated: bool,
 }
 
 /// Name, formula and size: predicates are code.
@@ -96,7 +99,7 @@ impl<P> Task<P> {
         let (name, formula, automaton) = (name.into(), formula.into(), automaton.into());
         let propositions = automaton.propositions().len();
         check_operators(formula.operators(), propositions)?;
-        Ok(Self { name, formula, automaton, predicates })
+        Ok(Self { name, formula, automaton, predicates, is_generated: false })
     }
 
     /// For generated code, whose tables are right by construction.
@@ -107,7 +110,7 @@ impl<P> Task<P> {
         automaton: Shared<Automaton>,
         predicates: P,
     ) -> Self {
-        Self { name, formula, automaton, predicates }
+        Self { name, formula, automaton, predicates, is_generated: true }
     }
 
     /// The minimal automaton.
@@ -207,7 +210,34 @@ impl<P> Task<P> {
     where
         P: Predicates<S>,
     {
-        self.reader().robustness(trajectory)
+        self.reader().robustness(trajectory, &mut [])
+    }
+
+    /// The robustness of what is left of a trajectory at each of its instants, ρ(s_{t:T}, φ), in O(N)
+    /// time for all of them: `signal[t]` gets that from instant t on.
+    ///
+    /// # Errors
+    /// If a predicate is not a number: which, and at which instant. `signal` is then not to be used.
+    ///
+    /// # Panics
+    /// If `signal` does not have a place for each instant.
+    ///
+    /// ```
+    /// use tltl::tltl;
+    ///
+    /// let task = tltl! { |x: &f64| F ({ *x } > 3) };
+    /// let mut signal = [0.0; 4];
+    /// task.robustness_signal(&[1.0, 5.0, 2.0, 4.0], &mut signal)?;
+    /// assert_eq!(signal, [2.0, 2.0, 1.0, 1.0]);
+    /// # Ok::<(), tltl::task::Error>(())
+    /// ```
+    #[track_caller]
+    pub fn robustness_signal<S>(&self, trajectory: &[S], signal: &mut [f64]) -> Result<(), Error>
+    where
+        P: Predicates<S>,
+    {
+        assert_eq!(signal.len(), trajectory.len(), "a place for each instant");
+        self.reader().robustness(trajectory, signal).map(|_| ())
     }
 
     /// Whether a trajectory satisfies the task; an empty one does not.
@@ -223,7 +253,12 @@ impl<P> Task<P> {
 
     #[inline]
     fn reader(&self) -> Reader<'_, &P> {
-        Reader { formula: &self.formula, automaton: &self.automaton, predicates: &self.predicates }
+        Reader {
+            formula: &self.formula,
+            automaton: &self.automaton,
+            predicates: &self.predicates,
+            is_generated: self.is_generated,
+        }
     }
 }
 
@@ -285,26 +320,37 @@ impl<S: ?Sized, P: Predicates<S>> Monitor<S> for Task<P> {
     where
         S: Sized,
     {
-        self.reader().robustness(trajectory)
+        self.reader().robustness(trajectory, &mut [])
     }
 }
 
 /// Reads states for an automaton that someone else holds: a task, or one of the parts of a factored
 /// task, for which a [`Task`] would count references at every step.
+#[derive(Clone, Copy)]
 pub(crate) struct Reader<'a, P> {
     pub(crate) formula: &'a Formula,
     pub(crate) automaton: &'a Automaton,
     pub(crate) predicates: P,
+    /// Whether the predicates were generated with this formula.
+    pub(crate) is_generated: bool,
 }
 
-impl<P> Reader<'_, P> {
-    #[inline]
+impl<P: Copy> Reader<'_, P> {
+    // Left to itself the compiler makes it a function of its own, which returns its result in memory:
+    // a step then takes twice as long.
+    #[inline(always)]
     pub(crate) fn next<S: ?Sized>(&self, q: u32, s: &S) -> Result<u32, Error>
     where
         P: Predicates<S>,
     {
+        if self.is_generated && P::DENSE > 0 {
+            return match robustness::letter(&self.predicates, s) {
+                (letter, false) => Ok(self.automaton.of_letter(q, letter.into())),
+                _ => Err(self.unreadable(s)),
+            };
+        }
         let holds = |i| self.predicates.holds(i, s).map_err(|NotANumber| i);
-        self.automaton.next(q, holds).map_err(|i| self.not_a_number(i))
+        self.automaton.next(q, holds).map_err(|i| not_a_number(self.automaton, i))
     }
 
     pub(crate) fn progress<S: ?Sized>(&self, q: u32, s: &S) -> Result<f64, Error>
@@ -338,17 +384,29 @@ impl<P> Reader<'_, P> {
         });
         match nan {
             None => Ok(rho),
-            Some(i) => Err(self.not_a_number(i)),
+            Some(i) => Err(not_a_number(self.automaton, i)),
         }
     }
 
-    pub(crate) fn robustness<S>(&self, trajectory: &[S]) -> Result<f64, Error>
+    /// Robustness of a trajectory; where `signal` has a place for each instant, it gets that from each
+    /// on.
+    pub(crate) fn robustness<S>(&self, trajectory: &[S], signal: &mut [f64]) -> Result<f64, Error>
+    where
+        P: Predicates<S>,
+    {
+        let straight = self.is_generated.then(|| self.predicates.straight(trajectory, signal));
+        let rho = straight.flatten().unwrap_or_else(|| self.interpreted(trajectory, signal));
+        if rho.is_nan() { Err(self.first_not_a_number(trajectory)) } else { Ok(rho) }
+    }
+
+    /// The same, operator by operator; NaN if a predicate is.
+    fn interpreted<S>(&self, trajectory: &[S], signal: &mut [f64]) -> f64
     where
         P: Predicates<S>,
     {
         let rho = |i: usize, t: usize| {
-            let rho = self.number(i, self.predicates.robustness(i, &trajectory[t]));
-            rho.map_err(|error| Error { instant: Some(t), ..error })
+            let rho = self.predicates.robustness(i, &trajectory[t]);
+            if rho.is_nan() { Err(rho) } else { Ok(rho) }
         };
         let (operators, length) = (self.formula.operators(), trajectory.len());
         // Of a run there is a cell for each state.
@@ -356,10 +414,56 @@ impl<P> Reader<'_, P> {
             [] => self.automaton.states() as usize,
             _ => robustness::cells(operators, length),
         };
-        self.predicates.with_scratch(cells, |now, next| match operators {
-            [] => robustness::best_run(self.automaton, length, now, next, rho),
-            _ => robustness::trajectory(operators, length, now, next, rho),
-        })
+        let found = self.predicates.with_scratch(cells, |now, next| match operators {
+            [] => {
+                robustness::best_runs(self.automaton, now, next, signal, rho)?;
+                robustness::best_run(self.automaton, length, now, next, rho)
+            }
+            _ => robustness::signal(operators, length, now, next, signal, rho),
+        });
+        found.unwrap_or_else(|nan| nan)
+    }
+
+    /// The error of a trajectory on which a predicate is not a number: the earliest instant, and in it
+    /// the predicate with the lowest number, of those that robustness reads. It is searched for only
+    /// now: a loop that can stop anywhere is several times slower than one that cannot.
+    #[cold]
+    fn first_not_a_number<S>(&self, trajectory: &[S]) -> Error
+    where
+        P: Predicates<S>,
+    {
+        let count = self.automaton.propositions().len();
+        let is_nan = |t: usize, i: usize| self.predicates.robustness(i, &trajectory[t]).is_nan();
+        let of = |t: usize| (0..count).filter(|&i| self.reads(i)).find(|&i| is_nan(t, i));
+        let first = (0..trajectory.len()).find_map(|t| Some((t, of(t)?)));
+        let (instant, i) = first.unwrap_or_default();
+        Error { instant: Some(instant), ..not_a_number(self.automaton, i) }
+    }
+
+    /// Whether the robustness of a trajectory depends on predicate `i`.
+    fn reads(&self, i: usize) -> bool {
+        match self.formula.operators() {
+            [] => {
+                let mut guards = self.automaton.edges().map(|edge| edge.guard);
+                guards.any(|guard| guard.cubes().flatten().any(|&l| proposition(l) == i))
+            }
+            operators => operators.iter().any(|op| match *op {
+                Op::Is(of) | Op::Not(of) => of as usize == i,
+                _ => false,
+            }),
+        }
+    }
+
+    /// The error of a state at which a predicate is not a number. It takes itself by value: by
+    /// reference, it would have to lie in memory at every step.
+    #[cold]
+    #[inline(never)]
+    fn unreadable<S: ?Sized>(self, s: &S) -> Error
+    where
+        P: Predicates<S>,
+    {
+        let is_error = |i: &usize| self.predicates.holds(*i, s).is_err();
+        not_a_number(self.automaton, (0..P::DENSE).find(is_error).unwrap_or_default())
     }
 
     pub(crate) fn satisfied<S>(&self, trajectory: &[S]) -> Result<bool, Error>
@@ -375,12 +479,13 @@ impl<P> Reader<'_, P> {
 
     #[inline]
     fn number(&self, i: usize, rho: f64) -> Result<f64, Error> {
-        if rho.is_nan() { Err(self.not_a_number(i)) } else { Ok(rho) }
+        if rho.is_nan() { Err(not_a_number(self.automaton, i)) } else { Ok(rho) }
     }
+}
 
-    #[cold]
-    #[inline]
-    fn not_a_number(&self, i: usize) -> Error {
-        Error { predicate: self.automaton.propositions()[i].clone(), instant: None }
-    }
+/// The error of predicate `i`.
+#[cold]
+#[inline(never)]
+fn not_a_number(automaton: &Automaton, i: usize) -> Error {
+    Error { predicate: automaton.propositions()[i].clone(), instant: None }
 }

@@ -17,7 +17,8 @@ const WORDS: &str = "\
     Option Result Clone Copy Debug PartialEq Sized From Task Shared Formula Automaton \
     Factored Predicate Predicates Tables Transitions Table Part NotANumber Op Is And Not \
     Eventually True trusted from_static robustness holds with_scratch private number truth \
-    less automaton factored primitive option drop assert e x1e5 été Ω 數 a b";
+    less automaton factored primitive option drop assert DENSE straight rows signal Typed typed \
+    Formula Until Now Within e x1e5 été Ω 數 a b";
 
 /// Words that a variable and a constant of Rust can be.
 const VARIABLES: &str = "\

@@ -9,7 +9,7 @@ use quote::quote;
 
 use crate::dfa::Dfa;
 use crate::emit::declare::{documentation, sizes};
-use crate::emit::implementation::positional;
+use crate::emit::implementation::{Robust, dense, positional};
 use crate::emit::names::{Names, Place, ident};
 use crate::emit::tables as emit;
 use crate::tables::tables;
@@ -18,7 +18,8 @@ use crate::tables::tables;
 /// and returns the task. `runtime` is the path of the runtime crate.
 #[must_use]
 pub fn automaton(name: &str, dfa: &Dfa, runtime: &TokenStream, place: Place) -> TokenStream {
-    let table = emit::automaton(&tables(dfa), runtime);
+    let tables = tables(dfa);
+    let table = emit::automaton(&tables, runtime);
     let names = Names::of_ours(place);
     let numbered = |prefix: &str| -> Vec<Ident> {
         (0..dfa.propositions.len()).map(|i| names.local(&format!("{prefix}{i}"))).collect()
@@ -29,8 +30,9 @@ pub fn automaton(name: &str, dfa: &Dfa, runtime: &TokenStream, place: Place) -> 
         format!("The task of the automaton `{name}`, over one predicate for each proposition:");
     let docs = documentation(&[about], &[propositions.join(", "), sizes(dfa)]);
     // Without a formula, robustness is that of the best run, which keeps a cell for each state.
-    let scratch = [dfa.len(); 2];
-    let implementation = positional(&types, &ident("Predicates"), runtime, &names, scratch);
+    let robust = Robust::Interpreted([dfa.len(); 2]);
+    let implementation =
+        positional(&types, &ident("Predicates"), runtime, &names, robust, dense(&tables));
     quote! {
         #docs
         #[must_use]

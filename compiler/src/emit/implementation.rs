@@ -9,8 +9,9 @@ use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 
 use crate::emit::names::{Names, Place};
+use crate::emit::typed;
 use crate::spec::Spec;
-use crate::tables::{cells, operators};
+use crate::tables::{Tables, Transitions, cells, operators};
 
 /// The parts of an implementation. For a task of a file the state is one type, and the arms are the
 /// code of the predicates; for a bare formula it is any type that all predicates read.
@@ -23,6 +24,8 @@ pub(super) struct Implementation<'a> {
     pub(super) lints: TokenStream,
     /// The generic parameters, in their brackets.
     pub(super) generics: TokenStream,
+    /// Those of them that are types of predicates.
+    pub(super) types: &'a [Ident],
     /// The type of the state.
     pub(super) state: TokenStream,
     /// The state as an argument, as the arms call it.
@@ -33,15 +36,40 @@ pub(super) struct Implementation<'a> {
     pub(super) robustness: TokenStream,
     /// The arms `number => truth,`.
     pub(super) holds: TokenStream,
-    /// The cells of the two buffers that the robustness of a trajectory needs. The numbers are known
-    /// here, so the buffers are arrays on the stack, unless they are large.
-    pub(super) scratch: [usize; 2],
+    /// How the robustness of a trajectory is computed.
+    pub(super) robust: Robust,
+    /// The number of predicates, if a step reads all of them; otherwise 0.
+    pub(super) dense: usize,
 }
 
-/// The cells of the two buffers for a formula.
-pub(super) fn scratch(spec: &Spec) -> [usize; 2] {
-    let operators = operators(spec);
-    [cells(&operators), operators.len()]
+/// The number of predicates, if a step of the automaton reads all of them: it is a table. Otherwise 0.
+pub(super) fn dense(tables: &Tables) -> usize {
+    match tables.transitions {
+        Transitions::Table { .. } => tables.propositions.len(),
+        Transitions::Diagram { .. } => 0,
+    }
+}
+
+/// How the robustness of a trajectory is computed.
+pub(super) enum Robust {
+    /// In a straight line, by the type of the formula.
+    Typed(TokenStream),
+    /// Operator by operator, in two buffers of so many cells. The numbers are known here, so the
+    /// buffers are arrays on the stack, unless they are large.
+    Interpreted([usize; 2]),
+}
+
+impl Robust {
+    /// For a formula: a type, unless that would be too large.
+    pub(super) fn of(spec: &Spec, runtime: &TokenStream) -> Self {
+        typed::formula(spec, runtime).map_or_else(|| Self::interpreted(spec), Self::Typed)
+    }
+
+    /// For a formula whose parts are read one by one.
+    pub(super) fn interpreted(spec: &Spec) -> Self {
+        let operators = operators(spec);
+        Self::Interpreted([cells(&operators), operators.len()])
+    }
 }
 
 /// Larger buffers are left to the runtime, which takes them from the heap if there is one: 32 KB, of
@@ -53,11 +81,19 @@ impl Implementation<'_> {
     pub(super) fn tokens(&self) -> TokenStream {
         let Self { runtime, lints, generics, state, argument: s, name, robustness, holds, .. } =
             self;
-        let (i, f) = (self.names.local("i"), self.names.local("f"));
-        let (cells, scratch) = self.scratch(&f);
+        let i = self.names.local("i");
+        let dense = (self.dense > 0).then(|| {
+            let count = Literal::usize_unsuffixed(self.dense);
+            quote! { const DENSE: ::core::primitive::usize = #count; }
+        });
+        let (method, formula) = match &self.robust {
+            Robust::Typed(formula) => (self.straight(), self.formula(formula)),
+            Robust::Interpreted(cells) => (self.scratch(*cells), TokenStream::new()),
+        };
         quote! {
             #lints
             impl #generics #runtime::robustness::Predicates<#state> for #name {
+                #dense
                 #[inline]
                 fn robustness(&self, #i: ::core::primitive::usize, #s: &#state) -> ::core::primitive::f64 {
                     match #i {
@@ -76,31 +112,67 @@ impl Implementation<'_> {
                         _ => #runtime::private::no_predicate(#i),
                     }
                 }
-                #[inline]
-                fn with_scratch<__R>(
-                    &self,
-                    #cells: ::core::primitive::usize,
-                    #f: impl ::core::ops::FnOnce(
-                        &mut [::core::primitive::f64],
-                        &mut [::core::primitive::f64],
-                    ) -> __R,
-                ) -> __R {
-                    #scratch
-                }
+                #method
+            }
+            #formula
+        }
+    }
+
+    /// The formula as a type that belongs to that of the predicates.
+    fn formula(&self, formula: &TokenStream) -> TokenStream {
+        let Self { runtime, lints, types, name, .. } = self;
+        quote! {
+            #lints
+            impl<#(#types),*> #runtime::robustness::typed::Typed for #name {
+                type Formula = #formula;
             }
         }
     }
 
-    /// How `with_scratch` names the number of cells, and calls `f`.
-    fn scratch(&self, f: &Ident) -> (TokenStream, TokenStream) {
-        let runtime = self.runtime;
-        let [now, next] = self.scratch.map(Literal::usize_unsuffixed);
-        if self.scratch[0] <= LARGE {
-            return (quote! { _ }, quote! { #f(&mut [0.0; #now], &mut [0.0; #next]) });
+    /// The method that computes robustness in a straight line.
+    fn straight(&self) -> TokenStream {
+        let (runtime, state) = (self.runtime, &self.state);
+        let (rows, signal) = (self.names.local("rows"), self.names.local("signal"));
+        quote! {
+            #[inline]
+            fn straight(
+                &self,
+                #rows: &[#state],
+                #signal: &mut [::core::primitive::f64],
+            ) -> ::core::option::Option<::core::primitive::f64>
+            where
+                #state: ::core::marker::Sized,
+            {
+                #runtime::robustness::typed::straight(self, #rows, #signal)
+            }
         }
-        let cells = self.names.local("cells");
-        let call = quote! { #runtime::private::large_scratch::<#now, #next, __R>(#cells, #f) };
-        (quote! { #cells }, call)
+    }
+
+    /// The method that lends the two buffers.
+    fn scratch(&self, [now, next]: [usize; 2]) -> TokenStream {
+        let (runtime, f) = (self.runtime, self.names.local("f"));
+        let is_large = now > LARGE;
+        let [now, next] = [now, next].map(Literal::usize_unsuffixed);
+        let (cells, call) = if is_large {
+            let cells = self.names.local("cells");
+            let call = quote! { #runtime::private::large_scratch::<#now, #next, __R>(#cells, #f) };
+            (quote! { #cells }, call)
+        } else {
+            (quote! { _ }, quote! { #f(&mut [0.0; #now], &mut [0.0; #next]) })
+        };
+        quote! {
+            #[inline]
+            fn with_scratch<__R>(
+                &self,
+                #cells: ::core::primitive::usize,
+                #f: impl ::core::ops::FnOnce(
+                    &mut [::core::primitive::f64],
+                    &mut [::core::primitive::f64],
+                ) -> __R,
+            ) -> __R {
+                #call
+            }
+        }
     }
 }
 
@@ -111,7 +183,8 @@ pub(super) fn positional(
     name: &Ident,
     runtime: &TokenStream,
     names: &Names,
-    scratch: [usize; 2],
+    robust: Robust,
+    dense: usize,
 ) -> TokenStream {
     let places: Vec<_> = (0..types.len()).map(Literal::usize_unsuffixed).collect();
     let s = names.local("s");
@@ -123,13 +196,15 @@ pub(super) fn positional(
         runtime,
         names,
         lints: Place::Scope.lints(),
+        types,
         generics: quote! { <__S: ?::core::marker::Sized, #(#types: #runtime::Predicate<__S>),*> },
         state: quote! { __S },
         argument: quote! { #s },
         name: quote! { #name<#(#types),*> },
         robustness: arms("robustness"),
         holds: arms("holds"),
-        scratch,
+        robust,
+        dense,
     }
     .tokens()
 }

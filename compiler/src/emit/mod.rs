@@ -9,6 +9,7 @@
 //! | `predicates` | conditions as expressions: robustness, and truth |
 //! | `implementation` | the runtime's trait `Predicates` for the predicates of one task |
 //! | [`tables`] | automata and formulas as constants |
+//! | `typed` | formulas as types |
 //!
 //! Every function here depends on its arguments alone: the same automaton gives the same bytes.
 //! Generated code has no `unsafe`, allocates nothing, and refers to nothing but `core`, the runtime
@@ -25,3 +26,4 @@ mod names;
 mod predicates;
 pub mod rust;
 pub mod tables;
+mod typed;

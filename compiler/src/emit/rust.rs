@@ -34,7 +34,7 @@ use crate::compile::{Compiled, Factored, Part};
 use crate::dfa::Dfa;
 pub use crate::emit::declare::sizes;
 use crate::emit::declare::{Parameters, documentation};
-use crate::emit::implementation::{Implementation, positional, scratch};
+use crate::emit::implementation::{Implementation, Robust, dense, positional};
 use crate::emit::names::{Names, ident};
 pub use crate::emit::names::{Place, module as module_name};
 use crate::emit::predicates::{Reading, Scope};
@@ -94,12 +94,12 @@ fn expression(compiled: &Compiled, options: &Options<'_>) -> TokenStream {
         ([], [factored, ..]) => (&factored.task, emitter.made_factored(factored, &value)),
         ([], []) => return TokenStream::new(),
     };
-    let Made { kind, result } = made;
+    let Made { kind, result, robust, dense } = made;
     let values = task.predicates.iter().map(|&predicate| emitter.value(predicate));
     let types: Vec<Ident> = (0..task.predicates.len()).map(|i| format_ident!("__P{}", i)).collect();
     let name = ident("__Predicates");
     let names = &emitter.scope.names;
-    let implementation = positional(&types, &name, runtime, names, scratch(&task.spec));
+    let implementation = positional(&types, &name, runtime, names, robust, dense);
     quote! {
         ({
             #[derive(::core::clone::Clone, ::core::marker::Copy)]
@@ -141,6 +141,10 @@ struct Made {
     kind: TokenStream,
     /// The expression that makes it.
     result: TokenStream,
+    /// How the robustness of its trajectories is computed.
+    robust: Robust,
+    /// The number of predicates, if a step reads all of them; otherwise 0.
+    dense: usize,
 }
 
 /// The inputs of all code of one source.
@@ -280,8 +284,11 @@ impl<'a> Emitter<'a> {
         let runtime = self.runtime;
         let name = task.name.as_deref().unwrap_or(&task.text);
         let formula = emit::formula(&task.spec, &task.text, runtime);
-        let automaton = emit::automaton(&tables(dfa), runtime);
+        let tables = tables(dfa);
+        let automaton = emit::automaton(&tables, runtime);
         Made {
+            dense: dense(&tables),
+            robust: Robust::of(&task.spec, runtime),
             kind: quote! { #runtime::Task },
             result: quote! {
                 #runtime::Task::trusted(
@@ -312,6 +319,8 @@ impl<'a> Emitter<'a> {
         let count = Literal::usize_unsuffixed(factored.parts.len());
         let parts = factored.parts.iter().map(|part| self.part(part));
         Made {
+            robust: Robust::interpreted(&task.spec),
+            dense: 0,
             kind: quote! { #runtime::Factored },
             result: quote! {
                 #runtime::Factored::trusted(
@@ -345,7 +354,7 @@ impl<'a> Emitter<'a> {
 
     /// The function that returns a task, and the struct of its predicates, which has the same name.
     fn declaration(&self, task: &Task, about_it: &[String], made: Made) -> TokenStream {
-        let Made { kind, result } = made;
+        let Made { kind, result, robust, dense } = made;
         let (function, lints) = (function(task), self.options.place.lints());
         let parameters = self.parameters(&task.parameters);
         let about_it: Vec<_> =
@@ -354,7 +363,7 @@ impl<'a> Emitter<'a> {
         let about = format!(" The predicates of the task `{}`.", named(task));
         let declared = parameters.declared();
         let structure = parameters.structure(&function, &about, &lints);
-        let implementation = self.predicates(task, &parameters);
+        let implementation = self.predicates(task, (robust, dense), &parameters);
         let (called, checks) = self.indices(task);
         quote! {
             #docs
@@ -373,7 +382,12 @@ impl<'a> Emitter<'a> {
     }
 
     /// The implementation of the runtime's `Predicates` for the predicates of a task.
-    fn predicates(&self, task: &Task, parameters: &Parameters) -> TokenStream {
+    fn predicates(
+        &self,
+        task: &Task,
+        (robust, dense): (Robust, usize),
+        parameters: &Parameters,
+    ) -> TokenStream {
         let (function, unpacked) = (function(task), parameters.unpacked());
         let of = |reading| {
             let arms = task.predicates.iter().enumerate().map(|(i, &id)| {
@@ -391,12 +405,14 @@ impl<'a> Emitter<'a> {
             names: &self.scope.names,
             lints: self.options.place.lints(),
             generics: TokenStream::new(),
+            types: &[],
             state: self.state(),
             argument: self.scope.argument(),
             name: quote! { #function },
             robustness: of(Reading::Robustness),
             holds: of(Reading::Truth),
-            scratch: scratch(&task.spec),
+            robust,
+            dense,
         }
         .tokens()
     }
