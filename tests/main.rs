@@ -8,6 +8,7 @@ mod differences;
 mod emitted;
 mod evaluate;
 mod factored;
+mod following;
 mod foreign;
 mod forms;
 mod front;

@@ -5,10 +5,12 @@
 //! is the caller's, one `u32`, and one task serves any number of trajectories at once.
 
 mod batch;
+mod online;
 mod parametric;
 
 use core::fmt;
 
+pub use online::{Interval, Online};
 pub use parametric::Parametric;
 
 #[cfg(feature = "alloc")]
@@ -485,7 +487,7 @@ impl<P: Copy> Reader<'_, P> {
 
 /// The error of predicate `i`.
 #[cold]
-#[inline(never)]
+#[inline]
 fn not_a_number(automaton: &Automaton, i: usize) -> Error {
     Error { predicate: automaton.propositions()[i].clone(), instant: None }
 }

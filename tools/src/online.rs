@@ -124,6 +124,31 @@ impl Online {
             Way::All(recorded) => recorded.robustness(recorded.rows()),
         }
     }
+
+    /// The greatest robustness of any trajectory that goes on from the states read so far, if every
+    /// literal of later states may have any value; `None` where that is not known, for want of a
+    /// formula or of an automaton within the budget.
+    ///
+    /// It is the highest threshold that is not lost yet: the upper end of the interval of which
+    /// [`robustness`](Self::robustness) is the lower one. The monitor of a compiled task
+    /// ([`tltl::task::Online`]) gives the same.
+    ///
+    /// ```
+    /// use tltl_compiler::translate::Budget;
+    /// use tltlc::{online::Online, task};
+    ///
+    /// let task = task::compile("!wet U home", Budget::default())?;
+    /// let mut online = Online::new(&task.entry().task().spec, Budget::default());
+    /// online.step(&[-0.5, -2.0]);
+    /// assert_eq!((online.robustness(), online.greatest()), (-2.0, Some(0.5)));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn greatest(&self) -> Option<f64> {
+        let Way::Thresholds { dfa, states } = &self.0 else { return None };
+        let open = states.iter().find(|(_, q)| dfa.trap != Some(*q));
+        Some(open.map_or(f64::NEG_INFINITY, |(threshold, _)| *threshold))
+    }
 }
 
 /// A trajectory as a whole, as the robustness of the propositions of a formula.

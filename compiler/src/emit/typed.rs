@@ -41,6 +41,11 @@ struct Written {
 
 impl Written {
     fn new(formula: Formula, operands: &[&Self], runtime: &TokenStream) -> Self {
+        let mut operands = operands.to_vec();
+        if let Formula::And(..) = formula {
+            // A state formula first: that is how the runtime tells what it can monitor online.
+            operands.sort_by_key(|operand| !operand.is_state);
+        }
         let is_state = !formula.is_temporal() && operands.iter().all(|operand| operand.is_state);
         let operand = |one: &&Self| match is_state {
             true => one.code.clone(),

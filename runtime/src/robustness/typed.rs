@@ -8,6 +8,7 @@
 //! | --- | --- |
 //! | [`State`] | a state formula on each of some rows |
 //! | [`Backward`] | a formula on each of some rows, from the last instant of a trajectory to the first |
+//! | [`Forward`](forward::Forward) | a formula while a trajectory grows |
 //!
 //! # Blocks
 //!
@@ -24,6 +25,8 @@
 //! are asked for at every instant. In the second its window is an array, which lies on the stack: the
 //! compiler gives a type to formulas whose windows have up to 4,096 cells in all.
 
+pub mod forward;
+
 use core::array;
 use core::marker::PhantomData;
 
@@ -32,7 +35,7 @@ use super::{Predicates, Window, max, min};
 /// The rows of a block. `F (a && b)`, `a U b` and `F (a && F b)` take 0.52, 0.67 and 0.83 ns a row in
 /// blocks of 4 rows, 0.60, 0.82 and 0.90 in blocks of 8, 0.63, 1.54 and 1.13 in blocks of 16: a larger
 /// block no longer fits in the registers.
-const BLOCK: usize = 4;
+pub(crate) const BLOCK: usize = 4;
 
 /// Some neighbouring states, read by number of the predicate.
 pub trait Rows<const B: usize> {
@@ -405,14 +408,14 @@ fn slide<const B: usize>(
 }
 
 /// Rows of a trajectory.
-struct Block<'a, S, P, const B: usize> {
-    first: usize,
-    length: usize,
-    rows: &'a [S; B],
-    predicates: &'a P,
+pub(crate) struct Block<'a, S, P, const B: usize> {
+    pub(crate) first: usize,
+    pub(crate) length: usize,
+    pub(crate) rows: &'a [S; B],
+    pub(crate) predicates: &'a P,
     /// For each place in a block whether a predicate was not a number; all bits, for which a
     /// vector of comparisons needs no further step.
-    is_nan: &'a mut [u64; BLOCK],
+    pub(crate) is_nan: &'a mut [u64; BLOCK],
 }
 
 impl<S, P: Predicates<S>, const B: usize> Rows<B> for Block<'_, S, P, B> {

@@ -1,0 +1,381 @@
+//! Robustness and steps of compiled tasks against loops written by hand.
+//!
+//! `cargo bench -p tltl-tests --bench robustness`: nanoseconds a sample, the median of some
+//! repetitions, and how many times as much as the loop by hand. The loops know the formula, keep what
+//! they carry in several parts so that no comparison waits for another, and do not look for NaN. Every
+//! answer is compared with that of the loop before a time is printed.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use tltl::{Acceptor, tltl};
+
+#[derive(Clone, Copy)]
+struct Sample {
+    x: f64,
+    y: f64,
+}
+
+type Eight = [f64; 8];
+
+tltl! {
+    state s: Sample;
+    task both = F (s.x > 0 && s.y < 1);
+    task until = s.x > 0 U s.y < 1;
+    task nested = F (s.x > 0 && F s.y < 1);
+    task soon = F[0,1000] s.x > 0;
+    task always_soon = F (s.y < 1 && F[0,1000] s.x > 0);
+    task until_soon = s.x > 0 U[0,100] s.y < 1;
+    task thrice = F (s.x > 0.999 && X (s.y > 2.999 && X s.x > 0.999));
+}
+tltl! {
+    state s: Eight;
+    task chain = s[0] > 1.9 T s[1] > 1.9 T s[2] > 1.9 T s[3] > 1.9 T s[4] > 1.9 T s[5] > 1.9
+        T s[6] > 1.9 T s[7] > 1.9;
+}
+
+const NONE: f64 = f64::NEG_INFINITY;
+
+fn main() {
+    println!("{:<34}{:>9}{:>10}{:>10}{:>8}", "", "samples", "by hand", "here", "times");
+    for length in [1_000, 100_000, 1_000_000, 10_000_000] {
+        let trajectory = samples(length);
+        offline(&trajectory);
+        at_every_instant(&trajectory);
+    }
+    let trajectory = samples(4_000);
+    online(&trajectory);
+    steps(&trajectory);
+}
+
+/// Samples of a fixed generator: x from -0.5 to 1.5, y from 0 to 3.
+fn samples(length: usize) -> Vec<Sample> {
+    let mut seed = 1_u64;
+    let mut random = || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        (seed >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    (0..length).map(|_| Sample { x: random() * 2.0 - 0.5, y: random() * 3.0 }).collect()
+}
+
+/// The median nanoseconds a sample of runs that take some tenths of a millisecond each.
+fn nanoseconds<T>(samples: usize, mut run: impl FnMut() -> T) -> f64 {
+    let rounds = (100_000 / samples).max(1);
+    let mut times = Vec::new();
+    let start = Instant::now();
+    while times.len() < 5 || start.elapsed().as_secs_f64() < 0.2 {
+        let start = Instant::now();
+        (0..rounds).for_each(|_| drop(black_box(run())));
+        times.push(start.elapsed().as_secs_f64() * 1e9 / (rounds * samples) as f64);
+    }
+    times.sort_by(f64::total_cmp);
+    times[times.len() / 2]
+}
+
+fn print(name: &str, samples: usize, by_hand: f64, here: f64) {
+    println!("{name:<34}{samples:>9}{by_hand:>10.2}{here:>10.2}{:>8.2}", here / by_hand);
+}
+
+/// Times both, after comparing their answers.
+fn compare<T: PartialEq + std::fmt::Debug>(
+    name: &str,
+    samples: usize,
+    mut by_hand: impl FnMut() -> T,
+    mut here: impl FnMut() -> T,
+) -> [f64; 2] {
+    assert_eq!(by_hand(), here(), "{name}");
+    let times = [nanoseconds(samples, by_hand), nanoseconds(samples, here)];
+    print(name, samples, times[0], times[1]);
+    times
+}
+
+fn offline(trajectory: &[Sample]) {
+    let (n, t) = (trajectory.len(), || black_box(trajectory));
+    compare("F (x > 0 && y < 1)", n, || by_hand::both(t()), || both().robustness(t()).unwrap());
+    compare("x > 0 U y < 1", n, || by_hand::until(t()), || until().robustness(t()).unwrap());
+    compare(
+        "F (x > 0 && F y < 1)",
+        n,
+        || by_hand::nested(t()),
+        || nested().robustness(t()).unwrap(),
+    );
+    compare(
+        "F[0,1000] x > 0, beside F x > 0",
+        n,
+        || by_hand::first(t(), 1001),
+        || soon().robustness(t()).unwrap(),
+    );
+}
+
+fn at_every_instant(trajectory: &[Sample]) {
+    let n = trajectory.len();
+    let mut signals = [vec![0.0; n], vec![0.0; n]];
+    let [expected, found] = &mut signals;
+    macro_rules! signal {
+        ($name:literal, $task:ident) => {
+            let by_hand = nanoseconds(n, || by_hand::every::$task(black_box(trajectory), expected));
+            let task = $task();
+            let here = nanoseconds(n, || task.robustness_signal(black_box(trajectory), found));
+            assert_eq!(expected, found, $name);
+            print($name, n, by_hand, here);
+        };
+    }
+    signal!("every t: F (x > 0 && y < 1)", both);
+    signal!("every t: x > 0 U y < 1", until);
+    signal!("every t: F (x > 0 && F y < 1)", nested);
+}
+
+/// The time of a state, in which the least of the interval is asked for too; by hand, that is the
+/// greatest so far of x > 0 && y < 1.
+fn online(trajectory: &[Sample]) {
+    let n = trajectory.len();
+    let by_hand = nanoseconds(n, || by_hand::so_far(black_box(trajectory)));
+    macro_rules! online {
+        ($name:literal, $task:ident) => {
+            let task = $task();
+            let run = || {
+                let (mut online, mut all) = (task.online(), 0.0);
+                for sample in black_box(trajectory) {
+                    let interval = online.step(sample).unwrap();
+                    all += interval.lower.max(-9.0) + interval.upper.min(9.0);
+                }
+                (online.interval().lower, all)
+            };
+            assert_eq!(run().0, task.robustness(trajectory).unwrap(), $name);
+            print($name, n, by_hand, nanoseconds(n, run));
+        };
+    }
+    online!("online: F (x > 0 && y < 1)", both);
+    online!("online: x > 0 U y < 1", until);
+    online!("online: F (x > 0 && F y < 1)", nested);
+    online!("online: F[0,1000] x > 0", soon);
+    online!("online: x > 0 U[0,100] y < 1", until_soon);
+    online!("online: F (y < 1 && F[0,1000] …)", always_soon);
+}
+
+fn steps(trajectory: &[Sample]) {
+    let (n, task) = (trajectory.len(), thrice());
+    assert_eq!(task.states(), 5);
+    compare(
+        "step, 2 predicates",
+        n,
+        || by_hand::steps(black_box(trajectory)),
+        || {
+            let (mut q, mut all) = (0, 0);
+            for sample in black_box(trajectory) {
+                q = task.next(q, sample).unwrap();
+                all += u64::from(q);
+            }
+            all
+        },
+    );
+    let (x, y): (Vec<f64>, Vec<f64>) = trajectory.iter().map(|s| (s.x, s.y)).unzip();
+    let [mut q, mut r] = [vec![0; n], vec![0; n]];
+    compare(
+        "step of many, from columns",
+        n,
+        || {
+            by_hand::batch(&mut q, black_box(&x), black_box(&y));
+            q[7]
+        },
+        || {
+            let (x, y) = (&black_box(&x)[..n], &black_box(&y)[..n]);
+            task.step_batch_of(&mut r, |i| Sample { x: x[i], y: y[i] }).unwrap();
+            r[7]
+        },
+    );
+    let wide: Vec<Eight> = trajectory
+        .windows(4)
+        .map(|four| {
+            let [a, b, c, d] = [four[0], four[1], four[2], four[3]];
+            [a.x + 0.5, a.y, b.x + 0.5, b.y, c.x + 0.5, c.y, d.x + 0.5, d.y]
+        })
+        .collect();
+    let task = chain();
+    let run = || {
+        let (mut q, mut all) = (0, 0_u64);
+        for s in black_box(&wide) {
+            q = task.next(q, s).unwrap();
+            all += u64::from(q);
+            q = if task.is_accepting(q) { 0 } else { q };
+        }
+        all
+    };
+    compare("step, 8 predicates", wide.len(), || by_hand::chain(black_box(&wide)), run);
+}
+
+/// The same, as one writes it who knows the formula.
+mod by_hand {
+    use super::{Eight, NONE, Sample};
+
+    /// The parts in which something is kept.
+    const PARTS: usize = 8;
+
+    fn max(a: f64, b: f64) -> f64 {
+        if a > b { a } else { b }
+    }
+
+    fn min(a: f64, b: f64) -> f64 {
+        if a < b { a } else { b }
+    }
+
+    fn near(s: &Sample) -> f64 {
+        1.0 - s.y
+    }
+
+    pub(crate) fn both(trajectory: &[Sample]) -> f64 {
+        let (blocks, rest) = trajectory.as_chunks::<PARTS>();
+        let mut best = [NONE; PARTS];
+        for block in blocks {
+            for (best, s) in best.iter_mut().zip(block) {
+                *best = max(min(s.x, near(s)), *best);
+            }
+        }
+        let rest = rest.iter().map(|s| min(s.x, near(s)));
+        rest.chain(best).fold(NONE, max)
+    }
+
+    /// Each part is max(goal, min(hold, what comes after)), for its own goal and hold.
+    pub(crate) fn until(trajectory: &[Sample]) -> f64 {
+        let n = trajectory.len() / PARTS;
+        let (mut goal, mut hold) = ([NONE; PARTS], [f64::INFINITY; PARTS]);
+        for i in 0..n {
+            for k in 0..PARTS {
+                let s = &trajectory[k * n + i];
+                goal[k] = max(goal[k], min(near(s), hold[k]));
+                hold[k] = min(hold[k], s.x);
+            }
+        }
+        let rest = trajectory[PARTS * n..].iter().rev();
+        let rest = rest.fold(NONE, |after, s| max(near(s), min(s.x, after)));
+        (0..PARTS).rev().fold(rest, |after, k| max(goal[k], min(hold[k], after)))
+    }
+
+    /// Of each part the greatest x and 1 - y, and the robustness within it.
+    pub(crate) fn nested(trajectory: &[Sample]) -> f64 {
+        let n = trajectory.len() / PARTS;
+        let [mut goal, mut whole, mut most] = [[NONE; PARTS]; 3];
+        for i in (0..n).rev() {
+            for k in 0..PARTS {
+                let s = &trajectory[k * n + i];
+                goal[k] = max(near(s), goal[k]);
+                whole[k] = max(min(s.x, goal[k]), whole[k]);
+                most[k] = max(s.x, most[k]);
+            }
+        }
+        let rest = trajectory[PARTS * n..].iter().rev();
+        let after = rest.fold((NONE, NONE), |(later, all), s| {
+            let later = max(near(s), later);
+            (later, max(min(s.x, later), all))
+        });
+        let parts = (0..PARTS).rev();
+        let one = |(later, all), k: usize| {
+            (max(goal[k], later), max(max(whole[k], min(most[k], later)), all))
+        };
+        parts.fold(after, one).1
+    }
+
+    /// The greatest x of the first `count` samples, in a pass over all.
+    pub(crate) fn first(trajectory: &[Sample], count: usize) -> f64 {
+        let mut best = [[NONE; PARTS]; 2];
+        let (blocks, rest) = trajectory.as_chunks::<PARTS>();
+        for (i, block) in blocks.iter().enumerate() {
+            let best = &mut best[usize::from((i + 1) * PARTS > count)];
+            for (best, s) in best.iter_mut().zip(block) {
+                *best = max(s.x, *best);
+            }
+        }
+        let whole = count.min(trajectory.len()) / PARTS * PARTS;
+        let edge = trajectory.iter().take(count).skip(whole);
+        let _ = rest;
+        edge.map(|s| s.x).chain(best[0]).fold(NONE, max)
+    }
+
+    pub(crate) mod every {
+        use super::{NONE, Sample, max, min, near};
+
+        fn backward(trajectory: &[Sample], out: &mut [f64], mut at: impl FnMut(&Sample) -> f64) {
+            out.iter_mut().zip(trajectory).rev().for_each(|(out, s)| *out = at(s));
+        }
+
+        pub(crate) fn both(trajectory: &[Sample], out: &mut [f64]) {
+            let mut best = NONE;
+            backward(trajectory, out, |s| {
+                best = max(min(s.x, near(s)), best);
+                best
+            });
+        }
+
+        pub(crate) fn until(trajectory: &[Sample], out: &mut [f64]) {
+            let mut after = NONE;
+            backward(trajectory, out, |s| {
+                after = max(near(s), min(s.x, after));
+                after
+            });
+        }
+
+        pub(crate) fn nested(trajectory: &[Sample], out: &mut [f64]) {
+            let (mut goal, mut whole) = (NONE, NONE);
+            backward(trajectory, out, |s| {
+                goal = max(near(s), goal);
+                whole = max(min(s.x, goal), whole);
+                whole
+            });
+        }
+    }
+
+    /// The sum of the greatest so far.
+    pub(crate) fn so_far(trajectory: &[Sample]) -> f64 {
+        let (mut best, mut all) = (NONE, 0.0);
+        for s in trajectory {
+            best = max(min(s.x, near(s)), best);
+            all += best;
+        }
+        all
+    }
+
+    /// For each valuation the states after 0 to 4, six bits each: what state they begin at.
+    const ROWS: [u64; 4] = {
+        let next = [[0, 1, 0, 1], [0, 1, 2, 3], [0, 4, 0, 4], [0, 4, 2, 4], [4; 4]];
+        let (mut rows, mut q) = ([0; 4], 0);
+        while q < 5 {
+            let mut letter = 0;
+            while letter < 4 {
+                rows[letter] |= (next[q][letter] * 6) << (q * 6);
+                letter += 1;
+            }
+            q += 1;
+        }
+        rows
+    };
+
+    fn letter(x: f64, y: f64) -> usize {
+        usize::from(x > 0.999) | usize::from(y > 2.999) << 1
+    }
+
+    pub(crate) fn steps(trajectory: &[Sample]) -> u64 {
+        let (mut q, mut all) = (0, 0);
+        for s in trajectory {
+            q = ROWS[letter(s.x, s.y)] >> q & 63;
+            all += q;
+        }
+        all / 6
+    }
+
+    pub(crate) fn batch(q: &mut [u32], x: &[f64], y: &[f64]) {
+        for ((q, x), y) in q.iter_mut().zip(x).zip(y) {
+            *q = (ROWS[letter(*x, *y)] >> (*q * 6) & 63) as u32 / 6;
+        }
+    }
+
+    /// A branch for each state, which asks for one predicate.
+    pub(crate) fn chain(trajectory: &[Eight]) -> u64 {
+        let (mut q, mut all) = (0_usize, 0);
+        for s in trajectory {
+            q += usize::from(s[q] > 1.9);
+            all += q as u64;
+            q = if q == 8 { 0 } else { q };
+        }
+        all
+    }
+}
