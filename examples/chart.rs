@@ -13,7 +13,13 @@ const COLOURS: [&str; 6] = ["#1f6fb4", "#d9622b", "#2e8b57", "#c23b60", "#8457a8
 /// coincide, all of them show.
 const DASHES: [Option<&str>; 6] =
     [None, Some("11 4"), Some("7 4"), Some("4 4"), Some("8 3 2 3"), Some("2 3")];
+/// What marks the curves: where they coincide, the letters stand side by side.
+const LETTERS: [&str; 6] = ["A", "B", "C", "D", "E", "F"];
+/// How often each letter stands on its curve.
+const MARKS: usize = 2;
 const LEVELS: [&str; 2] = ["5 4", "1.5 3"];
+/// The space for the names of levels beside the last chart.
+const NAMES: f64 = 30.0;
 const BAND: f64 = 0.16;
 
 /// A point of a curve with its band.
@@ -82,12 +88,12 @@ pub fn svg(title: &str, rows: &[Row], remarks: &[String]) -> String {
         1 => Panels {
             frame: (480.0, 280.0),
             margins: [58.0, 20.0, 58.0, 42.0],
-            legend: (190.0, bottom),
+            legend: (230.0, bottom),
         },
         _ => Panels {
             frame: (232.0, 138.0),
             margins: [48.0, 24.0, 58.0, 42.0],
-            legend: (290.0, bottom),
+            legend: (340.0, bottom),
         },
     };
     let drawn = rows.iter().map(|row| row.charts.iter().map(|c| c.draw(&panels, &row.x)).collect());
@@ -98,9 +104,12 @@ pub fn svg(title: &str, rows: &[Row], remarks: &[String]) -> String {
         for (j, chart) in row.charts.iter().enumerate() {
             let (left, top) = panels.corner(i, j);
             plot::text(&mut scene, (left, top - 8.0), 12, INK, &chart.title);
+            chart.mark(&mut scene, (left, top), panels.frame);
         }
         let (right, _) = panels.corner(i, row.charts.len());
-        row.legend(&mut scene, (right - panels.margins[0], top + 8.0));
+        let names = row.charts.last().is_some_and(|chart| chart.levels().count() > 0);
+        let beside = if names { NAMES } else { 0.0 };
+        row.legend(&mut scene, (right - panels.margins[0] + beside, top + 8.0));
     }
     let at = (panels.corner(0, 0).0, scene.height - bottom + 0.5 * LINE);
     plot::remarks(&mut scene, at, remarks);
@@ -112,6 +121,9 @@ impl Row {
         let (Some(first), Some(last)) = (self.charts.first(), self.charts.last()) else { return };
         for (i, curve) in first.curves.iter().enumerate() {
             plot::sample(scene, (x, y - 4.0), COLOURS[i], width(i), DASHES[i]);
+            if first.curves.len() > 1 {
+                plot::mark(scene, (x + SAMPLE / 2.0, y - 4.0), COLOURS[i], LETTERS[i]);
+            }
             plot::text(scene, (x + SAMPLE + 8.0, y), 12, INK, &curve.name);
             y += LINE;
         }
@@ -124,21 +136,64 @@ impl Row {
 }
 
 impl Chart {
-    fn draw(&self, panels: &Panels, x_name: &str) -> (Layout, Vec<Plot>) {
+    /// The ends of the x axis and of the y axis.
+    fn ends(&self) -> ((f64, f64), (f64, f64)) {
         let xs = || self.curves.iter().flat_map(|curve| &curve.points).map(|point| point.x);
         let (left, right) = (xs().fold(f64::MAX, f64::min), xs().fold(1.0, f64::max));
-        let (x, y) = match self.axis {
+        match self.axis {
             Axis::Logarithmic(low, high) => ((left, right), (low, high)),
             Axis::Share => ((0.0, right), beyond(1.0)),
             Axis::UpTo(top) => ((0.0, right), beyond(top)),
-        };
+        }
+    }
+
+    fn draw(&self, panels: &Panels, x_name: &str) -> (Layout, Vec<Plot>) {
+        let (x, y) = self.ends();
         let levels = self.levels.iter().zip(LEVELS).map(|(&(at, _), dashes)| {
             let line = LinePlot::new().with_data([(x.0, at), (x.1, at)]).with_color(INK);
             Plot::Line(line.with_stroke_width(1.2).with_line_style(plot::dashes(Some(dashes))))
         });
         let curves = self.curves.iter().enumerate().map(|(i, curve)| curve.draw(i, y));
         let layout = panels.layout(x, y).with_x_label(x_name);
-        (self.ticks(layout, right), levels.chain(curves).collect())
+        (self.ticks(layout, x.1), levels.chain(curves).collect())
+    }
+
+    /// Writes the letters of the curves on them, and the names of the levels beside them, in a frame of
+    /// a corner and a size.
+    ///
+    /// Each curve has its letters at places of its own, so that those of curves that coincide do not.
+    fn mark(&self, scene: &mut Scene, (left, top): (f64, f64), (width, height): (f64, f64)) {
+        let (x, y) = self.ends();
+        let scale = |value: f64| match self.axis {
+            Axis::Logarithmic(..) => value.log10(),
+            _ => value,
+        };
+        let share = |value: f64, (from, to): (f64, f64)| {
+            (scale(value) - scale(from)) / (scale(to) - scale(from))
+        };
+        let across = |value| left + share(value, x) * width;
+        let down = |value: f64| top + (1.0 - share(value.clamp(y.0, y.1), y)) * height;
+        let count = self.curves.len();
+        for (i, curve) in self.curves.iter().enumerate().filter(|_| count > 1) {
+            let line: Vec<(f64, f64)> =
+                curve.points.iter().map(|point| (across(point.x), down(point.y))).collect();
+            let places = (0..MARKS).map(|j| {
+                left + (j as f64 + (i as f64 + 0.5) / count as f64) / MARKS as f64 * width
+            });
+            for at in on(&line, places) {
+                plot::mark(scene, at, COLOURS[i], LETTERS[i]);
+            }
+        }
+        for (i, (at, name)) in self.levels().enumerate() {
+            // The second one, which is the lower one, a bit lower, so that names do not meet.
+            let (x, y) = (left + width + 4.0, down(at) + 7.0 * i as f64);
+            plot::text(scene, (x, y), 9, INK, name);
+        }
+    }
+
+    /// The levels whose names say what they are before how high: those stand beside them.
+    fn levels(&self) -> impl Iterator<Item = (f64, &str)> {
+        self.levels.iter().filter_map(|(at, name)| Some((*at, name.split_once(':')?.0)))
     }
 
     fn ticks(&self, layout: Layout, right: f64) -> Layout {
@@ -170,6 +225,25 @@ impl Curve {
         line.band.iter_mut().for_each(|band| band.opacity = BAND);
         Plot::Line(line)
     }
+}
+
+/// The points of a line at some places across, as far as it goes; a line that has none of them gets its
+/// middle.
+fn on(line: &[(f64, f64)], places: impl Iterator<Item = f64>) -> Vec<(f64, f64)> {
+    let (Some(&(first, _)), Some(&(last, _))) = (line.first(), line.last()) else {
+        return Vec::new();
+    };
+    let mut places: Vec<f64> = places.filter(|at| (first..=last).contains(at)).collect();
+    if places.is_empty() {
+        places.push(0.5 * (first + last));
+    }
+    let point = |at: f64| {
+        let i = line.partition_point(|(x, _)| *x < at).clamp(1, line.len().max(2) - 1);
+        let (&(x, y), &(to, height)) = (line.get(i - 1)?, line.get(i).or(line.last())?);
+        let share = if to > x { (at - x) / (to - x) } else { 0.0 };
+        Some((at, y + share * (height - y)))
+    };
+    places.into_iter().filter_map(point).collect()
 }
 
 /// From 0 to `top`, and a bit more at both ends: else curves at the ends would lie on the frame.

@@ -119,8 +119,8 @@ fn numbers(raw: &Labelled, minimal: &Labelled) -> Vec<State> {
     numbers.into_iter().map(Option::unwrap_or_default).collect()
 }
 
-/// The side of a cell, in pixels.
-const CELL: f64 = 19.0;
+/// The side of a cell, in pixels: an arrow, and below it a number.
+const CELL: f64 = 24.0;
 const GAP: f64 = 26.0;
 const MARGIN: f64 = 24.0;
 const PER_LINE: usize = 4;
@@ -157,7 +157,7 @@ fn figure(grid: &Grid, regions: &[Region], rows: &[Row]) -> String {
         y += height + 10.0;
     }
     legend(&mut body, MARGIN, y);
-    document("Automata and policies", (width, y + 46.0), &body)
+    document("Automata and policies", (width, y + 64.0), &body)
 }
 
 fn panel_width(grid: &Grid) -> f64 {
@@ -186,7 +186,14 @@ fn draw(body: &mut String, grid: &Grid, regions: &[Region], panel: &Panel) {
             rect(body, frame, "none", loss, "stroke-width=\"3\"");
         }
         let (_, dx, dy) = Grid::ACTIONS[action];
-        arrow(body, (x + CELL / 2.0, y + CELL / 2.0), (f64::from(dx), -f64::from(dy)));
+        let middle = (x + CELL / 2.0, y + CELL / 2.0 - 2.0);
+        arrow(body, middle, (f64::from(dx), -f64::from(dy)));
+        // Less than 0.1 % is said by the colour alone.
+        if panel.losses[s] >= LOSSES[0].0 {
+            let lost = format!("{:.1}", 100.0 * panel.losses[s]);
+            let below = (middle.0, y + CELL - 2.5);
+            text(body, below, Font::new(6.5).bold(), Anchor::Middle, &lost);
+        }
     }
     for region in regions {
         for &s in &region.cells {
@@ -242,11 +249,13 @@ fn legend(body: &mut String, x: f64, y: f64) {
     let moves = "Arrows: moves; dots: staying. Letters: where a, b and c are positive. \
                  Numbers: the automaton's states, q.";
     text(body, (x, y + 8.0), font, Anchor::Start, moves);
-    let about = "Not optimal there: of the largest expected return, the action gives away";
+    let about = "Coloured: not optimal there. The action gives away this share of the largest \
+                 expected return, in the cell in per cent:";
     text(body, (x, y + 26.0), font, Anchor::Start, about);
+    // On a line of their own: how long a text is depends on the letters that a reader has.
     for (i, (_, colour, most)) in LOSSES.into_iter().enumerate() {
-        let x = x + 380.0 + 85.0 * i as f64;
-        rect(body, (x, y + 16.0, 12.0, 12.0), colour, LINE, "");
-        text(body, (x + 18.0, y + 26.0), font, Anchor::Start, most);
+        let x = x + 120.0 * i as f64;
+        rect(body, (x, y + 34.0, 12.0, 12.0), colour, LINE, "");
+        text(body, (x + 18.0, y + 44.0), font, Anchor::Start, most);
     }
 }

@@ -110,6 +110,29 @@ pub(crate) fn sample(
     scene.add(Primitive::Line { x1: x, y1: y, x2, y2: y, stroke, stroke_width, stroke_dasharray });
 }
 
+/// A letter on a disc, around a point.
+pub(crate) fn mark(scene: &mut Scene, (x, y): (f64, f64), colour: &str, letter: &str) {
+    scene.add(Primitive::Circle {
+        cx: x,
+        cy: y,
+        r: 5.2,
+        fill: Color::from("#ffffff"),
+        fill_opacity: None,
+        stroke: Some(Color::from(colour)),
+        stroke_width: Some(1.1),
+    });
+    scene.add(Primitive::Text {
+        x,
+        y: y + 2.9,
+        content: letter.to_owned(),
+        size: 8,
+        anchor: TextAnchor::Middle,
+        rotate: None,
+        bold: true,
+        color: Some(Color::from(colour)),
+    });
+}
+
 /// A line's dashes, as SVG has them; none for a solid line.
 pub(crate) fn dashes(dashes: Option<&str>) -> LineStyle {
     dashes.map_or(LineStyle::Solid, |dashes| LineStyle::Custom(dashes.to_owned()))

@@ -181,23 +181,39 @@ impl Study {
         count: u64,
         work: impl Fn(u64) -> T + Sync,
     ) -> Result<Vec<T>, Box<dyn Error>> {
+        self.run_in_parts(
+            count,
+            |_| 1,
+            |case, progress| {
+                let result = work(case);
+                progress.add(1);
+                result
+            },
+        )
+    }
+
+    /// The same where a case takes long: each has `parts`, and `work` says as they are done.
+    ///
+    /// # Errors
+    /// As [`Self::run`].
+    pub fn run_in_parts<T: Serialize + DeserializeOwned + Send>(
+        &self,
+        count: u64,
+        parts: impl Fn(u64) -> u64,
+        work: impl Fn(u64, &Progress) -> T + Sync,
+    ) -> Result<Vec<T>, Box<dyn Error>> {
         fs::create_dir_all(&self.folder)?;
         let (path, kind) = (self.checkpoint(), format!("study-{}", self.name));
         let mut done = self.resume(&path, &kind)?;
-        let style = ProgressStyle::with_template("{wide_bar} {pos}/{len}, {per_sec}, {eta} left")?;
-        let bar = ProgressBar::new(count).with_style(style);
-        bar.set_position(done.results.len() as u64);
+        let before = (0..count.min(done.results.len() as u64)).map(&parts).sum();
+        let progress = Progress::new((0..count).map(&parts).sum(), before)?;
         while (done.results.len() as u64) < count {
             let from = done.results.len() as u64;
-            let results = seeds(from..count.min(from + self.interval), |case| {
-                let result = work(case);
-                bar.inc(1);
-                result
-            });
-            done.results.extend(results);
+            let cases = from..count.min(from + self.interval);
+            done.results.extend(seeds(cases, |case| work(case, &progress)));
             checkpoint::write(&path, &kind, &serde_json::to_vec(&done)?)?;
         }
-        bar.finish_and_clear();
+        progress.0.finish_and_clear();
         Ok(done.results)
     }
 
@@ -244,6 +260,23 @@ impl Study {
     /// If the checkpoint cannot be removed.
     pub fn finish(self) -> io::Result<()> {
         fs::remove_file(self.checkpoint())
+    }
+}
+
+/// How far a study is: on the terminal in one line, with its rate and the time that is left; elsewhere
+/// nothing.
+pub struct Progress(ProgressBar);
+
+impl Progress {
+    fn new(parts: u64, done: u64) -> Result<Self, Box<dyn Error>> {
+        let template = "{wide_bar} {percent} %, {per_sec}, {elapsed} so far, {eta} left";
+        let style = ProgressStyle::with_template(template)?;
+        Ok(Self(ProgressBar::new(parts).with_position(done).with_style(style)))
+    }
+
+    /// So many more parts are done.
+    pub fn add(&self, parts: u64) {
+        self.0.inc(parts);
     }
 }
 

@@ -35,6 +35,29 @@ fn text_is_text() {
     assert!(svg.contains("fill=\"white\""), "it has a ground of its own");
 }
 
+/// Three curves that coincide: their letters stand at different places, and in the legend.
+#[test]
+fn curves_that_coincide_are_told_apart_by_letters() {
+    let point = |x: f64| Point { x, y: 1.0, low: 1.0, high: 1.0 };
+    let curve = |name: &str| Curve { name: name.to_owned(), points: [0.0, 2.0].map(point).into() };
+    let chart = Chart {
+        title: "success".to_owned(),
+        axis: Axis::Share,
+        curves: ["one", "two", "three"].map(curve).into(),
+        levels: vec![(0.5, "half: of all".to_owned())],
+    };
+    let row = Row { title: String::new(), x: "steps".to_owned(), charts: vec![chart] };
+    let svg = chart::svg("a figure", &[row], &[]);
+    // Each twice on its curve and once in the legend, no two on one place.
+    let lines = || svg.lines().filter(|line| line.contains("<circle"));
+    let places: std::collections::BTreeSet<&str> = lines().collect();
+    assert_eq!((lines().count(), places.len()), (9, 9));
+    for letter in ["A", "B", "C"] {
+        assert_eq!(svg.matches(&format!(">{letter}<")).count(), 3, "{letter}");
+    }
+    assert!(svg.contains(">half<"), "the level's name stands beside it");
+}
+
 #[test]
 fn the_worst_is_a_number_or_never() {
     let panel = |worst: f64| Panel {

@@ -178,6 +178,75 @@ fn a_learner_resumed_goes_on_bit_for_bit() {
     assert!(error.contains("== 4"), "{error}");
 }
 
+/// Steps that each start takes to satisfy `task`, acting greedily; `None` if it takes more than 30.
+fn greedy_steps(
+    task: &dyn Monitor<i32>,
+    mut act: impl FnMut(u32, &i32) -> usize,
+) -> [Option<usize>; 6] {
+    [0, 1, 2, 3, 4, 5].map(|start| {
+        let (mut s, mut q) = (start, task.next(0, &start).unwrap());
+        let mut steps = 0;
+        while !task.is_accepting(q) && steps < 30 {
+            s = [(s - 1).max(0), (s + 1).min(5)][act(q, &s)];
+            q = task.next(q, &s).unwrap();
+            steps += 1;
+        }
+        task.is_accepting(q).then_some(steps)
+    })
+}
+
+/// Stay in the last cell for three instants: its automaton has a way back, which `Progress` pays for.
+#[test]
+fn what_pays_for_coming_again_is_refused_and_not_the_default() {
+    let last = |x: &i32| if *x == 5 { 1.0 } else { -1.0 };
+    let task = tltl! { F (last && X last && X X last) };
+    let mut env = ModelEnv::new(Row).unwrap();
+    // What is optimal for `Progress` goes back and forth beside the last cell for ever.
+    let labelled = Labelled::of_env(&env, &task).unwrap();
+    let problem = Problem::new(env.dynamics(), &labelled).unwrap();
+    let optimum = problem.optimal_q(&rewards());
+    let best = greedy_steps(&task, |q, s| {
+        usize::from(optimum.row(q, *s as usize)[1] > optimum.row(q, *s as usize)[0])
+    });
+    assert_eq!(best, [None; 6]);
+
+    let device = Device::flex();
+    let paid = settings(1_000);
+    let mut learner = Learner::new(Skill::new(&task, OneHot), &env, paid.clone(), &device, 1);
+    let error = learner.train(&mut env, 1_000).unwrap_err();
+    assert_eq!(error, Error::WayBack(task.name().to_string()));
+    assert!(error.to_string().contains("has a way back"), "{error}");
+    assert_eq!(learner.steps(), 0);
+
+    for seed in 0..5 {
+        let shaped = paid.clone().with_rewards(Settings::default().rewards());
+        let mut learner = Learner::new(Skill::new(&task, OneHot), &env, shaped, &device, seed);
+        learner.train(&mut env, 1_500).unwrap();
+        let steps = greedy_steps(&task, |q, s| learner.act(q, s).unwrap());
+        assert_eq!(steps, [7, 6, 5, 4, 3, 2].map(Some), "seed {seed}");
+    }
+}
+
+#[test]
+fn a_composition_whose_product_has_a_way_back_is_refused() {
+    let last = |x: &i32| if *x == 5 { 1.0 } else { -1.0 };
+    let (first, stay) =
+        (tltl! { |x: &i32| F ({ *x } == 0) }, tltl! { F (last && X last && X X last) });
+    let (mut env, device) = (ModelEnv::new(Row).unwrap(), Device::flex());
+    let shaped = settings(200).with_rewards(Settings::default().rewards());
+    let mut one = Learner::new(Skill::new(&first, OneHot), &env, shaped.clone(), &device, 1);
+    let mut two = Learner::new(Skill::new(&stay, OneHot), &env, shaped.clone(), &device, 2);
+    one.train(&mut env, 200).unwrap();
+    two.train(&mut env, 200).unwrap();
+    let product = Product::conjunction(&[&first, &stay]);
+    let skills = [one.learned().unwrap(), two.learned().unwrap()];
+    let compose =
+        |settings| Composition::new(&product, &skills, AsGiven, Combine::Sum, settings, &device, 3);
+    assert!(compose(shaped).is_ok());
+    let error = compose(settings(200)).map(|_| ()).unwrap_err();
+    assert!(matches!(error, Error::WayBack(_)), "{error}");
+}
+
 /// All of Algorithm 2, whatever holds the values.
 fn carry_out<C: Compose>(composition: &mut C) -> Result<(), C::Error> {
     composition.compensate(1_000)?;

@@ -12,6 +12,7 @@ use std::time::Instant;
 use tltl::deep::{Device, Learner, Settings, Skill};
 use tltl::learn::Schedule;
 use tltl::network::Features;
+use tltl::prelude::Rewards;
 use tltl::rand::{Rng, SeedableRng, rngs::Xoshiro256PlusPlus};
 use tltl_kitchen::features::{FeasibleGoals, View, exploration};
 use tltl_kitchen::tasks::phi1_3;
@@ -29,6 +30,7 @@ fn learner() -> f64 {
     let mut kitchen = Kitchen::new(layout.clone(), goals, 100).expect("a feasible goal");
     let settings = || {
         Settings::default()
+            .with_rewards(Rewards::progress().with_gamma(0.97)?)
             .with_hidden([HIDDEN; 2])?
             .with_batch(BATCH)?
             .with_steps_per_update(1)?

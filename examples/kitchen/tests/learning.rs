@@ -7,7 +7,7 @@ use tltl::compose::Compose;
 use tltl::deep::{Composition, Device, Learner, Relabel as _, Settings, Skill};
 use tltl::learn::Schedule;
 use tltl::network::Features;
-use tltl::prelude::{Combine, Env, Monitor, Product};
+use tltl::prelude::{Combine, Env, Monitor, Product, Rewards};
 use tltl::rand::{Rng, SeedableRng, rngs::Xoshiro256PlusPlus};
 use tltl_kitchen::features::{FeasibleGoals, View, exploration};
 use tltl_kitchen::tasks::{phi_3, told};
@@ -16,6 +16,7 @@ use tltl_kitchen::{Action, Goal, Goals, Kitchen, Known, Layout};
 fn settings(updates: u64) -> Settings {
     let settings = || {
         Settings::default()
+            .with_rewards(Rewards::progress().with_gamma(0.97)?)
             .with_horizon(100)?
             .with_learning_rate(Schedule::linear(5e-4, 1e-5, updates)?)?
             .with_epsilon(Schedule::linear(1.0, 0.05, 3_000)?)

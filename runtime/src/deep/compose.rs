@@ -21,7 +21,7 @@ use std::vec::Vec;
 use super::model::{Batch, Model};
 use super::replay::Replay;
 use super::settings::Settings;
-use super::trainer::{Heads, Objective, Trainer, bounds};
+use super::trainer::{Heads, Objective, Trainer, bounds, check_reward};
 use super::{Error, Relabel};
 use crate::augmented::Moves;
 use crate::compose::{Combine, Compose};
@@ -204,8 +204,8 @@ impl<'a, S: Clone, G: Relabel<S>> Composition<'a, S, G> {
     /// replayed steps are drawn from `goals` by the share [`Settings::relabelled`].
     ///
     /// # Errors
-    /// If skills and product do not fit together, or a feature is not a finite number in a state
-    /// that was seen.
+    /// If skills and product do not fit together, the reward pays for moves and the product has a way
+    /// back ([`Error::WayBack`]), or a feature is not a finite number in a state that was seen.
     ///
     /// # Panics
     /// If nothing was seen.
@@ -220,6 +220,7 @@ impl<'a, S: Clone, G: Relabel<S>> Composition<'a, S, G> {
         seed: u64,
     ) -> Result<Self, Error> {
         check(product, skills)?;
+        check_reward(product, &settings.rewards())?;
         let actions = skills[0].network.shape().actions;
         let rewards = settings.rewards();
         let moves = Moves::new(product, rewards);
@@ -309,8 +310,7 @@ impl<'a, S: Clone, G: Relabel<S>> Composition<'a, S, G> {
         combined(self.product, &self.parts, &of, self.combine, q, 0, &mut row);
         let mut batch = Batch::default();
         batch.push(&self.features, s).map_err(Error::Feature)?;
-        let further = self.trainer.values(&self.trainer.model, &batch);
-        let further = &further[head * self.actions..][..self.actions];
+        let further = self.trainer.values_of(head, &batch);
         row.iter_mut().zip(further).for_each(|(v, f)| *v += f);
         Ok(row)
     }

@@ -16,7 +16,7 @@ use super::model::{AdamMoments, Batch, Model, Optimiser};
 use super::popart::PopArt;
 use super::replay::Replay;
 use super::settings::Settings;
-use super::trainer::{Heads, TaskObjective, Trainer, bounds};
+use super::trainer::{Heads, TaskObjective, Trainer, bounds, check_reward};
 use super::{Error, Learned, Relabel, Skill};
 use crate::augmented::Moves;
 use crate::env::{Env, Step, below, unit};
@@ -199,9 +199,7 @@ impl<S> Core<S> {
         };
         self.single.clear();
         self.single.push(features, s).map_err(Error::Feature)?;
-        let values = self.trainer.values(&self.trainer.model, &self.single);
-        let actions = self.actions.len();
-        Ok(values[head * actions..][..actions].to_vec())
+        Ok(self.trainer.values_of(head, &self.single))
     }
 }
 
@@ -287,10 +285,12 @@ where
     /// their very first state.
     ///
     /// # Errors
-    /// If the environment has other actions, or a predicate, a feature, a reward or the loss is not
-    /// a finite number. Where no action can be chosen, no step is taken.
+    /// If the environment has other actions, the reward pays for moves and the automaton has a way back
+    /// ([`Error::WayBack`]), or a predicate, a feature, a reward or the loss is not a finite number. Where
+    /// no action can be chosen, no step is taken.
     pub fn train<E: Env<State = S>>(&mut self, env: &mut E, total: u64) -> Result<(), Error> {
         check_actions(env, self.core.actions.len())?;
+        check_reward(&self.skill.task, &self.core.settings.rewards())?;
         let Self { skill, moves, core, rng, elapsed, .. } = self;
         let horizon = core.settings.horizon();
         let mut world = Beside { env, task: &skill.task, moves };

@@ -11,6 +11,35 @@
 //! where tasks have goals as parameters, it is relabelled with other goals ([`Relabel`]; universal
 //! values, Schaul et al. 2015).
 //!
+//! The default reward is potential shaping ([`Mode::Shaped`](crate::reward::Mode::Shaped)), whose best
+//! policies are those of acceptance. The paper's `Progress` pays for each move of the automaton, and where
+//! the automaton has a way back, for coming again: on `F (a && X a && X X a)` its optimum leaves a and
+//! comes back for ever, and never satisfies the task. There it is refused ([`Error::WayBack`]). On a row of
+//! nine cells, 1,500 steps and five seeds, the default reaches the fewest steps on that task with all seeds
+//! (acceptance alone with three); on `F a || (b T (a || c))`, which has no way back, too, where `Progress`
+//! takes 22 to 42 % more; on `a T b`, with the ends of the row, with four seeds, `Progress` with all five.
+//!
+//! ```
+//! use tltl::deep::{Device, Error, Learner, Settings, Skill};
+//! use tltl::model;
+//! use tltl::network::Features;
+//! use tltl::prelude::*;
+//! # struct Place;
+//! # impl Features<usize> for Place {
+//! #     fn inputs(&self) -> usize { 3 }
+//! #     fn write(&self, s: &usize, inputs: &mut [f32], _: &mut [f32]) { inputs[*s] = 1.0; }
+//! # }
+//!
+//! let a = |s: &usize| if *s == 2 { 1.0 } else { -1.0 };
+//! let stay = tltl! { F (a && X a && X X a) };
+//! let row = model::from_fn(3, 2, |s, a| [([s.saturating_sub(1), (s + 1).min(2)][a], 1.0)]);
+//! let mut env = ModelEnv::new(row)?;
+//! let settings = Settings::default().with_hidden([8])?.with_rewards(Rewards::progress());
+//! let mut learner = Learner::new(Skill::new(&stay, Place), &env, settings, &Device::flex(), 1);
+//! assert!(matches!(learner.train(&mut env, 100), Err(Error::WayBack(_))));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! The device is chosen at run time; everything random comes from the seed, so on the CPU the same
 //! seed gives the same numbers. A loss, a weight or a feature that is not a finite number stops
 //! learning with an [`Error`] that names it.
@@ -40,6 +69,7 @@ pub use settings::Settings;
 
 use core::convert::Infallible;
 use core::fmt;
+use std::string::String;
 
 use rand::Rng;
 
@@ -217,6 +247,8 @@ pub enum Error {
     Loss(u64),
     /// The environment paid what is not a finite number, at this step, counted from 1.
     Reward(u64),
+    /// The reward pays for moves of the automaton, and the automaton of this task has a way back.
+    WayBack(String),
     /// What belongs to different tasks or worlds was brought together.
     Mismatch(Mismatch),
 }
@@ -230,6 +262,11 @@ impl fmt::Display for Error {
                 f,
                 "the loss of update {update} is not a finite number: learning has diverged; try a \
                  smaller learning rate"
+            ),
+            Self::WayBack(task) => write!(
+                f,
+                "`{task}`: its automaton has a way back, and `Progress` pays each time for coming again: the \
+                 best policy for it need never satisfy the task; take `Rewards::of(Mode::Shaped)`, the default"
             ),
             Self::Mismatch(error) => error.fmt(f),
             Self::Reward(step) => write!(f, "the reward of step {step} is not a finite number"),

@@ -9,7 +9,7 @@
 //! numbers come out on every run; other devices may add up in another order.
 
 use burn::optim::{Adam, AdamConfig, AdamState, AdaptiveMomentumState, Optimizer};
-use burn::tensor::{Device, Int, Tensor, TensorData, activation::relu};
+use burn::tensor::{Device, Tensor, TensorData, activation::relu};
 use serde::{Deserialize, Serialize};
 use std::vec::Vec;
 
@@ -54,12 +54,16 @@ impl Batch {
         Err(all.take_while(|x| x.is_finite()).count())
     }
 
-    /// `[batch, inputs]` and `[batch, channels, entities]`, as [`Model::forward`] takes them.
-    fn tensors(&self, shape: &Shape, device: &Device) -> (Tensor<2>, Tensor<3>) {
+    /// `[batch, inputs]`.
+    fn inputs(&self, shape: &Shape, device: &Device) -> Tensor<2> {
         let inputs = TensorData::new(self.inputs.clone(), [self.len, shape.inputs]);
-        let entities =
-            TensorData::new(self.entities.clone(), [self.len, shape.channels, shape.entities]);
-        (Tensor::from_data(inputs, device), Tensor::from_data(entities, device))
+        Tensor::from_data(inputs, device)
+    }
+
+    /// `[batch, channels, entities]`.
+    fn entities(&self, shape: &Shape, device: &Device) -> Tensor<3> {
+        let sizes = [self.len, shape.channels, shape.entities];
+        Tensor::from_data(TensorData::new(self.entities.clone(), sizes), device)
     }
 }
 
@@ -106,6 +110,67 @@ pub(super) struct Target {
     pub value: f32,
     /// How much the error counts.
     pub weight: f32,
+}
+
+/// A batch on its way through a model.
+struct Pass {
+    /// What entered each layer.
+    inputs: Vec<Tensor<2>>,
+    /// What the last layer put out.
+    out: Tensor<2>,
+}
+
+/// What the last layer says of some states: for each row and head the value of the state, those of plain
+/// actions, what pointing has in common, and the query.
+pub(super) struct Outputs<'a> {
+    shape: &'a Shape,
+    numbers: Vec<f32>,
+    entities: &'a [f32],
+}
+
+impl Outputs<'_> {
+    /// The outputs of a row and head, `row * heads + head`.
+    fn of(&self, i: usize) -> &[f32] {
+        let width = 1 + self.shape.head_width();
+        &self.numbers[i * width..][..width]
+    }
+
+    /// The features of the entity that an action points at, in the row of `i`.
+    fn entity(&self, i: usize, action: usize) -> impl Iterator<Item = f32> {
+        let Shape { heads, entities: n, channels, .. } = *self.shape;
+        let features = &self.entities[i / heads * channels * n..][..channels * n];
+        features.iter().copied().skip(action - self.shape.plain()).step_by(n)
+    }
+
+    /// The value of an action for a row and head.
+    pub(super) fn value(&self, i: usize, action: usize) -> f32 {
+        let (out, plain) = (self.of(i), self.shape.plain());
+        if action < plain {
+            return out[0] + out[1 + action];
+        }
+        // One rounding for each term, as the products of matrices have it.
+        let products = out[2 + plain..].iter().zip(self.entity(i, action));
+        out[0] + (out[1 + plain] + products.fold(0.0, |sum, (q, e)| q.mul_add(e, sum)))
+    }
+
+    /// The values of all actions for a row and head.
+    pub(super) fn values(&self, i: usize) -> Vec<f32> {
+        (0..self.shape.actions).map(|action| self.value(i, action)).collect()
+    }
+
+    /// Adds what the outputs have to do with the value of an action, times its `slope`.
+    fn add_slope(&self, i: usize, action: usize, slope: f32, error: &mut [f32]) {
+        let (plain, width) = (self.shape.plain(), 1 + self.shape.head_width());
+        let error = &mut error[i * width..][..width];
+        error[0] += slope;
+        if action < plain {
+            error[1 + action] += slope;
+            return;
+        }
+        error[1 + plain] += slope;
+        let query = error[2 + plain..].iter_mut().zip(self.entity(i, action));
+        query.for_each(|(error, e)| *error += slope * e);
+    }
 }
 
 impl Model {
@@ -176,42 +241,63 @@ impl Model {
 
     /// All heads' values of all states, indexed `(row * heads + head) * actions + action`.
     pub(super) fn values(&self, batch: &Batch) -> Vec<f32> {
-        let (inputs, entities) = batch.tensors(&self.shape, &self.device());
-        let (states, advantages) = self.forward(inputs, entities);
-        numbers(states + advantages)
+        let (actions, pass) = (self.shape.actions, self.pass(batch));
+        let pointed = self.pointed(&pass.out, batch);
+        let outputs = self.read(pass.out, batch);
+        let mut values = self.advantages(&outputs, &pointed);
+        for (i, row) in values.chunks_mut(actions).enumerate() {
+            let state = outputs.of(i)[0];
+            row.iter_mut().for_each(|value| *value += state);
+        }
+        values
     }
 
-    /// `[batch, inputs]` and `[batch, channels, entities]` to the values of states, `[batch, heads, 1]`,
-    /// and what the actions add to them, `[batch, heads, actions]`.
-    fn forward(&self, inputs: Tensor<2>, entities: Tensor<3>) -> (Tensor<3>, Tensor<3>) {
-        let Shape { heads, entities: n, channels, .. } = self.shape;
-        let (plain, width) = (self.shape.plain(), self.shape.head_width());
+    /// What the last layer says of all states. Cheaper than [`Self::values`] where few are asked for.
+    pub(super) fn outputs<'a>(&'a self, batch: &'a Batch) -> Outputs<'a> {
+        self.read(self.pass(batch).out, batch)
+    }
+
+    fn read<'a>(&'a self, out: Tensor<2>, batch: &'a Batch) -> Outputs<'a> {
+        Outputs { shape: &self.shape, numbers: numbers(out), entities: &batch.entities }
+    }
+
+    /// Through all layers.
+    fn pass(&self, batch: &Batch) -> Pass {
         let (last, trunk) = self.layers.split_last().expect("a network has heads");
         let dense =
             |x: Tensor<2>, l: &Layer| x.matmul(l.weights.clone()) + l.bias.clone().unsqueeze();
-        let x = trunk.iter().fold(inputs, |x, layer| relu(dense(x, layer)));
-        let rows = x.dims()[0];
-        let out = dense(x, last).reshape([rows, heads, 1 + width]);
-        let state = out.clone().narrow(2, 0, 1);
-        if n == 0 {
-            return (state, out.narrow(2, 1, plain));
+        let mut inputs = std::vec![batch.inputs(&self.shape, &self.device())];
+        for layer in trunk {
+            let x = relu(dense(inputs[inputs.len() - 1].clone(), layer));
+            inputs.push(x);
         }
-        // A head: the value of the state, those of plain actions, what pointing has in common, the query.
-        let query = out.clone().narrow(2, plain + 2, channels);
-        let pointing = out.clone().narrow(2, plain + 1, 1) + query.matmul(entities);
-        if plain == 0 {
-            return (state, pointing);
-        }
-        (state, Tensor::cat(std::vec![out.narrow(2, 1, plain), pointing], 2))
+        let out = dense(inputs[inputs.len() - 1].clone(), last);
+        Pass { inputs, out }
     }
 
-    /// The layers with gradients.
-    fn tracked(&self) -> Self {
-        let layers = self.layers.iter().map(|layer| Layer {
-            weights: Tensor::from_inner(layer.weights.clone()).require_grad(),
-            bias: Tensor::from_inner(layer.bias.clone()).require_grad(),
-        });
-        Self { shape: self.shape.clone(), layers: layers.collect() }
+    /// The products of all queries with all entities, `(row * heads + head) * entities + entity`.
+    fn pointed(&self, out: &Tensor<2>, batch: &Batch) -> Vec<f32> {
+        let Shape { heads, entities, channels, .. } = self.shape;
+        if entities == 0 {
+            return Vec::new();
+        }
+        let (first, width) = (1 + self.shape.levels(), 1 + self.shape.head_width());
+        let query = out.clone().reshape([batch.len, heads, width]).narrow(2, first, channels);
+        numbers(query.matmul(batch.entities(&self.shape, &self.device())))
+    }
+
+    /// What the actions add to the values of states, indexed as [`Self::values`].
+    fn advantages(&self, outputs: &Outputs<'_>, pointed: &[f32]) -> Vec<f32> {
+        let (plain, n, actions) = (self.shape.plain(), self.shape.entities, self.shape.actions);
+        let rows = outputs.numbers.len() / (1 + self.shape.head_width());
+        let mut advantages = std::vec![0.0; rows * actions];
+        for (i, row) in advantages.chunks_mut(actions).enumerate() {
+            let out = outputs.of(i);
+            row[..plain].copy_from_slice(&out[1..=plain]);
+            let pointed = pointed.get(i * n..(i + 1) * n).unwrap_or_default();
+            row[plain..].iter_mut().zip(pointed).for_each(|(v, p)| *v = out[1 + plain] + p);
+        }
+        advantages
     }
 
     /// The weighted Huber loss of the values of `actions` (one a row) under all heads, with
@@ -221,6 +307,10 @@ impl Model {
     /// Huber's loss (1964) is quadratic near 0 and linear beyond 1, so that one surprising reward does
     /// not throw the weights about. The penalty is multiplied by the number of heads, for the loss is a
     /// sum over them.
+    ///
+    /// The chain rule is written out: only one action of each row and head has a gradient, unless there is
+    /// a penalty, and a library that does not know so multiplies mostly zeros (its graph and those
+    /// products were a third of an update of the kitchen's skills).
     pub(super) fn gradients(
         &self,
         batch: &Batch,
@@ -229,34 +319,79 @@ impl Model {
         penalty: f64,
     ) -> (f32, Vec<f32>, Vec<(Tensor<2>, Tensor<1>)>) {
         let (rows, heads) = (batch.len, self.shape.heads);
-        let model = self.tracked();
-        let device = model.device();
-        let (inputs, entities) = batch.tensors(&self.shape, &device);
-        let (states, advantages) = model.forward(inputs, entities);
-        let values = states + advantages.clone();
-        let chosen = actions.iter().flat_map(|&a| core::iter::repeat_n(i64::from(a), heads));
-        let chosen = TensorData::new(chosen.collect::<Vec<i64>>(), [rows, heads, 1]);
-        let values = values.gather(2, Tensor::<3, Int>::from_data(chosen, &device));
-        let of = |f: fn(&Target) -> f32| {
-            let data = targets.iter().map(f).collect::<Vec<f32>>();
-            Tensor::<3>::from_data(TensorData::new(data, [rows, heads, 1]), &device)
+        let Pass { inputs, out } = self.pass(batch);
+        let pointed = if penalty > 0.0 { self.pointed(&out, batch) } else { Vec::new() };
+        let outputs = self.read(out, batch);
+        let chosen = |i: usize| actions[i / heads] as usize;
+        let values: Vec<f32> = (0..rows * heads).map(|i| outputs.value(i, chosen(i))).collect();
+        let mut error = std::vec![0.0; outputs.numbers.len()];
+        let (mut loss, share) = (0.0, 1.0 / rows as f32);
+        let slope = |(value, target): (&f32, &Target)| {
+            // Huber's loss: e²/2 up to 1, then e − 1/2.
+            let difference = value - target.value;
+            let (size, weight) = (difference.abs(), share * target.weight);
+            let small = size.min(1.0);
+            // What is no number stays none, so that the loss shows it.
+            loss += weight * small * (size - 0.5 * small);
+            (weight * small).copysign(difference)
         };
-        let error = (values.clone() - of(|target| target.value)).abs();
-        // Huber's loss: e²/2 up to 1, then e − 1/2.
-        let small = error.clone().clamp_max(1.0);
-        let huber = small.clone() * (error - small.mul_scalar(0.5));
-        let mut loss = (huber * of(|target| target.weight)).sum().div_scalar(rows as f32);
+        let slopes: Vec<f32> = values.iter().zip(targets).map(slope).collect();
         if penalty > 0.0 {
-            let squares = advantages.powi_scalar(2).mean();
-            loss = loss + squares.mul_scalar(penalty * heads as f64);
+            let advantages = self.advantages(&outputs, &pointed);
+            let weight = (penalty * heads as f64) as f32;
+            let mean = 1.0 / advantages.len() as f32;
+            loss += weight * mean * advantages.iter().map(|a| a * a).sum::<f32>();
+            let mut all: Vec<f32> = advantages.iter().map(|a| weight * mean * (2.0 * a)).collect();
+            let width = self.shape.actions;
+            (0..rows * heads).for_each(|i| all[i * width + chosen(i)] += slopes[i]);
+            self.spread(all, &slopes, batch, &mut error);
+        } else {
+            (0..rows * heads).for_each(|i| outputs.add_slope(i, chosen(i), slopes[i], &mut error));
         }
-        let gradients = loss.backward();
-        let of = |layer: &Layer| {
-            let weights = layer.weights.grad(&gradients).expect("every layer is used");
-            (weights, layer.bias.grad(&gradients).expect("every layer is used"))
-        };
-        let layers = model.layers.iter().map(of).collect();
-        (loss.inner().into_scalar(), numbers(values.inner()), layers)
+        (loss, values, self.back(inputs, error))
+    }
+
+    /// The gradient of the outputs from that of all advantages, and of the values of states.
+    fn spread(&self, advantages: Vec<f32>, states: &[f32], batch: &Batch, error: &mut [f32]) {
+        let Shape { heads, entities: n, channels, actions, .. } = self.shape;
+        let (plain, width) = (self.shape.plain(), 1 + self.shape.head_width());
+        let rows = advantages.chunks(actions).zip(states).zip(error.chunks_mut(width));
+        for ((advantages, state), error) in rows {
+            error[0] = *state;
+            error[1..=plain].copy_from_slice(&advantages[..plain]);
+        }
+        if n == 0 {
+            return;
+        }
+        let device = self.device();
+        let data = TensorData::new(advantages, [batch.len, heads, actions]);
+        let pointing = Tensor::<3>::from_data(data, &device).narrow(2, plain, n);
+        let common = numbers(pointing.clone().sum_dim(2));
+        let query = numbers(pointing.matmul(batch.entities(&self.shape, &device).transpose()));
+        for (i, error) in error.chunks_mut(width).enumerate() {
+            error[1 + plain] = common[i];
+            error[2 + plain..].copy_from_slice(&query[i * channels..(i + 1) * channels]);
+        }
+    }
+
+    /// The gradients of all layers, from that of the outputs and what entered each layer.
+    fn back(&self, inputs: Vec<Tensor<2>>, error: Vec<f32>) -> Vec<(Tensor<2>, Tensor<1>)> {
+        let (rows, width) = (inputs[0].dims()[0], self.shape.heads * (1 + self.shape.head_width()));
+        let data = TensorData::new(error, [rows, width]);
+        let mut error = Tensor::<2>::from_data(data, &self.device());
+        let mut gradients = Vec::new();
+        for (i, (layer, x)) in self.layers.iter().zip(inputs).enumerate().rev() {
+            let weights = x.clone().transpose().matmul(error.clone());
+            let bias = error.clone().sum_dim(0).squeeze_dim(0);
+            gradients.push((weights, bias));
+            if i > 0 {
+                error = error.matmul(layer.weights.clone().transpose());
+                // Of a unit that is off nothing goes on.
+                error = error.mask_fill(x.lower_equal_elem(0.0), 0.0);
+            }
+        }
+        gradients.reverse();
+        gradients
     }
 
     /// Moves every weight to `other`'s by the share `rate`.

@@ -9,12 +9,13 @@ use std::vec::Vec;
 
 use crate::learn::{Schedule, Updates};
 use crate::range::{OutOfRange, checked};
-use crate::reward::{self, Rewards};
+use crate::reward::{self, Mode, Rewards};
 
 /// How to learn with a network.
 ///
 /// All settings are in their ranges: a value of this type is valid. γ is one of the
-/// [rewards](Self::rewards), for it says what is optimised.
+/// [rewards](Self::rewards), for it says what is optimised: by default acceptance, with potentials that
+/// show the way ([`Mode::Shaped`]), and γ 0.97. Where a task can be lost, a γ nearer 1 takes fewer risks.
 ///
 /// ```
 /// use tltl::deep::Settings;
@@ -52,7 +53,7 @@ pub struct Settings {
 impl Default for Settings {
     fn default() -> Self {
         Self {
-            rewards: Rewards::progress().with_known_gamma(0.97),
+            rewards: Rewards::of(Mode::Shaped).with_known_gamma(0.97),
             horizon: 200,
             hidden: std::vec![128, 128],
             learning_rate: Schedule::known(5e-4),

@@ -13,6 +13,7 @@
 //! mostly learns slower.
 
 use rand::Rng;
+use std::string::ToString;
 use std::vec::Vec;
 
 use super::model::{Batch, Model, Optimiser, Target};
@@ -24,7 +25,7 @@ use crate::augmented::Moves;
 use crate::env::{Step, unit};
 use crate::learn::Updates;
 use crate::learn::episode::Move;
-use crate::monitor::Monitor;
+use crate::monitor::{Acceptor, Monitor};
 use crate::network::{Features, Network, NetworkError};
 use crate::q::argmax;
 use crate::reward::{Mode, Rewards};
@@ -56,6 +57,37 @@ impl Heads {
     /// The head of `q`; none where the task is decided.
     pub(super) fn of(&self, q: u32) -> Option<usize> {
         self.of[q as usize]
+    }
+}
+
+/// `Ok` unless the reward pays for moves of the automaton, and one can be had again and again: then its
+/// optimum need not satisfy the task.
+pub(super) fn check_reward(
+    task: &(impl Acceptor + ?Sized),
+    rewards: &Rewards,
+) -> Result<(), Error> {
+    let paid = matches!(rewards.mode(), Mode::Progress | Mode::Literal);
+    if paid && has_way_back(task) {
+        return Err(Error::WayBack(task.name().to_string()));
+    }
+    Ok(())
+}
+
+/// Whether moves among live states can go on for ever, loops at a state left aside.
+fn has_way_back(task: &(impl Acceptor + ?Sized)) -> bool {
+    let mut ends: Vec<bool> = (0..task.states()).map(|q| task.is_terminal(q)).collect();
+    loop {
+        let mut found = false;
+        // Numbers mostly grow along the moves, so this way round one pass mostly finds all.
+        for q in (0..task.states()).rev().filter(|&q| !task.is_terminal(q)) {
+            let mut comes_to_an_end = true;
+            task.successors(q, &mut |to| comes_to_an_end &= to == q || ends[to as usize]);
+            found |= comes_to_an_end && !ends[q as usize];
+            ends[q as usize] |= comes_to_an_end;
+        }
+        if !found {
+            return ends.contains(&false);
+        }
     }
 }
 
@@ -128,14 +160,14 @@ impl<S, M: Monitor<S>> Objective<S> for TaskObjective<'_, M> {
 /// values off.
 pub(super) fn bounds(most: &[f64], rewards: &Rewards, environment: (f64, f64)) -> Vec<(f64, f64)> {
     let for_ever = 1.0 / (1.0 - rewards.gamma());
-    let each = environment.0
-        - rewards.step_penalty()
-        - match rewards.mode() {
-            Mode::Robustness => rewards.bound(),
-            Mode::Shaped => 1.0,
-            _ => 0.0,
-        };
-    let least = each * for_ever - rewards.trap_penalty();
+    // Potentials add up to what the last is above the first, which is at least -1.
+    let (each, once) = match rewards.mode() {
+        Mode::Robustness => (rewards.bound(), 0.0),
+        Mode::Shaped => (0.0, 1.0),
+        _ => (0.0, 0.0),
+    };
+    let each = environment.0 - rewards.step_penalty() - each;
+    let least = each * for_ever - once - rewards.trap_penalty();
     most.iter().map(|task| (least, (task + environment.1 * for_ever).max(least))).collect()
 }
 
@@ -210,6 +242,18 @@ impl Trainer {
             row.iter_mut().for_each(|v| *v = *v * deviation as f32 + mean as f32);
         }
         values
+    }
+
+    /// A value of a head, normalisation taken back.
+    fn scaled(&self, head: usize, value: f32) -> f32 {
+        let (mean, deviation) = self.popart.scale(head);
+        value * deviation as f32 + mean as f32
+    }
+
+    /// All values of a head in one state, normalisation taken back.
+    pub(super) fn values_of(&self, head: usize, state: &Batch) -> Vec<f32> {
+        let values = self.model.outputs(state).values(head);
+        values.into_iter().map(|value| self.scaled(head, value)).collect()
     }
 
     /// Learns from one batch of steps; the loss.
@@ -338,14 +382,11 @@ impl Trainer {
         let (heads, actions) = (self.heads.states.len(), self.model.shape().actions);
         // Of a composition two passes through the networks of all skills; of a single task nothing.
         let (base, own) = (objective.base(&sample.after)?, objective.base(&sample.before)?);
-        let target = self.values(&self.target, &self.after);
-        let (chooses, target) = match base {
-            Some(base) if objective.evaluates() => (base, target),
-            base => {
-                let now = self.values(&self.model, &self.after);
-                (sum(now, base.as_deref()), sum(target, base.as_deref()))
-            }
+        let (chooses, base) = match base {
+            Some(base) if objective.evaluates() => (base, None),
+            base => (sum(self.values(&self.model, &self.after), base.as_deref()), base),
         };
+        let target = self.target.outputs(&self.after);
         let share = objective.advantage_learning();
         let before =
             (share > 0.0).then(|| sum(self.values(&self.target, &self.before), own.as_deref()));
@@ -353,10 +394,12 @@ impl Trainer {
         let wanted = sample.returns.iter().enumerate().map(|(i, found)| {
             let mut wanted = found.reward;
             if found.discount > 0.0 {
-                let from = (i / heads * heads + found.head) * actions;
-                let best = argmax(&chooses[from..from + actions]);
+                let next = i / heads * heads + found.head;
+                let best = argmax(&chooses[next * actions..][..actions]);
+                let value = self.scaled(found.head, target.value(next, best))
+                    + base.as_deref().map_or(0.0, |base| base[next * actions + best]);
                 let (least, most) = objective.bounds(self.heads.states[found.head]);
-                wanted += found.discount * f64::from(target[from + best]).clamp(least, most);
+                wanted += found.discount * f64::from(value).clamp(least, most);
             }
             let (row, action) = (i * actions, sample.actions[i / heads] as usize);
             if let Some(before) = before.as_deref() {

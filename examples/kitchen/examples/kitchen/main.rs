@@ -6,23 +6,27 @@
 //! to `target/kitchen`; with `--full` it runs all with five seeds (or `--seeds N`) and writes to
 //! `docs/studies`. A run that is killed goes on where it was. `--redraw` draws the figures in
 //! `docs/studies` again, from the curves and the episode that are recorded there.
+//!
+//! `--layout FILE` does all of that in another [kitchen](tltl_kitchen::format), and writes to
+//! `target/kitchen/NAME`, where NAME is the file's. Task 1 is the apple into the fridge there, too; if
+//! there is none, the first goal that has a start.
 
 mod figure;
 mod record;
 mod report;
 mod trial;
 
-use std::error::Error;
-use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::{env, fs};
 
 use serde_json::json;
-use tltl_examples::study::Study;
+use tltl_examples::study::{Progress, Study};
 use tltl_kitchen::strip;
 
 use record::Record;
 use report::Report;
-use trial::{Budget, Experiment, Outcome};
+use trial::{Budget, Experiment, Failure, Outcome};
 
 /// A specification: task and number, both from 0, and whether failed actions cost something.
 type Specification = (usize, usize, bool);
@@ -62,32 +66,98 @@ impl Plan {
         1 + self.specifications.len() as u64
     }
 
-    fn run(&self, trials: &Experiment, case: u64) -> Result<Outcome, String> {
+    /// How much there is to do in a case, as [`Progress`] counts it.
+    fn parts(&self, case: u64) -> u64 {
+        match (case % self.per_seed()).checked_sub(1) {
+            None => self.budget.of_composition(),
+            Some(i) => self.budget.of_skill(self.specifications[i as usize].0),
+        }
+    }
+
+    fn run(&self, trials: &Experiment, case: u64, progress: &Progress) -> Result<Outcome, String> {
         let (seed, which) = (case / self.per_seed(), case % self.per_seed());
         let outcome = match which.checked_sub(1) {
-            None => trials.compose(seed),
-            Some(i) => trials.learn(self.specifications[i as usize], seed),
+            None => trials.compose(seed, progress),
+            Some(i) => trials.learn(self.specifications[i as usize], seed, progress),
         };
         outcome.map_err(|error| error.to_string())
     }
 }
 
-fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let (plan, folder) = match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
-        [] => (Plan::quick(), PathBuf::from("target/kitchen")),
-        ["--full"] => (Plan::full(5), studies()),
-        ["--full", "--seeds", n] => match n.parse() {
-            Ok(seeds) if seeds > 0 => (Plan::full(seeds), studies()),
-            _ => return Err(format!("`{n}` is no number of seeds, from 1").into()),
-        },
-        ["--redraw"] => return draw(&Experiment::new(Plan::full(5).budget)?, &studies()),
-        _ => return Err("usage: kitchen [--full [--seeds N] | --redraw]".into()),
-    };
-    let trials = Experiment::new(plan.budget)?;
-    let study = Study::at(folder.clone(), "kitchen", &(&plan.specifications, plan.budget))
-        .every(plan.per_seed());
-    let results = study.run(plan.cases(), |case| plan.run(&trials, case));
+/// What the command line asks for.
+#[derive(Debug, Default)]
+struct Request {
+    full: bool,
+    seeds: Option<u64>,
+    redraw: bool,
+    layout: Option<PathBuf>,
+}
+
+const USAGE: &str = "usage: kitchen [--layout FILE] [--full [--seeds N] | --redraw], where FILE describes a kitchen";
+
+impl Request {
+    fn read(mut arguments: impl Iterator<Item = String>) -> Result<Self, String> {
+        let mut request = Self::default();
+        while let Some(argument) = arguments.next() {
+            match argument.as_str() {
+                "--full" => request.full = true,
+                "--redraw" => request.redraw = true,
+                "--layout" => request.layout = Some(arguments.next().ok_or(USAGE)?.into()),
+                "--seeds" => {
+                    let n = arguments.next().ok_or(USAGE)?;
+                    let seeds = n.parse().ok().filter(|&n: &u64| n > 0);
+                    request.seeds =
+                        Some(seeds.ok_or(format!("`{n}` is no number of seeds, from 1"))?);
+                }
+                _ => return Err(USAGE.into()),
+            }
+        }
+        let wrong = request.seeds.is_some() && !request.full || request.full && request.redraw;
+        if wrong { Err(USAGE.into()) } else { Ok(request) }
+    }
+
+    fn plan(&self) -> Plan {
+        if self.full { Plan::full(self.seeds.unwrap_or(5)) } else { Plan::quick() }
+    }
+
+    /// Where results go: what is committed belongs to a full study of the paper's kitchen.
+    fn folder(&self) -> PathBuf {
+        match &self.layout {
+            Some(file) => {
+                let name = file.file_stem().unwrap_or(file.as_os_str());
+                Path::new("target/kitchen").join(name)
+            }
+            None if self.full || self.redraw => {
+                Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/studies")
+            }
+            None => PathBuf::from("target/kitchen"),
+        }
+    }
+}
+
+fn main() -> ExitCode {
+    match Request::read(env::args().skip(1)).map_err(Failure::from).and_then(|of| run(&of)) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(request: &Request) -> Result<(), Failure> {
+    let (plan, folder) = (request.plan(), request.folder());
+    let trials = Experiment::new(plan.budget, request.layout.as_deref())?;
+    if request.redraw {
+        return draw(&trials, &folder);
+    }
+    let setup = (&plan.specifications, plan.budget, &request.layout, &trials.layout);
+    let study = Study::at(folder.clone(), "kitchen", &setup).every(plan.per_seed());
+    let results = study.run_in_parts(
+        plan.cases(),
+        |case| plan.parts(case),
+        |case, progress| plan.run(&trials, case, progress),
+    );
     let results = results.map_err(|error| error.to_string())?;
     let results = results.into_iter().take(plan.cases() as usize);
     let results: Vec<Outcome> = results.collect::<Result<_, _>>()?;
@@ -100,7 +170,8 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
     let curves = results.iter().flat_map(|outcome| &outcome.curves);
     let report = Report::new(curves, &references);
     study.publish(".csv", &report.record().csv()?)?;
-    study.publish(".md", &report.text(plan.seeds))?;
+    let file = request.layout.as_ref().map(|file| file.display().to_string());
+    study.publish(".md", &report.text(&trials, plan.seeds, file.as_deref()))?;
     for (name, content) in &results[0].shown {
         study.publish(name, content)?;
     }
@@ -109,17 +180,15 @@ fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
 }
 
 /// Draws the figures in `folder` from what is recorded there.
-fn draw(trials: &Experiment, folder: &Path) -> Result<(), Box<dyn Error + Send + Sync>> {
-    let read = |name| fs::read_to_string(folder.join(name));
+fn draw(trials: &Experiment, folder: &Path) -> Result<(), Failure> {
+    let read = |name| {
+        let path = folder.join(name);
+        fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))
+    };
     let record = Record::read(&read("kitchen.csv")?)?;
-    let figure = figure::svg(&record, &report::references(trials)?);
+    let figure = figure::svg(&record, &report::references(trials)?, &trials.first_words());
     tltl::file::replace(&folder.join("kitchen.svg"), figure.as_bytes())?;
     let episode = trials.replay(&read("kitchen_episode.txt")?)?;
     let strip = strip::svg(&episode, &trials.layout);
     Ok(tltl::file::replace(&folder.join("kitchen_episode.svg"), strip.as_bytes())?)
-}
-
-/// Where the studies are kept.
-fn studies() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/studies")
 }

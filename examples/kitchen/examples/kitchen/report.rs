@@ -11,9 +11,9 @@ use tltl::rand::{SeedableRng, rngs::Xoshiro256PlusPlus};
 use tltl_kitchen::planner::Planner;
 use tltl_kitchen::searcher::Searcher;
 
-use crate::figure::{Content, ROWS};
+use crate::figure::{self, Content, ROWS};
 use crate::record::Record;
-use crate::trial::{Curve, Experiment, Worth, specification};
+use crate::trial::{Curve, Experiment, Worth};
 
 /// Starts that the planner and the searcher are tried on.
 const STARTS: u64 = 500;
@@ -61,12 +61,20 @@ impl<'a> Report<'a> {
         Some([sum / values.len() as f64, low, high])
     }
 
-    /// The tables, and what the paper saw beside what is seen here.
-    pub(crate) fn text(&self, seeds: u64) -> String {
-        let mut text = format!(
-            "{HEAD}\nSeeds: {seeds}. The mean, and in brackets the range over the seeds.\n\n"
+    /// The tables, and what the paper saw beside what is seen here. In another kitchen than the paper's,
+    /// `file` says which.
+    pub(crate) fn text(&self, trials: &Experiment, seeds: u64, file: Option<&str>) -> String {
+        let mut text = match file {
+            None => format!("{HEAD}{IN_PAPER}{METHOD}{WRITTEN}"),
+            Some(file) => format!("{HEAD}{}{METHOD}", in_other(trials, file)),
+        };
+        let _ = write!(
+            text,
+            "\n\n## Results\n\nSeeds: {seeds}. The mean, and in brackets the range over the seeds.\n\n"
         );
-        for (Content { title, curves, .. }, reference) in ROWS.iter().zip(self.references) {
+        let rows = ROWS.iter().zip(self.references).enumerate();
+        for (i, (Content { curves, .. }, reference)) in rows {
+            let title = figure::title(i, &trials.first_words());
             let Reference { planner, searcher } = reference;
             let _ = writeln!(
                 text,
@@ -93,7 +101,9 @@ impl<'a> Report<'a> {
             }
             text.push('\n');
         }
-        self.compare(&mut text);
+        if file.is_none() {
+            self.compare(&mut text);
+        }
         text
     }
 
@@ -133,12 +143,16 @@ const CLAIMS: [(&str, &[&str]); 6] = [
 
 const HEAD: &str = "# The kitchen\n\n\
 ![Success, action success and length of both tasks and of their composition](kitchen.svg)\n\n\
-The curves as numbers: [kitchen.csv](kitchen.csv). An episode of the composed policy: [as a table](kitchen_episode.txt), [as pictures](kitchen_episode.svg).\n\n\
+The curves as numbers: [kitchen.csv](kitchen.csv). An episode of the composed policy: [as a table](kitchen_episode.txt), [as pictures](kitchen_episode.svg).\n\n";
+
+const IN_PAPER: &str = "\
 This study repeats the paper's main experiment (Section 5.2, Figure 3) in an exact simulator with \
 17 objects, 39 receptacles, 62 actions and hidden objects. The paper used AI2-THOR, and its \
 specifications are lost with its supplement. The documentation of `tltl_kitchen` says what is \
 known and what is reconstructed; the formulas are in `examples/kitchen/tasks/kitchen.tltl`. A \
-star marks a penalty of 0.1 for each failed action.\n\n\
+star marks a penalty of 0.1 for each failed action.\n\n";
+
+const METHOD: &str = "\
 The learner is double DQN with prioritized replay and PopArt, with 2×128 units and one update \
 every two steps. Each step updates the heads of all automaton states; in task 2 it is also \
 relabelled with other goals. The network sees what the agent has observed, relative to the goal, \
@@ -150,24 +164,39 @@ the skills, without a step in the kitchen: c1 is their normalised sum, `max` the
 the compensated sum, and c3 the whole of Algorithm 2, with advantage learning in both steps ([the \
 reasons](kitchen_notes.md)). Learning from scratch has as many updates, with one environment step \
 for each. An episode is cut at 100 steps in task 1 and at 200 elsewhere, and counts with that \
-length. \
-Written by `cargo run --release -p tltl-kitchen --example kitchen -- --full`.\n\n## Results\n";
+length.";
+
+const WRITTEN: &str =
+    " Written by `cargo run --release -p tltl-kitchen --example kitchen -- --full`.";
+
+/// Which kitchen it is, where it is not the paper's.
+fn in_other(trials: &Experiment, file: &str) -> String {
+    let layout = &trials.layout;
+    format!(
+        "This study runs the paper's experiment in the kitchen of `{file}`: {} objects, {} receptacles, {} \
+         actions. Task 1 asks for {}. A star marks a penalty of 0.1 for each failed action.\n\n",
+        layout.objects(),
+        layout.receptacles(),
+        layout.actions(),
+        trials.first_words()
+    )
+}
 
 fn reference(
     trials: &Experiment,
     problem: usize,
 ) -> Result<Reference, Box<dyn Error + Send + Sync>> {
-    let tasks = [specification(0, 2), specification(1, 2)];
+    let tasks = [trials.specification(0, 2), trials.specification(1, 2)];
     let both = Product::conjunction(&[&*tasks[0], &*tasks[1]]);
     let task: &dyn Monitor<_> = if problem == 2 { &both } else { &*tasks[problem] };
-    let searcher = Searcher::new(trials.layout.clone(), (problem == 2).then_some(trials.apple));
+    let searcher = Searcher::new(trials.layout.clone(), (problem == 2).then_some(trials.first));
     let mut kitchen = trials.kitchen(problem)?;
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(3_000);
     let (mut planned, mut searched) = (0, 0);
     for _ in 0..STARTS {
         let mut known = kitchen.reset(&mut rng);
         let told = known.goal();
-        let goals = if problem == 2 { vec![trials.apple, told] } else { vec![told] };
+        let goals = if problem == 2 { vec![trials.first, told] } else { vec![told] };
         let plan = Planner::new(&trials.layout, task, &goals).plan(kitchen.truth())?;
         planned += plan.ok_or("a start without a plan")?.len();
         let mut q = task.next(0, &known)?;
