@@ -87,7 +87,8 @@ fn the_wheel_agrees_with_the_crates() {
         let found = text.lines().find(|line| line.starts_with(start));
         found.unwrap_or_else(|| panic!("no line starts with `{start}`")).to_owned()
     };
-    let agreed = ["version =", "edition =", "rust-version =", "license =", "unsafe_code =", "all ="];
+    let agreed =
+        ["version =", "edition =", "rust-version =", "license =", "unsafe_code =", "all ="];
     for start in agreed.into_iter().chain(["missing_docs =", "unreachable_pub ="]) {
         assert_eq!(line(&wheel, start), line(&ours, start));
     }

@@ -44,7 +44,7 @@ pub(crate) const ROWS: [Content; 3] = [
         title: "(e) Composition: φ1.3* ∧ φ2.3*",
         x: "updates",
         curves: &[
-            ("c1", "sum of the skills' values, normalised"),
+            ("c1", "the skills' normalised sum"),
             ("max", "maximum of the skills' values"),
             ("c2", "their plain sum, compensated"),
             ("c3", "c2, refined"),

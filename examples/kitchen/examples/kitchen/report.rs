@@ -66,7 +66,11 @@ impl<'a> Report<'a> {
     pub(crate) fn text(&self, trials: &Experiment, seeds: u64, file: Option<&str>) -> String {
         let mut text = match file {
             None => format!("{HEAD}{IN_PAPER}{METHOD}{WRITTEN}"),
-            Some(file) => format!("{HEAD}{}{METHOD}", in_other(trials, file)),
+            // The notes are of the paper's kitchen.
+            Some(file) => {
+                let method = METHOD.replace(" ([the reasons](kitchen_notes.md))", "");
+                format!("{HEAD}{}{method}", in_other(trials, file))
+            }
         };
         let _ = write!(
             text,
