@@ -19,9 +19,10 @@
 //! fixed policy. Where Q₁ and Q₂ are the optimal values, each of its own policy, what is left is the product's
 //! value plus what each skill would gain alone by leaving the sum's policy; and after a move that loses one
 //! skill the other's value stands, as if it went on. Where acceptance is paid, such a move was then
-//! worth 1, as much as the best one, for of that the pay for the first skill had been taken back: exact
-//! skills of tasks with traps went from no regret to 92 % of P(satisfied). So all three values are taken of
-//! the same policy, and their combination is computed at once.
+//! worth 1, as much as the best one, for of that the pay for the first skill had been taken back. On a grid of
+//! 4 × 5 cells (slip 0.2, γ 0.999) exact skills `!c U a` and `F b` in sequence so came from a regret of 0.06 %
+//! of P(satisfied) to 89 %. So all three values are taken of the same policy, and their combination is
+//! computed at once: it stays at 0.06 %.
 //!
 //! All values are *flat* (they bootstrap at q'), never sub-policy values.
 //!
