@@ -13,9 +13,9 @@ use serde::{Deserialize, Serialize};
 use crate::mismatch::{self, Mismatch};
 use crate::model::FiniteModel;
 
-/// The outcomes in one block. With the number of the next block 15 words, so that a block is one line of
-/// the cache, and a grid with slip, which has five outcomes, needs one block for each (s, a).
-const SLOTS: usize = 7;
+/// The outcomes in one block: as many as make it one line of the cache. A grid with slip, which has five
+/// outcomes, needs one block for each (s, a).
+const SLOTS: usize = 8;
 
 /// No outcome in a slot, no block in a chain.
 const NONE: u32 = u32::MAX;
@@ -23,7 +23,7 @@ const NONE: u32 = u32::MAX;
 /// The bit of a key that says that the episode ended.
 const ENDED: u32 = 1 << 31;
 
-/// Some outcomes of one (s, a), those that were seen first in front, and where there are more.
+/// Some outcomes of one (s, a), in the order in which they were seen first.
 ///
 /// An outcome is a key: the number of s', and a bit if the environment ended the episode there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,23 +31,20 @@ const ENDED: u32 = 1 << 31;
 struct Block {
     keys: [u32; SLOTS],
     times: [u32; SLOTS],
-    next: u32,
 }
 
 impl Block {
-    const EMPTY: Self = Self { keys: [NONE; SLOTS], times: [0; SLOTS], next: NONE };
+    const EMPTY: Self = Self { keys: [NONE; SLOTS], times: [0; SLOTS] };
 
-    /// The slot of `key`, or the first free one for it; `SLOTS` if there is neither.
+    /// The slot of `key`.
     ///
     /// All slots are compared, for which outcome comes nobody can predict: a search that stops where it
     /// finds one costs a wrong guess of the processor every few steps.
     #[inline(always)]
-    fn slot(&self, key: u32) -> usize {
-        let mut found = 1 << SLOTS;
-        for (i, &other) in self.keys.iter().enumerate() {
-            found |= u32::from(other == key || other == NONE) << i;
-        }
-        found.trailing_zeros() as usize
+    fn slot(&self, key: u32) -> Option<usize> {
+        let same = self.keys.iter().enumerate().map(|(i, &other)| u32::from(other == key) << i);
+        let found = same.fold(0, core::ops::BitOr::bitor);
+        (found != 0).then_some(found.trailing_zeros() as usize % SLOTS)
     }
 }
 
@@ -75,7 +72,7 @@ impl Block {
 /// is what endless replay of the log converges to. An action that was never tried in a state
 /// counts as staying there.
 ///
-/// Memory: 4 bytes for each (s, a), and 64 for each that was tried, or for each 7 outcomes of it.
+/// Memory: 4 bytes for each (s, a), and 68 for each that was tried, or for each 8 outcomes of it.
 #[derive(Clone, Debug)]
 #[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "Saved", into = "Saved"))]
@@ -84,6 +81,8 @@ pub struct Experience {
     /// The first block of each `s * actions + a`; none where it was never tried.
     first: Vec<u32>,
     blocks: Vec<Block>,
+    /// The block with further outcomes of the same (s, a), for each block.
+    next: Vec<u32>,
     starts: Vec<u32>,
 }
 
@@ -98,7 +97,8 @@ impl Experience {
     pub fn new(states: usize, actions: usize) -> Self {
         assert!(states < ENDED as usize, "less than 2^31 states");
         let first = alloc::vec![NONE; states * actions];
-        Self { actions, first, blocks: Vec::new(), starts: alloc::vec![0; states] }
+        let starts = alloc::vec![0; states];
+        Self { actions, first, blocks: Vec::new(), next: Vec::new(), starts }
     }
 
     /// Whether it is of a world of this size: it may come from a file.
@@ -140,49 +140,55 @@ impl Experience {
         self.add(s * self.actions + a, to as u32 | ENDED, 1);
     }
 
-    /// Blocks and not a map: an action has few outcomes, and in the order in which they were seen the
-    /// most frequent ones mostly come first.
+    /// Blocks and not a map: an action has few outcomes.
     #[inline(always)]
     fn add(&mut self, cell: usize, key: u32, times: u32) {
-        let mut at = self.first[cell];
-        if at == NONE {
-            at = self.grow();
-            self.first[cell] = at;
+        let known = self.blocks.get_mut(self.first[cell] as usize);
+        let known = known.and_then(|block| Some(&mut block.times[block.slot(key)?]));
+        match known {
+            Some(count) => *count = count.saturating_add(times),
+            None => self.add_apart(cell, key, times),
         }
+    }
+
+    /// The same for an outcome that is new, or not in the first block.
+    #[cold]
+    #[inline]
+    fn add_apart(&mut self, cell: usize, key: u32, times: u32) {
+        if self.first[cell] == NONE {
+            self.first[cell] = self.grow();
+        }
+        let mut at = self.first[cell] as usize;
         loop {
-            let block = &mut self.blocks[at as usize];
-            let slot = block.slot(key);
-            if slot < SLOTS {
+            let block = &mut self.blocks[at];
+            // Slots are filled in order, so that no key stands behind a free one.
+            if let Some(slot) = block.slot(key).or_else(|| block.slot(NONE)) {
                 block.keys[slot] = key;
                 block.times[slot] = block.times[slot].saturating_add(times);
                 return;
             }
-            at = self.after(at);
+            if self.next[at] == NONE {
+                self.next[at] = self.grow();
+            }
+            at = self.next[at] as usize;
         }
     }
 
-    /// The block after `at` in its chain, a new one if it is the last.
-    #[cold]
-    fn after(&mut self, at: u32) -> u32 {
-        if self.blocks[at as usize].next == NONE {
-            self.blocks[at as usize].next = self.grow();
-        }
-        self.blocks[at as usize].next
-    }
-
-    /// Another block.
-    #[cold]
+    /// The number of another block.
+    #[inline]
     fn grow(&mut self) -> u32 {
         self.blocks.push(Block::EMPTY);
+        self.next.push(NONE);
         (self.blocks.len() - 1) as u32
     }
 
     /// What `cell` led to, as keys and counts, in the order in which it was first seen.
     #[inline]
     fn seen(&self, cell: usize) -> impl Iterator<Item = (u32, u32)> {
-        let block = |at: u32| self.blocks.get(at as usize);
-        let blocks = core::iter::successors(block(self.first[cell]), move |last| block(last.next));
-        let all = blocks.flat_map(|block| block.keys.into_iter().zip(block.times));
+        let known = |at: u32| (at != NONE).then_some(at as usize);
+        let chain =
+            core::iter::successors(known(self.first[cell]), move |&at| known(self.next[at]));
+        let all = chain.flat_map(|at| self.blocks[at].keys.into_iter().zip(self.blocks[at].times));
         all.filter(|&(key, _)| key != NONE)
     }
 

@@ -188,6 +188,17 @@ fn largest_of(values: &[f64]) -> f64 {
     values.iter().fold(f64::NEG_INFINITY, |best, &v| if v > best { v } else { best })
 }
 
+/// The index of the smallest number, the lowest of equals, and the number. Nobody can predict which one it
+/// is, so it must not become a branch.
+#[inline(always)]
+pub(crate) fn least(numbers: &[u32]) -> (usize, u32) {
+    let smaller = |(best, least): (usize, u32), (i, &n): (usize, &u32)| {
+        let best = core::hint::select_unpredictable(n < least, i, best);
+        (best, core::hint::select_unpredictable(n < least, n, least))
+    };
+    numbers.iter().enumerate().fold((0, u32::MAX), smaller)
+}
+
 /// The index of the largest value, the lowest of equals: ties break the same way everywhere.
 #[inline]
 pub(crate) fn argmax<T: PartialOrd>(values: &[T]) -> usize {

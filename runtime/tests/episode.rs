@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use tltl::augmented::Augmented;
 use tltl::learn::episode::{self, Agent, Elapsed, Monitored, Transition};
-use tltl::learn::{Schedule, TrainError};
+use tltl::learn::{Memory, TrainError};
 use tltl::prelude::*;
 use tltl::rand::{Rng, SeedableRng, rngs::Xoshiro256PlusPlus};
 use tltl::reward::{Mode, Rewards};
@@ -226,9 +226,9 @@ fn shaping_leaves_the_optimal_policies_of_acceptance() {
     let cells = || task.live().flat_map(|q| (1..5).map(move |s| (q, s)));
     assert!(cells().all(|(q, s)| plain.greedy(q, s) == shaped.greedy(q, s)), "in the model");
 
-    // Learned from experience that ends: values differ from those of `Acceptance` by the potential
-    // of the pair, the same for all its actions.
-    let settings = Settings::default().with_epsilon(Schedule::constant(1.0).unwrap()).unwrap();
+    // Learned from steps that end: values differ from those of `Acceptance` by the potential of the
+    // pair, the same for all its actions.
+    let settings = Settings::default().with_memory(Memory::None);
     for rewards in rewards {
         let mut learner = Learner::new(&task, settings.with_rewards(rewards), 1);
         learner.train(&mut falling(), 400_000).unwrap();

@@ -2,9 +2,11 @@
 
 mod world;
 
+use std::num::NonZero;
+
 use tltl::augmented::Augmented;
 use tltl::controller::Hierarchy;
-use tltl::learn::{Checkpoint, Schedule};
+use tltl::learn::{Checkpoint, Schedule, seeds, seeds_on};
 use tltl::prelude::*;
 use tltl::rand::{SeedableRng, rngs::Xoshiro256PlusPlus};
 use tltl::reward::{End, Mode};
@@ -60,6 +62,38 @@ fn slices_and_checkpoints_change_nothing() {
     let mut resumed = Learner::resume(&task, serde_json::from_str(&text).unwrap()).unwrap();
     resumed.train(&mut ModelEnv::new(PAPER).unwrap(), 10_000).unwrap();
     assert!(resumed == whole, "a resumed learner went another way");
+}
+
+/// A long call turns the table for its time, so that what is read together stands together; calls of fewer
+/// steps than there are states do not.
+#[test]
+fn how_a_table_is_stored_changes_nothing() {
+    let task = on_paper(&Product::conjunction(&[&both(A, B), &eventually(C)]));
+    let greedy = Settings::default().with_epsilon(Schedule::constant(0.5).unwrap()).unwrap();
+    let whole = trained(&task, greedy, 7, 5_000);
+    let known = whole.q().values().iter().filter(|value| **value > 0.0).count();
+    assert!(known > 100, "values are learned where actions are chosen for them: {known}");
+    let (mut env, mut slices) = (ModelEnv::new(PAPER).unwrap(), Learner::new(&task, greedy, 7));
+    while slices.steps() < 5_000 {
+        slices.train(&mut env, 5_000.min(slices.steps() + 50)).unwrap();
+    }
+    assert!(slices == whole, "slices went another way");
+}
+
+/// Seeds are learned by as many threads as there are; what each finds depends on the seed alone.
+#[test]
+fn threads_change_nothing() {
+    let task = on_paper(&both(A, B));
+    let settings = [Settings::default(), Settings::paper()];
+    let learn = |seed| settings.map(|settings| trained(&task, settings, seed, 3_000));
+    let alone: Vec<_> = (3..14).map(learn).collect();
+    assert!(alone[0] != alone[1], "seeds differ");
+    for threads in [1, 2, 3, 8, 40] {
+        let found = seeds_on(NonZero::new(threads).unwrap(), 3..14, learn);
+        assert!(found == alone, "{threads} threads found something else");
+    }
+    assert!(seeds(3..14, learn) == alone);
+    assert!(seeds(3..3, learn).is_empty());
 }
 
 /// What belongs to another task or another world is refused, and both are named.

@@ -1,7 +1,7 @@
 //! What a saved learner holds.
 //!
-//! The fields and their order are those of earlier versions, whose files are read; the task and the
-//! seed came later, and stand at the end.
+//! The fields and their order are those of earlier versions, whose files are read; the task, the seed and
+//! the coverage came later, and stand at the end.
 
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -56,6 +56,9 @@ pub struct Checkpoint {
     pub(super) task: Option<Identity>,
     #[cfg_attr(feature = "serde", serde(default))]
     pub(super) seed: u64,
+    /// How far each (s, a) is from what was tried least; none where exploration is random.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub(super) coverage: Vec<u32>,
 }
 
 /// Action values as they are saved.
@@ -93,10 +96,16 @@ impl Identity {
 }
 
 impl Checkpoint {
-    /// `Ok` if it is of `task`, whose updates are counted in so many `entries`. It may come from a
+    /// `Ok` if it is of `task`, whose updates are counted in so many `entries` and of which exploration
+    /// covers so many states. It may come from a
     /// file, so sizes and entries are compared too: what passes cannot panic later.
     #[inline]
-    pub(super) fn must_be_of(&self, task: &Labelled, entries: usize) -> Result<(), Mismatch> {
+    pub(super) fn must_be_of(
+        &self,
+        task: &Labelled,
+        entries: usize,
+        covered: usize,
+    ) -> Result<(), Mismatch> {
         let Self { q, visits, experience, .. } = self;
         let own = Identity::of(task);
         let same = self.task.as_ref().is_none_or(|found| {
@@ -104,9 +113,10 @@ impl Checkpoint {
         });
         let remembered = if self.settings.remembers() { task.states() } else { 0 };
         let values = task.pairs() * task.actions();
-        let own_sizes = (q.values.len(), q.states, q.actions, visits.len());
-        let sized = own_sizes == (values, task.states(), task.actions(), entries);
-        if same && sized && experience.is_of(remembered, task.actions()) {
+        let (states, actions) = (task.states(), task.actions());
+        let own_sizes = (q.values.len(), q.states, q.actions, visits.len(), self.coverage.len());
+        let sized = own_sizes == (values, states, actions, entries, covered * actions);
+        if same && sized && experience.is_of(remembered, actions) {
             return Ok(());
         }
         let mismatch = Mismatch::new("a checkpoint", self.describe(), task.describe());

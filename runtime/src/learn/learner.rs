@@ -1,19 +1,23 @@
 //! The tabular Q-learner.
 //!
 //! [`Learner`] turns steps of a finite environment into action values for a task. Its inner loop is
-//! the one of [`episode`], compiled for the number of actions and for the recipe: on the paper's grid
-//! that reaches 0.95 of the speed of flat arrays written by hand for this one problem
-//! (`cargo bench -p tltl-tests --bench learn`).
+//! the one of [`episode`], compiled for the number of actions and for the recipe: it is as fast as flat
+//! arrays written by hand for one problem that do the same (`cargo bench -p tltl-tests --bench learn`: 0.95
+//! of their speed or more).
 //!
 //! It never evaluates a predicate, for its task is a table.
 
 use alloc::vec::Vec;
+use core::marker::PhantomData;
 
 use rand::SeedableRng;
 use rand::rngs::Xoshiro256PlusPlus;
 
+use super::coverage::Coverage;
 use super::shielding::Shielding;
-use super::table::{Fixed, IndexedWorld, Tabular, Width};
+use super::table::{
+    Any, Fixed, IndexedWorld, Layout, Paper, Plan, Recipe, Survey, Tabular, Width, turn,
+};
 use super::{Checkpoint, Experience, Settings, TrainError};
 use crate::augmented::Labelled;
 use crate::env::FiniteEnv;
@@ -54,6 +58,7 @@ pub struct Learner {
     /// Updates of each entry: (s, a) if all automaton states share them, else (q, s, a).
     visits: Vec<u32>,
     experience: Experience,
+    coverage: Coverage,
     rng: Xoshiro256PlusPlus,
     elapsed: Elapsed,
     seed: u64,
@@ -70,6 +75,7 @@ impl Learner {
             q: QTable::filled(task, settings.initial()),
             visits: alloc::vec![0; entries(task, &settings)],
             experience: Experience::new(remembered, task.actions()),
+            coverage: Coverage::new(covered(task, &settings), task.actions()),
             rng: Xoshiro256PlusPlus::seed_from_u64(seed),
             elapsed: Elapsed::default(),
             settings,
@@ -105,26 +111,44 @@ impl Learner {
     /// # Errors
     /// If the environment is of another world, or pays what is not a finite number.
     pub fn train<E: FiniteEnv>(&mut self, env: &mut E, total: u64) -> Result<(), TrainError> {
-        let plain = !self.settings.is_counterfactual() && !self.settings.remembers();
         // Grids have four actions, or five with one that stays; other numbers take the general loop.
-        match (self.task().actions(), plain) {
-            (4, true) => self.run::<_, _, true>(env, Fixed::<4>, total),
-            (5, true) => self.run::<_, _, true>(env, Fixed::<5>, total),
-            (4, false) => self.run::<_, _, false>(env, Fixed::<4>, total),
-            (5, false) => self.run::<_, _, false>(env, Fixed::<5>, total),
-            (actions, _) => self.run::<_, _, false>(env, actions, total),
+        match (self.task().actions(), self.settings.is_papers(), self.settings.updates_values()) {
+            (4, _, false) => self.run::<_, _, Survey>(env, Fixed::<4>, total),
+            (5, _, false) => self.run::<_, _, Survey>(env, Fixed::<5>, total),
+            (actions, _, false) => self.run::<_, _, Survey>(env, actions, total),
+            (4, true, _) => self.run::<_, _, Paper>(env, Fixed::<4>, total),
+            (5, true, _) => self.run::<_, _, Paper>(env, Fixed::<5>, total),
+            (4, false, _) => self.run::<_, _, Any>(env, Fixed::<4>, total),
+            (5, false, _) => self.run::<_, _, Any>(env, Fixed::<5>, total),
+            (actions, _, _) => self.run::<_, _, Any>(env, actions, total),
         }
     }
 
     /// Trains in a loop that was made for a number of actions and a recipe: a fifth faster than
     /// one that asks for them at every step.
-    fn run<E: FiniteEnv, W: Width, const PLAIN: bool>(
+    fn run<E: FiniteEnv, W: Width, C: Recipe>(
         &mut self,
         env: &mut E,
         width: W,
         total: u64,
     ) -> Result<(), TrainError> {
-        self.run_as(env, total, width, |agent: Tabular<'_, W, PLAIN>| agent)
+        let task = self.task();
+        let (states, actions) = (task.states(), task.actions());
+        let automaton = task.automaton_states() as usize;
+        // Turning costs as much as a step for each row, and brings in rows that are never read.
+        let turned = Plan::of(&self.settings).updates_all()
+            && task.live().count() >= 4
+            && total.saturating_sub(self.elapsed.steps) > states as u64;
+        let mut layout = Layout::by_automaton(states);
+        if turned {
+            turn(self.q.values_mut(), automaton, actions);
+            layout = Layout::by_state(automaton);
+        }
+        let result = self.run_as(env, total, (width, layout), |agent: Tabular<'_, W, C>| agent);
+        if turned {
+            turn(self.q.values_mut(), states, actions);
+        }
+        result
     }
 
     /// [`Self::train`] behind a shield: only actions that it allows are taken, and it is told each step.
@@ -171,8 +195,9 @@ impl Learner {
         total: u64,
     ) -> Result<(), TrainError> {
         self.task().check("a shield", shield.task())?;
-        let width = self.task().actions();
-        self.run_as(env, total, width, |agent| Shielding { agent, shield, allowed: Vec::new() })
+        let (width, states) = (self.task().actions(), self.task().states());
+        let layout = (width, Layout::by_automaton(states));
+        self.run_as(env, total, layout, |agent| Shielding { agent, shield, allowed: Vec::new() })
     }
 
     /// Runs as the agent that `wrap` makes of the table.
@@ -181,14 +206,14 @@ impl Learner {
         'a,
         E: FiniteEnv,
         W: Width,
+        C: Recipe,
         A: Agent<State = usize, Error = TrainError>,
-        const PLAIN: bool,
     >(
         &'a mut self,
         env: &mut E,
         total: u64,
-        width: W,
-        wrap: impl FnOnce(Tabular<'a, W, PLAIN>) -> A,
+        (width, layout): (W, Layout),
+        wrap: impl FnOnce(Tabular<'a, W, C>) -> A,
     ) -> Result<(), TrainError> {
         let task = self.q.task().clone();
         task.check_world("an environment", env.states(), env.actions())?;
@@ -197,13 +222,17 @@ impl Learner {
         let (mut rng, mut elapsed, settings) = (self.rng.clone(), self.elapsed, self.settings);
         let mut agent = wrap(Tabular {
             settings,
+            plan: Plan::of(&settings),
+            recipe: PhantomData,
             gamma: settings.rewards().gamma(),
             live: task.live().collect(),
             states: task.states(),
             width,
+            layout,
             values: self.q.values_mut(),
             visits: &mut self.visits,
             experience: &mut self.experience,
+            coverage: &mut self.coverage,
         });
         let horizon = settings.horizon();
         let result = episode::run(&mut world, &mut agent, &mut elapsed, horizon, total, &mut rng);
@@ -376,6 +405,7 @@ impl Learner {
             },
             visits: self.visits.clone(),
             experience: self.experience.clone(),
+            coverage: self.coverage.distances().to_vec(),
             rng: self.rng.clone(),
             done: self.elapsed,
             task: Some(super::checkpoint::Identity::of(task)),
@@ -404,12 +434,14 @@ impl Learner {
     /// If the checkpoint is of another task or another world.
     #[inline]
     pub fn resume(task: &Labelled, checkpoint: Checkpoint) -> Result<Self, Mismatch> {
-        checkpoint.must_be_of(task, entries(task, &checkpoint.settings))?;
+        let covered = covered(task, &checkpoint.settings);
+        checkpoint.must_be_of(task, entries(task, &checkpoint.settings), covered)?;
         Ok(Self {
             q: QTable::from_values(task, checkpoint.q.values)?,
             settings: checkpoint.settings,
             visits: checkpoint.visits,
             experience: checkpoint.experience,
+            coverage: Coverage::of(checkpoint.coverage),
             rng: checkpoint.rng,
             elapsed: checkpoint.done,
             seed: checkpoint.seed,
@@ -424,4 +456,10 @@ impl Learner {
 fn entries(task: &Labelled, settings: &Settings) -> usize {
     let pairs = if settings.is_counterfactual() { task.states() } else { task.pairs() };
     pairs * task.actions()
+}
+
+/// The number of states that exploration covers; none if it is random.
+#[inline]
+fn covered(task: &Labelled, settings: &Settings) -> usize {
+    if settings.covers() { task.states() } else { 0 }
 }

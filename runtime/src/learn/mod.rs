@@ -13,6 +13,7 @@
 //! were not chosen on. Where a task has a trap, take [`Settings::safe`].
 
 mod checkpoint;
+mod coverage;
 mod learner;
 #[cfg(feature = "std")]
 mod seeds;
@@ -26,13 +27,13 @@ use core::fmt;
 pub use checkpoint::Checkpoint;
 pub use learner::Learner;
 #[cfg(feature = "std")]
-pub use seeds::seeds;
+pub use seeds::{seeds, seeds_on};
 pub use trajectory::{Observation, TerminalReward, TrajectoryLearner};
 
 pub use crate::episode;
 pub use crate::experience::Experience;
 use crate::mismatch::Mismatch;
-pub use crate::settings::{Memory, Schedule, Settings, Updates};
+pub use crate::settings::{Exploration, Memory, Schedule, Settings, Updates};
 use crate::task;
 
 /// Why training stopped.

@@ -20,6 +20,28 @@ use std::vec::Vec;
 /// # Panics
 /// If `work` does.
 pub fn seeds<T: Send>(seeds: Range<u64>, work: impl Fn(u64) -> T + Sync) -> Vec<T> {
+    seeds_on(thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN), seeds, work)
+}
+
+/// [`seeds`] on at most so many threads. The results do not depend on how many there are, as long as `work`
+/// depends on the seed alone.
+///
+/// ```
+/// use std::num::NonZero;
+///
+/// use tltl::learn::{seeds, seeds_on};
+///
+/// let square = |seed| seed * seed;
+/// assert_eq!(seeds_on(NonZero::new(2).unwrap(), 3..6, square), seeds(3..6, square));
+/// ```
+///
+/// # Panics
+/// If `work` does.
+pub fn seeds_on<T: Send>(
+    threads: NonZero<usize>,
+    seeds: Range<u64>,
+    work: impl Fn(u64) -> T + Sync,
+) -> Vec<T> {
     let count = seeds.end.saturating_sub(seeds.start) as usize;
     let results: Vec<Mutex<Option<T>>> = (0..count).map(|_| Mutex::new(None)).collect();
     let next = AtomicU64::new(seeds.start);
@@ -36,7 +58,7 @@ pub fn seeds<T: Send>(seeds: Range<u64>, work: impl Fn(u64) -> T + Sync) -> Vec<
             }
         }
     };
-    let threads = thread::available_parallelism().map_or(1, NonZero::get).min(count);
+    let threads = threads.get().min(count);
     thread::scope(|scope| (0..threads).for_each(|_| drop(scope.spawn(run))));
     let taken = results.into_iter().filter_map(|slot| slot.into_inner().ok().flatten());
     taken.collect()

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use rand::Rng;
 
 use super::TrainError;
-use super::table::Tabular;
+use super::table::{Any, Tabular};
 use crate::env::below;
 use crate::episode::{Agent, Monitored, Transition};
 use crate::shield::Shield;
@@ -14,7 +14,7 @@ use crate::shield::Shield;
 ///
 /// `allowed` is a buffer: the list is made anew at every step, and must not allocate there.
 pub(super) struct Shielding<'a> {
-    pub(super) agent: Tabular<'a, usize, false>,
+    pub(super) agent: Tabular<'a, usize, Any>,
     pub(super) shield: &'a mut Shield,
     pub(super) allowed: Vec<usize>,
 }
@@ -28,7 +28,8 @@ impl Agent for Shielding<'_> {
         self.agent.start(s);
     }
 
-    /// ε-greedy among the actions that are allowed.
+    /// ε-greedy among the actions that are allowed. Exploration is random: coverage would be drawn to actions
+    /// that are barred, and so never tried.
     fn act<R: Rng + ?Sized>(
         &mut self,
         q: u32,

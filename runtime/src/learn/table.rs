@@ -1,8 +1,7 @@
 //! Tables as worlds and agents: what [`Learner`](super::Learner) runs episodes with.
 //!
-//! This is the inner loop of learning, 12 to 40 ns a step, and what looks odd here is measured. Moves
-//! are laid out for every pair, so reading a state is one look-up and not two. The number of actions
-//! and the recipe are known when a loop is compiled ([`Fixed`], `PLAIN`), which makes it a fifth
+//! This is the inner loop of learning, 11 to 40 ns a step in worlds that fit the caches, and what looks odd
+//! here is measured. The number of actions and the recipe are known when a loop is compiled ([`Fixed`], [`Recipe`]), which makes it a fifth
 //! faster: rows are unrolled, and branches on settings go. Functions are forced inline, for calls
 //! would spill the random generator and the table's address at each step.
 //!
@@ -12,9 +11,11 @@
 
 use alloc::vec::Vec;
 use core::convert::Infallible;
+use core::marker::PhantomData;
 
 use rand::Rng;
 
+use super::coverage::Coverage;
 use super::{Experience, Settings, TrainError};
 use crate::augmented::{Labelled, Payment};
 use crate::env::{FiniteEnv, Step, below, unit};
@@ -27,13 +28,15 @@ use crate::reward::Rewards;
 /// Where the environment terminates, what the task pays may be another amount
 /// ([`Mode::Shaped`](crate::reward::Mode::Shaped)); that is looked up apart, for it is rare.
 ///
-/// `moves` takes 16 bytes for each pair, more than the two tables it is made of, and spares the inner
-/// loop the class of s' and a branch on how the reward is indexed.
+/// Moves are by the kind of s', its class, or where the reward depends on more, s' itself. So they stay in
+/// the first cache however large the world is, and what all automaton states make of s' stands side by
+/// side: a table for each pair of 10,000 states and 16 automaton states has 2.5 MB.
 pub(super) struct IndexedWorld<'a, E> {
     env: &'a mut E,
     task: Labelled,
-    states: usize,
-    /// Where each (q, s') leads and what the task pays for it, indexed `q * states + s'`.
+    /// The kind of each state, times the number of automaton states.
+    kind: Vec<u32>,
+    /// Where each (q, s') leads and what the task pays for it, indexed `kind + q`.
     moves: Vec<Move>,
     /// What the task pays for a move with which the environment ends.
     last: Payment,
@@ -44,27 +47,35 @@ pub(super) struct IndexedWorld<'a, E> {
 impl<'a, E> IndexedWorld<'a, E> {
     pub(super) fn new(env: &'a mut E, task: &Labelled, rewards: &Rewards) -> Self {
         let (payment, class) = (task.payment(rewards), &task.tables().class);
-        let moves = (0..task.pairs()).map(|pair| {
-            let (q, s) = ((pair / task.states()) as u32, pair % task.states());
-            let to = task.next(q, s);
-            Move { to, reward: payment.get(q, s, class[s]), over: task.end(to).is_some() }
-        });
+        let width = task.automaton_states();
+        let (mut kind, mut moves) = (Vec::with_capacity(task.states()), Vec::new());
+        let mut first = alloc::vec![u32::MAX; task.tables().classes];
+        for (s, &class) in class.iter().enumerate() {
+            let known = &mut first[class as usize];
+            if *known == u32::MAX || rewards.needs_robustness() {
+                *known = moves.len() as u32;
+                moves.extend((0..width).map(|q| {
+                    let to = task.next(q, s);
+                    Move { to, reward: payment.get(q, s, class), over: task.end(to).is_some() }
+                }));
+            }
+            kind.push(*known);
+        }
         Self {
             env,
-            states: task.states(),
-            moves: moves.collect(),
+            kind,
+            moves,
             last: task.last_payment(rewards),
             environment: rewards.environment(),
             task: task.clone(),
         }
     }
 
-    /// What the task does on the last step of the environment. Cold, so that the loop does not make
-    /// room for it.
+    /// What the task pays on the last step of the environment. Cold, so that the loop does not make room
+    /// for it.
     #[cold]
-    fn read_last(&self, q: u32, s: usize) -> Move {
-        let reward = self.last.get(q, s, self.task.tables().class[s]);
-        Move { to: self.task.next(q, s), reward, over: true }
+    fn pays_last(&self, q: u32, s: usize) -> f64 {
+        self.last.get(q, s, self.task.tables().class[s])
     }
 }
 
@@ -88,12 +99,15 @@ impl<E: FiniteEnv> Monitored for IndexedWorld<'_, E> {
 
     #[inline(always)]
     fn read(&self, q: u32, step: &Step<usize>) -> Result<Move, Infallible> {
-        let read = if step.terminated {
-            self.read_last(q, step.state)
-        } else {
-            self.moves[q as usize * self.states + step.state]
-        };
-        Ok(Move { reward: read.reward + self.environment * step.reward, ..read })
+        let Move { to, mut reward, over } = self.moves[(self.kind[step.state] + q) as usize];
+        if step.terminated {
+            reward = self.pays_last(q, step.state);
+        }
+        // Most environments pay nothing, which is known when the loop is compiled.
+        if step.reward != 0.0 {
+            reward += self.environment * step.reward;
+        }
+        Ok(Move { to, reward, over: over || step.terminated })
     }
 }
 
@@ -123,44 +137,177 @@ impl Width for usize {
     }
 }
 
-/// A table and what learning it needs. The paper's recipe is `PLAIN`: each step updates the
-/// current automaton state alone, and nothing is remembered.
+/// What is known of the settings when a loop is compiled: branches on them go, and what they need need
+/// not be kept in registers.
+pub(super) trait Recipe {
+    /// Whether values are updated, if that is known.
+    const UPDATES: Option<bool>;
+    /// Whether it is the paper's: random actions, a constant step size, one update a step, no memory.
+    const IS_PAPERS: bool;
+}
+
+/// The paper's recipe.
+pub(super) struct Paper;
+
+/// All actions explore, and all is remembered: no values are needed on the way.
+pub(super) struct Survey;
+
+/// Any other: the settings are asked.
+pub(super) struct Any;
+
+impl Recipe for Paper {
+    const UPDATES: Option<bool> = Some(true);
+    const IS_PAPERS: bool = true;
+}
+
+impl Recipe for Survey {
+    const UPDATES: Option<bool> = Some(false);
+    const IS_PAPERS: bool = false;
+}
+
+impl Recipe for Any {
+    const UPDATES: Option<bool> = None;
+    const IS_PAPERS: bool = false;
+}
+
+/// How far apart the rows of a table are.
+///
+/// A table of (q, s) is read as it is stored, by q. Counterfactual updates read all q of a state: then it is
+/// [turned](turn) for the time of learning, so that they stand side by side. With 16 automaton states and
+/// 10,000 states that takes a fifth off a step.
+#[derive(Clone, Copy)]
+pub(super) struct Layout {
+    q: usize,
+    s: usize,
+}
+
+impl Layout {
+    #[inline]
+    pub(super) const fn by_automaton(states: usize) -> Self {
+        Self { q: states, s: 1 }
+    }
+
+    #[inline]
+    pub(super) const fn by_state(automaton: usize) -> Self {
+        Self { q: 1, s: automaton }
+    }
+}
+
+/// Turns rows of `width` values, indexed `outer * inner + i`, into such that are indexed `i * outer + o`.
+#[inline]
+pub(super) fn turn(values: &mut [f64], outer: usize, width: usize) {
+    let inner = values.len() / (outer * width);
+    let mut turned = Vec::with_capacity(values.len());
+    for i in 0..inner {
+        for o in 0..outer {
+            turned.extend_from_slice(&values[(o * inner + i) * width..][..width]);
+        }
+    }
+    values.copy_from_slice(&turned);
+}
+
+/// What a step does, by the settings: asked once, for a step would ask each time.
+#[derive(Clone, Copy)]
+pub(super) struct Plan {
+    counterfactual: bool,
+    remembers: bool,
+    covers: bool,
+    updates: bool,
+    /// ε, if it never changes.
+    epsilon: Option<f64>,
+    /// The first step size, and whether it is that of all updates.
+    alpha: f64,
+    same_alpha: bool,
+}
+
+impl Plan {
+    #[inline]
+    pub(super) fn of(settings: &Settings) -> Self {
+        Self {
+            counterfactual: settings.is_counterfactual(),
+            remembers: settings.remembers(),
+            covers: settings.covers(),
+            updates: settings.updates_values(),
+            epsilon: settings.epsilon().fixed(),
+            alpha: settings.alpha().at(0),
+            same_alpha: settings.alpha().fixed().is_some(),
+        }
+    }
+
+    /// Whether each step updates all automaton states.
+    #[inline]
+    pub(super) const fn updates_all(&self) -> bool {
+        self.updates && self.counterfactual
+    }
+}
+
+/// A table and what learning it needs, in a loop for the recipe `C`.
 ///
 /// With counterfactual updates all automaton states share their visits, for each step updates them
 /// all: the step size of an entry then depends on (s, a) alone.
 ///
 /// It borrows what the [`Learner`](super::Learner) owns for the time of one call of `train`. Settings
 /// are copied, so that they stay in registers.
-pub(super) struct Tabular<'a, W, const PLAIN: bool> {
+pub(super) struct Tabular<'a, W, C> {
     pub(super) settings: Settings,
+    pub(super) plan: Plan,
+    pub(super) recipe: PhantomData<C>,
     pub(super) gamma: f64,
     /// The automaton states that a counterfactual update visits.
     pub(super) live: Vec<u32>,
     pub(super) states: usize,
     pub(super) width: W,
-    /// Values, indexed `(q * states + s) * width + a`.
+    pub(super) layout: Layout,
     pub(super) values: &'a mut [f64],
-    /// Earlier updates, indexed alike; without q if all automaton states share them.
+    /// Earlier updates, indexed `(q * states + s) * width + a`; without q if all automaton states share
+    /// them.
     pub(super) visits: &'a mut [u32],
     pub(super) experience: &'a mut Experience,
+    pub(super) coverage: &'a mut Coverage,
 }
 
-impl<W: Width, const PLAIN: bool> Tabular<'_, W, PLAIN> {
+impl<W: Width, C: Recipe> Tabular<'_, W, C> {
     #[inline(always)]
     pub(super) fn row(&self, q: u32, s: usize) -> &[f64] {
-        let width = self.width.get();
-        &self.values[(q as usize * self.states + s) * width..][..width]
+        &self.values[self.entry(q, s)..][..self.width.get()]
+    }
+
+    /// Where the row of (q, s) begins.
+    #[inline(always)]
+    fn entry(&self, q: u32, s: usize) -> usize {
+        // Where nothing turns the table, its layout is known.
+        let Layout { q: of_q, s: of_s } =
+            if C::IS_PAPERS { Layout::by_automaton(self.states) } else { self.layout };
+        (q as usize * of_q + s * of_s) * self.width.get()
     }
 
     /// Whether to explore: with probability ε. A constant ε of 1 draws no random number, so that the
     /// paper's recipe costs none.
     #[inline(always)]
     pub(super) fn explores<R: Rng + ?Sized>(&self, steps: u64, rng: &mut R) -> bool {
-        let epsilon = match self.settings.epsilon().fixed() {
+        if C::IS_PAPERS || C::UPDATES == Some(false) {
+            return true;
+        }
+        let epsilon = match self.plan.epsilon {
             Some(epsilon) => epsilon,
             None => self.settings.epsilon().at(steps),
         };
         epsilon >= 1.0 || unit(rng) < epsilon
+    }
+
+    #[inline(always)]
+    fn covers(&self) -> bool {
+        !C::IS_PAPERS && self.plan.covers
+    }
+
+    #[inline(always)]
+    fn remembers(&self) -> bool {
+        !C::IS_PAPERS && (C::UPDATES == Some(false) || self.plan.remembers)
+    }
+
+    #[inline(always)]
+    fn is_counterfactual(&self) -> bool {
+        !C::IS_PAPERS && self.plan.counterfactual
     }
 
     /// The step size of this update.
@@ -168,11 +315,10 @@ impl<W: Width, const PLAIN: bool> Tabular<'_, W, PLAIN> {
     /// A constant one counts no visits: the paper's recipe then writes nothing but the value.
     #[inline(always)]
     fn alpha(&mut self, transition: &Transition<'_, usize>) -> f64 {
-        if let Some(alpha) = self.settings.alpha().fixed() {
-            return alpha;
+        if C::IS_PAPERS || self.plan.same_alpha {
+            return self.plan.alpha;
         }
-        let shared = !PLAIN && self.settings.is_counterfactual();
-        let layer = if shared { 0 } else { transition.q as usize * self.states };
+        let layer = if self.is_counterfactual() { 0 } else { transition.q as usize * self.states };
         let entry = (layer + transition.s) * self.width.get() + transition.action;
         let visits = &mut self.visits[entry];
         let before = *visits;
@@ -188,24 +334,25 @@ impl<W: Width, const PLAIN: bool> Tabular<'_, W, PLAIN> {
         }
     }
 
-    /// Q ← Q + α (r + γ max Q' − Q); the rows of terminal automaton states are 0.
+    /// Q ← Q + α (r + γ max Q' − Q), and nothing is to be had where an episode is over.
     #[inline(always)]
     fn update(&mut self, q: u32, read: Move, transition: &Transition<'_, usize>, alpha: f64) {
         let Transition { s, action, step, .. } = *transition;
-        let best = if step.terminated { 0.0 } else { largest(self.row(read.to, step.state)) };
+        let best = if read.over { 0.0 } else { largest(self.row(read.to, step.state)) };
         let target = read.reward + self.gamma * best;
-        let entry = (q as usize * self.states + s) * self.width.get() + action;
+        let entry = self.entry(q, *s) + action;
         let value = &mut self.values[entry];
         *value += alpha * (target - *value);
     }
 }
 
-impl<W: Width, const PLAIN: bool> Agent for Tabular<'_, W, PLAIN> {
+impl<W: Width, C: Recipe> Agent for Tabular<'_, W, C> {
     type State = usize;
     type Error = TrainError;
 
+    #[inline(always)]
     fn start(&mut self, &s: &usize) {
-        if !PLAIN && self.settings.remembers() {
+        if self.remembers() {
             self.experience.push_start(s);
         }
     }
@@ -219,8 +366,14 @@ impl<W: Width, const PLAIN: bool> Agent for Tabular<'_, W, PLAIN> {
         steps: u64,
         rng: &mut R,
     ) -> Result<usize, TrainError> {
-        let explores = self.explores(steps, rng);
-        Ok(if explores { below(self.width.get(), rng) } else { argmax(self.row(q, s)) })
+        if !self.explores(steps, rng) {
+            return Ok(argmax(self.row(q, s)));
+        }
+        Ok(if self.covers() {
+            self.coverage.act(s, self.width)
+        } else {
+            below(self.width.get(), rng)
+        })
     }
 
     #[inline(always)]
@@ -235,11 +388,17 @@ impl<W: Width, const PLAIN: bool> Agent for Tabular<'_, W, PLAIN> {
             // The learner puts the number of the step in: to count here would cost a store each time.
             return Err(TrainError::Reward(0));
         }
-        if !PLAIN && self.settings.remembers() {
+        if self.remembers() {
             self.remember(*s, action, step);
         }
+        if self.covers() {
+            self.coverage.learn((*s, action), step.state, read.over, self.width);
+        }
+        if !C::UPDATES.unwrap_or(self.plan.updates) {
+            return Ok(());
+        }
         let alpha = self.alpha(transition);
-        if PLAIN || !self.settings.is_counterfactual() {
+        if !self.is_counterfactual() {
             self.update(q, read, transition, alpha);
             return Ok(());
         }
