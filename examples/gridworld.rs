@@ -28,8 +28,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     // Compose them from what they have seen: visit all three, without a further step in the world.
     let product = Product::conjunction(&[&phi_1, &phi_2]);
     let visit_all = Labelled::of_env(&env, &product)?.named("visit_all", "visit_a_b && visit_c");
-    let skills = [first.q(), second.q()];
-    let composition = Composition::new(&product, &visit_all, &skills, first.rewards())?;
+    let (q_1, q_2) = (first.q(), second.q());
+    let composition = Composition::new(&product, &visit_all, &[&q_1, &q_2], first.rewards())?;
     let sum = composition.initial(Combine::NormalisedSum);
     let mut seen = first.experience().clone();
     seen.extend(second.experience())?;
@@ -50,7 +50,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         ("φ₁ = ◇a ∧ ◇b, learned", &automata[0], first.certify(one.problem())?),
         ("φ₂ = ◇c, learned", &automata[1], second.certify(two.problem())?),
         ("φ₁ ∧ φ₂, sum of skills (step 2)", &automata[2], all.certify(&sum.policy())?),
-        ("φ₁ ∧ φ₂, refined on replay (step 6)", &automata[2], report.certificate.clone()),
+        ("φ₁ ∧ φ₂, refined (step 6)", &automata[2], report.certificate.clone()),
         ("φ₁ ∧ φ₂, learned from scratch", &automata[2], scratch.certify(all.problem())?),
     ]);
     println!("\nThe composition took no step in the world. Steps are means over all start cells.");
@@ -63,11 +63,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     let titles = [
         "(a)  φ₁ = ◇a ∧ ◇b, learned",
         "(b)  φ₂ = ◇c, learned",
-        "(c)  φ₁ ∧ φ₂, composed: the normalised sum of (a) and (b)",
+        "(c)  φ₁ ∧ φ₂, composed from what was seen for (a) and (b)",
     ];
     figure.row(titles[0], &automata[0].dfa, &visit_a_b, &one, &first.policy())?;
     figure.row(titles[1], &automata[1].dfa, &visit_c, &two, &second.policy())?;
-    figure.row(titles[2], &automata[2].dfa, &minimal, &all, &sum.policy())?;
+    figure.row(titles[2], &automata[2].dfa, &minimal, &all, &composed)?;
     folder.write("figure2.svg", &figure.svg())?;
 
     // Save the policy with all that is known of it, and emit it as Rust that stands alone.

@@ -3,6 +3,7 @@
 pub mod chart;
 pub mod figure;
 pub mod grid;
+pub mod places;
 mod plot;
 pub mod show;
 pub mod spread;

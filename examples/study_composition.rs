@@ -42,7 +42,7 @@ struct Worth {
 fn compare(family: &Family, cells: [Cell; 3], seed: u64) -> [Worth; 6] {
     let [one, two] = (family.skills)(cells);
     let whole = Product::conjunction(&[&*one, &*two]);
-    let (dynamics, rewards) = (Dynamics::new(&GRID).expect("a model"), Rewards::default());
+    let (dynamics, rewards) = (Dynamics::new(&GRID).expect("a model"), Rewards::progress());
     let problem = |task: &dyn Monitor<Cell>| {
         let task = Labelled::of_model(&GRID, task).expect("numbers");
         Problem::new(&dynamics, &task).expect("the same grid")
@@ -82,9 +82,10 @@ impl Worth {
 
 fn scratch(task: &Labelled, seed: u64) -> QTable {
     let mut env = ModelEnv::new(GRID).expect("a model");
-    let mut learner = Learner::new(task, Settings::default(), seed);
+    let settings = Settings::default().with_rewards(Rewards::progress());
+    let mut learner = Learner::new(task, settings, seed);
     learner.train(&mut env, SCRATCH).expect("the same grid");
-    learner.q().clone()
+    learner.table().clone()
 }
 
 /// One line of the table.

@@ -122,7 +122,7 @@ fn compose() -> Report {
     let (visit, order) = (tltl! { F a && F b }, tltl! { !b U a });
     let whole = Product::conjunction(&[&visit, &order]);
     let dynamics = Dynamics::new(&Line).expect("a model");
-    let rewards = Rewards::default().with_trap_penalty(1.0).expect("a penalty");
+    let rewards = Rewards::progress().with_trap_penalty(1.0).expect("a penalty");
     let problem = |task: &dyn Monitor<i32>| {
         let task = Labelled::of_model(&Line, task).expect("numbers");
         Problem::new(&dynamics, &task).expect("the same line")

@@ -30,10 +30,10 @@ fn modes() -> [(&'static str, Rewards); 9] {
         ("Progress, trap penalty 10", trap(10.0)),
         ("Progress, step penalty 0.05", slow),
         ("Literal", Rewards::of(Mode::Literal)),
-        ("Acceptance", Rewards::acceptance()),
+        ("Acceptance, γ 0.95", Rewards::of(Mode::Acceptance)),
         ("Robustness, bound 1", Rewards::of(Mode::Robustness)),
         ("Shaped", Rewards::of(Mode::Shaped)),
-        ("Settings::safe", Settings::safe().rewards()),
+        ("default", Rewards::default()),
     ]
 }
 
@@ -57,7 +57,7 @@ fn judge(task: &dyn Monitor<Cell>) -> Case {
     let labelled = labelled.with_robustness(states(), task).expect("numbers");
     let dynamics = Dynamics::new(&GRID).expect("a model");
     let problem = Problem::new(&dynamics, &labelled).expect("the same grid");
-    let optimum = problem.optimum(&Settings::safe().rewards());
+    let optimum = problem.optimum(&Rewards::default());
     let regret = |policy: &Policy| {
         let own = optimum.certify(policy).expect("the same task");
         (own.regret_satisfied, own.regret_steps)
@@ -75,18 +75,17 @@ fn judge(task: &dyn Monitor<Cell>) -> Case {
     Case { trap: (0..labelled.automaton_states()).any(lost), regrets, longer }
 }
 
-/// What `Settings::safe` learns from experience, replayed.
+/// What the default settings learn.
 fn learned(task: &Labelled, steps: u64) -> Policy {
     let mut env = ModelEnv::new(GRID).expect("a model");
-    let mut learner = Learner::new(task, Settings::safe(), 100);
+    let mut learner = Learner::new(task, Settings::default(), 100);
     learner.train(&mut env, steps).expect("the same grid");
-    learner.replay().expect("experience");
     learner.policy()
 }
 
 /// The names of the settings, the learned one last.
 fn names() -> Vec<&'static str> {
-    modes().iter().map(|&(name, _)| name).chain(["Settings::safe, learned"]).collect()
+    modes().iter().map(|&(name, _)| name).chain(["default, learned"]).collect()
 }
 
 /// The number of tasks: two counterexamples, and the compositions.
@@ -179,16 +178,16 @@ fn figure(cases: &[Case]) -> Spread {
 }
 
 fn head() -> String {
-    let (gamma, safe) = (Rewards::default().gamma(), Settings::safe().rewards().gamma());
+    let (gamma, default) = (Rewards::progress().gamma(), Rewards::default().gamma());
     format!(
         "# Rewards\n\n![Regret by setting](rewards.svg)\n\nThe tables show what the optimal \
          policy of each reward is worth for the task itself, computed exactly on the paper's grid: \
          its regret in P(satisfied) against the largest possible, and its E[steps given success] \
          over the fewest possible (negative where a policy gives up safety). γ is {gamma}, and \
-         {safe} for `Settings::safe`, which pays for acceptance alone; use this setting if a task \
-         has a trap. The last row is the policy that `Settings::safe` learns from {} million \
-         replayed steps of experience, or from {} million if the certificate after the first shows \
-         a regret of more than 0.1 %. The figure shows the percentages of all tasks and layouts; \
+         {default} for the default, which pays for acceptance alone. The last row is the policy \
+         that the default settings learn from {} million steps, or from {} million if the \
+         certificate after the first shows a regret of more than 0.1 %: they solve the world as \
+         it was seen, and count a little of P(satisfied) for fewer steps. The figure shows the percentages of all tasks and layouts; \
          the dashed line is at 0.1 %. Written by `cargo run --release --example study_rewards`.\n",
         LEARNED[0] / 1_000_000,
         LEARNED[1] / 1_000_000
@@ -211,7 +210,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let longer = cases.iter().filter(|case| case.longer).count();
     let _ = writeln!(
         text,
-        "\nLargest P regret of `Settings::safe`: {} % as an optimum, {} % as learned; {longer} of {} cases \
+        "\nLargest P regret of the default: {} % as an optimum, {} % as learned; {longer} of {} cases \
          needed {} steps for it.",
         percent(worst),
         percent(worst_learned),
@@ -229,6 +228,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     study.publish(".md", &text)?;
     study.publish_lines(lines)?;
     let all = [worst, worst_learned];
-    assert!(all.iter().all(|&worst| worst < TOLERATED), "the safe setting is not safe: {all:?}");
+    assert!(all.iter().all(|&worst| worst < TOLERATED), "the default is not safe: {all:?}");
     Ok(study.finish()?)
 }

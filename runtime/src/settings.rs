@@ -33,7 +33,7 @@ use crate::reward::Rewards;
 ///     let settings = Settings::default().with_updates(updates);
 ///     let mut learner = Learner::new(&task, settings, 1);
 ///     learner.train(&mut env, 30).unwrap();
-///     learner.q().values().iter().filter(|value| **value > 0.0).count()
+///     learner.table().values().iter().filter(|value| **value > 0.0).count()
 /// });
 /// assert!(known[0] < known[1], "the same 30 steps tell more: {known:?}");
 /// # Ok::<(), Box<dyn core::error::Error>>(())
@@ -109,9 +109,14 @@ pub enum Exploration {
 
 /// What a learner keeps beside its table.
 ///
-/// Experience is counts, so it grows with the world and not with time: 68 bytes for each (s, a) that was
-/// tried, or for each 8 outcomes of it. Without it a step is faster, and replay, masks that look one step ahead
-/// and composition from experience cannot be had.
+/// [`Learner::policy`](crate::learn::Learner::policy) rests on it: what was seen is solved. Experience is
+/// counts, so it grows with the world and not with time: 68 bytes for each (s, a) that was tried, or for
+/// each 8 outcomes of it. (The table takes 8 bytes for each (q, s, a).)
+///
+/// Without it a step is faster, and nothing is finished: the policy is the greedy one of the table, which
+/// tells apart only what differs by more than its step size blurs. Where a world is too large for counts,
+/// take a γ that the table can learn, 0.99 say: what is lost then is in `docs/studies/tasks.md`.
+/// Composition from experience cannot be had either.
 ///
 /// ```
 /// use tltl::learn::{Memory, Settings};
@@ -122,14 +127,14 @@ pub enum Exploration {
 /// let task = Labelled::of_env(&env, &tltl! { |s: &usize| F ({ *s } == 1) })?;
 /// let mut learner = Learner::new(&task, Settings::default().with_memory(Memory::None), 1);
 /// learner.train(&mut env, 100)?;
-/// assert!(learner.replay().is_err(), "there is nothing to replay");
+/// assert_eq!(&learner.q(), learner.table(), "there is nothing to solve");
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Memory {
     /// Nothing.
     None,
-    /// The [`Experience`](crate::learn::Experience), for replay and composition.
+    /// The [`Experience`](crate::learn::Experience), for finishing and composition.
     Experience,
 }
 
@@ -166,31 +171,17 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// For tasks with a trap: [`Rewards::acceptance`] and γ 0.99999, everything else as by default;
-    /// train, then [replay](crate::learn::Learner::replay). The optimum for that reward gives away at most
-    /// 0.011 % of P(satisfied) in the study of rewards (`docs/studies/rewards.md`); `Progress` with
-    /// γ 0.95 trades safety for speed, and pays for detours where an automaton has longer ways to
-    /// acceptance.
-    ///
-    /// A γ so close to 1 is for the decisions that are nearly ties: each step of delay costs 1 − γ,
-    /// and at 0.9999 a dozen steps outweigh 0.1 % of P(satisfied), a difference that sampling then
-    /// decides. What is left is sampling alone: random episodes seldom come to a narrow place beside
-    /// a trap, and where two actions there were tried 5,000 times each, a risk of 4 % is known to
-    /// ±0.28 %. After 6 million steps and a replay 2 of 707 tasks and layouts give away more than
-    /// 0.1 %, the worst 0.19 %; after 100 million, a few seconds, none. Where there is a model, the
-    /// certificate shows it.
-    #[must_use]
-    pub fn safe() -> Self {
-        Self { rewards: Rewards::SAFE, ..Self::default() }
-    }
-
-    /// The paper's recipe (Section 5.1): γ 0.95, α 0.1, horizon 200, random exploration.
+    /// The paper's recipe (Section 5.1): [`Rewards::progress`], γ 0.95, α 0.1, horizon 200, random
+    /// exploration, and nothing that is not in the paper: each step updates one automaton state, and
+    /// the policy is the greedy one of the table.
     ///
     /// ```
     /// use tltl::learn::{Memory, Settings, Updates};
+    /// use tltl::reward::Mode;
     ///
     /// let paper = Settings::paper();
-    /// assert_eq!((paper.rewards().gamma(), paper.alpha().at(0), paper.horizon()), (0.95, 0.1, 200));
+    /// assert_eq!((paper.rewards().mode(), paper.rewards().gamma()), (Mode::Progress, 0.95));
+    /// assert_eq!((paper.alpha().at(0), paper.epsilon().at(0), paper.horizon()), (0.1, 1.0, 200));
     /// assert_eq!((paper.updates(), paper.memory()), (Updates::Current, Memory::None));
     /// ```
     #[must_use]
@@ -333,13 +324,23 @@ checked! { Settings {
 }}
 
 impl Default for Settings {
-    /// Learns better than [`Settings::paper`] from the same steps: counterfactual updates, and a
-    /// step size that falls with the visits, so that values converge instead of rattling at the
-    /// width of α.
+    /// Learns what the task wants: [`Rewards::acceptance`], and the experience is kept, so that the
+    /// [policy](crate::learn::Learner::policy) has the largest P(satisfied) and then the fewest steps.
+    ///
+    /// Exploration is [random](Exploration::Random), in episodes of at most 200 steps. The table learns from each step what
+    /// every automaton state would have learned, with a step size that falls with the visits, so that
+    /// values converge instead of rattling at the width of α.
     fn default() -> Self {
-        let alpha = Schedule::known_harmonic(1.0, 8.0);
-        let (updates, memory) = (Updates::Counterfactual, Memory::Experience);
-        Self { alpha, updates, memory, ..Self::paper() }
+        Self {
+            alpha: Schedule::known_harmonic(1.0, 8.0),
+            epsilon: Schedule::known(1.0),
+            exploration: Exploration::Random,
+            horizon: 200,
+            updates: Updates::Counterfactual,
+            initial: 0.0,
+            rewards: Rewards::acceptance(),
+            memory: Memory::Experience,
+        }
     }
 }
 

@@ -105,7 +105,8 @@ fn some_actions_explore() {
     let mut env = corridor(12);
     let task = Labelled::of_env(&env, &tltl! { |s: &usize| F ({ *s } == 11) }).unwrap();
     let settings = covering().with_epsilon(Schedule::constant(0.25).unwrap()).unwrap();
+    let settings = settings.with_rewards(Rewards::progress());
     let mut learner = Learner::new(&task, settings, 1);
     learner.train(&mut env, 20_000).unwrap();
-    assert!((1..11).all(|s| learner.q().greedy(0, s) == 1), "{:?}", learner.q().values());
+    assert!((1..11).all(|s| learner.table().greedy(0, s) == 1), "{:?}", learner.table());
 }

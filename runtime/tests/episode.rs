@@ -69,7 +69,7 @@ fn cells_and_numbers_learn_alike() {
         let mut learner = Learner::new(&task, Settings::paper(), 3);
         learner.train(&mut env(), steps).unwrap();
 
-        let mut world = Augmented::new(env(), formula, Rewards::default());
+        let mut world = Augmented::new(env(), formula, Rewards::progress());
         let (mut agent, mut elapsed) = (Explorer::default(), Elapsed::default());
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(3);
         for total in [steps / 3, steps] {
@@ -80,7 +80,7 @@ fn cells_and_numbers_learn_alike() {
         for q in task.live() {
             for s in 0..task.states() {
                 let cell = tltl::model::FiniteModel::state(&PAPER, s);
-                assert_eq!(agent.row(q, &cell), learner.q().row(q, s), "q {q}, cell {cell:?}");
+                assert_eq!(agent.row(q, &cell), learner.table().row(q, s), "q {q}, cell {cell:?}");
             }
         }
     }
@@ -126,7 +126,7 @@ impl Agent for Quitter {
 fn an_agent_that_cannot_act_takes_no_step() {
     for limit in [0, 1, 7] {
         let env = ModelEnv::new(PAPER).unwrap();
-        let mut world = Augmented::new(env, both(A, B), Rewards::default());
+        let mut world = Augmented::new(env, both(A, B), Rewards::progress());
         let (mut elapsed, mut rng) = (Elapsed::default(), Xoshiro256PlusPlus::seed_from_u64(3));
         let result =
             episode::run(&mut world, &mut Quitter(limit), &mut elapsed, 200, 1_000, &mut rng);
@@ -233,8 +233,8 @@ fn shaping_leaves_the_optimal_policies_of_acceptance() {
         let mut learner = Learner::new(&task, settings.with_rewards(rewards), 1);
         learner.train(&mut falling(), 400_000).unwrap();
         for (q, s) in cells() {
-            assert_eq!(learner.q().greedy(q, s), plain.greedy(q, s), "{rewards:?} at {q}, {s}");
-            let [left, right] = [0, 1].map(|a| learner.q().row(q, s)[a] - plain.row(q, s)[a]);
+            assert_eq!(learner.table().greedy(q, s), plain.greedy(q, s), "{rewards:?} at {q}, {s}");
+            let [left, right] = [0, 1].map(|a| learner.table().row(q, s)[a] - plain.row(q, s)[a]);
             assert!((left - right).abs() < 0.02, "{rewards:?} at {q}, {s}: {left}, {right}");
         }
     }
@@ -273,5 +273,5 @@ fn rewards_that_are_no_numbers_stop_learning() {
     let mut env = Falling { reward: f64::NAN, ..falling() };
     let error = learner.train(&mut env, 1_000).unwrap_err();
     assert_eq!(error, TrainError::Reward(env.env.steps()), "at once");
-    assert!(learner.q().values().iter().all(|value| value.is_finite()));
+    assert!(learner.table().values().iter().all(|value| value.is_finite()));
 }

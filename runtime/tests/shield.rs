@@ -357,7 +357,7 @@ fn avoidable_traps_are_not_entered() {
     let exact = Shield::safest(&problem, 0.0).unwrap();
     let train = |shield: Option<Shield>| {
         let mut env = Counting::new(&task, &exact);
-        let mut learner = Learner::new(&task, Settings::safe(), 1);
+        let mut learner = Learner::new(&task, Settings::default(), 1);
         match shield {
             Some(mut shield) => learner.train_shielded(&mut env, &mut shield, STEPS).unwrap(),
             None => learner.train(&mut env, STEPS).unwrap(),
@@ -373,7 +373,7 @@ fn avoidable_traps_are_not_entered() {
     assert!(shares[0] > 0.4 && shares[1] < 0.25 && shares[2] < 0.02, "{shares:?}");
     assert!(0 < seldom && 4 * seldom < avoidably, "it must see a trap to know it: {seldom}");
 
-    let policy = exact.policy(learner.q()).unwrap();
+    let policy = exact.policy(&learner.q()).unwrap();
     let certificate = problem.optimum(&learner.rewards()).certify(&policy).unwrap();
     assert!(certificate.worst_regret_satisfied < 1e-6, "{certificate:?}");
     assert!(certificate.regret_steps.unwrap() < 1e-2, "{certificate:?}");

@@ -187,7 +187,7 @@ fn the_automaton_chooses_the_controller() {
 fn whole_trajectories_teach_less() {
     let (formula, task) = (eventually(A), on_paper(&eventually(A)));
     let mut env = ModelEnv::new(PAPER).unwrap();
-    let settings = Settings::paper().with_rewards(Rewards::default().with_bound(10.0).unwrap());
+    let settings = Settings::paper().with_rewards(Rewards::progress().with_bound(10.0).unwrap());
     let (paid, sees) = (TerminalReward::Robustness, Observation::WorldAndAutomaton);
     let mut learner = TrajectoryLearner::new(&task, settings, paid, sees, 1);
     learner.train(&mut env, &formula, 300_000).unwrap();
@@ -204,7 +204,7 @@ fn penalties_are_paid() {
         let policy = problem.optimal_q(&rewards).policy();
         problem.evaluate(&policy).unwrap().mean_satisfied()
     };
-    let progress = Rewards::default();
+    let progress = Rewards::progress();
     let punished = p_of(progress.with_trap_penalty(10.0).unwrap());
     assert!(punished > p_of(progress), "a penalty for the trap makes safer");
     let value = |rewards: Rewards| problem.optimal_q(&rewards).max(0, 0);
@@ -214,17 +214,17 @@ fn penalties_are_paid() {
 }
 
 #[test]
-fn the_safe_setting_is_safe() {
-    let optimum = problem(&on_paper(&avoid(C, A))).optimum(&Settings::safe().rewards());
+fn the_default_reward_is_safe() {
+    let optimum = problem(&on_paper(&avoid(C, A))).optimum(&Rewards::default());
     let certificate = optimum.certify(&optimum.q().policy()).unwrap();
-    assert!(certificate.regret_satisfied < 1e-3);
+    assert!(certificate.regret_satisfied < 1e-5, "{certificate:?}");
 }
 
 /// 6 million steps with default settings: fresh seeds, other layouts.
 #[test]
 fn defaults_learn_within_a_thousandth() {
     let corners = (Cell { x: 0, y: 0 }, Cell { x: 7, y: 9 });
-    for (layout, (a, b)) in [(0, (A, B)), (1, corners)] {
+    for (a, b) in [(A, B), corners] {
         let task = on_paper(&both(a, b));
         let problem = problem(&task);
         let steps = |policy| problem.evaluate(&policy).unwrap().mean_steps().unwrap();
@@ -232,14 +232,9 @@ fn defaults_learn_within_a_thousandth() {
         let excess = seeds(100..102, |seed| {
             let mut learner = Learner::new(&task, Settings::default(), seed);
             learner.train(&mut ModelEnv::new(PAPER).unwrap(), 6_000_000).unwrap();
-            let online = steps(learner.policy());
-            learner.replay().unwrap();
-            [online / optimum - 1.0, steps(learner.policy()) / optimum - 1.0]
+            steps(learner.policy()) / optimum - 1.0
         });
-        for [online, replayed] in excess {
-            assert!(layout > 0 || online < 1e-3, "{online}");
-            assert!(replayed < 1e-3, "{replayed}");
-        }
+        assert!(excess.iter().all(|&excess| excess < 1e-3), "{excess:?}");
     }
 }
 
@@ -263,7 +258,8 @@ fn composition_of_learned_skills_on_fresh_seeds() {
         experience.extend(second.experience()).unwrap();
         let seen = Dynamics::new(&experience).unwrap();
         let skills = [first.q(), second.q()];
-        let composition = Composition::new(&whole, &task, &skills, first.rewards()).unwrap();
+        let composition =
+            Composition::new(&whole, &task, &skills.each_ref(), first.rewards()).unwrap();
         let start = composition.initial(Combine::NormalisedSum);
         let refined = composition.refined(&seen, &start).unwrap();
         assert_eq!(env.steps(), taken, "a composition takes no step in the world");
@@ -282,7 +278,7 @@ fn other_operators_compose() {
     let (phi1, phi2) = (avoid(C, A), eventually(B));
     let products: [Product<'_, Cell>; 2] =
         [Product::disjunction(&[&phi1, &phi2]), Product::sequence(&[&phi1, &phi2])];
-    let (dynamics, rewards) = (dynamics(), Rewards::default());
+    let (dynamics, rewards) = (dynamics(), Rewards::progress());
     let solved = |task: &Labelled| problem(task).optimal_q(&rewards);
     let (q1, q2) = (solved(&on_paper(&phi1)), solved(&on_paper(&phi2)));
     for product in &products {

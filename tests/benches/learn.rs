@@ -278,7 +278,7 @@ impl<M: FiniteModel> Case<'_, M> {
             let done = (0..self.goals.len()).filter(|i| mask >> i & 1 == 1);
             let q = done.fold(0, |q, i| task.next(q, self.goals[i]));
             let by_hand = &floor.values[(mask * states + s) * A..][..A];
-            assert_eq!(learner.q().row(q, s), by_hand, "{}: {mask} at {s}", self.name);
+            assert_eq!(learner.table().row(q, s), by_hand, "{}: {mask} at {s}", self.name);
         }
         for cell in 0..floor.to.len() / SLOTS {
             let (s, a) = (cell / A, cell % A);
@@ -421,7 +421,7 @@ fn against_rurel(task: &Labelled) -> f64 {
         let mut learner = Learner::new(task, Settings::paper(), seed);
         learner.train(&mut ModelEnv::new(PAPER).unwrap(), 10 * RUREL_STEPS).unwrap();
         let own = (seconds() - start) / 10.0;
-        learned("the library", learner.q().max(0, 0));
+        learned("the library", learner.table().max(0, 0));
         let start = seconds();
         learned("rurel", largest(&black_box(rurel(seed))));
         (seconds() - start) / own

@@ -19,6 +19,7 @@
 mod actions;
 mod block;
 mod evaluation;
+mod finish;
 mod graph;
 mod optimum;
 mod report;

@@ -185,6 +185,25 @@ const AVOID: Written<'_> = Written {
     distance: &[1, 0, u32::MAX],
 };
 
+/// ◇(p ∧ ○p ∧ ○○p): p at three instants in a row; each that is not p begins anew.
+const THRICE: Written<'_> = Written {
+    propositions: &["p"],
+    ends: [Some(3), None],
+    class: &[0, 1],
+    next: &[0, 1, 0, 2, 0, 3, 3, 3],
+    edges: &[
+        (0, 0, &[&[-1]]),
+        (0, 1, &[&[1]]),
+        (1, 0, &[&[-1]]),
+        (1, 2, &[&[1]]),
+        (2, 0, &[&[-1]]),
+        (2, 3, &[&[1]]),
+        (3, 3, &[&[]]),
+    ],
+    progress: &[&[&[1]], &[&[]], &[&[]], &[]],
+    distance: &[3, 2, 1, 0],
+};
+
 /// ◇(p ∧ ○q): the automaton has a cycle.
 const NEXT: Written<'_> = Written {
     propositions: &["p", "q"],
@@ -215,6 +234,12 @@ pub(crate) fn eventually(p: Cell) -> Task<Regions> {
 /// `!q U p`.
 pub(crate) fn avoid(q: Cell, p: Cell) -> Task<Regions> {
     AVOID.task("avoid", "!q U p", &[Op::Not(1), Op::Is(0), Op::Until(0, 1)], [p, q])
+}
+
+pub(crate) fn thrice(p: Cell) -> Task<Regions> {
+    let next = [Op::Is(0), Op::Next(0), Op::Next(1)];
+    let ops = [&next[..], &[Op::And(0, 1), Op::And(3, 2), Op::Eventually(4)]].concat();
+    THRICE.task("thrice", "F (p && X p && X X p)", &ops, [p, p])
 }
 
 pub(crate) fn next(p: Cell, q: Cell) -> Task<Regions> {
