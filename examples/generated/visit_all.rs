@@ -5,8 +5,9 @@
 //!
 //! Trained on `visit_a_b` for 8000054 steps in 47668 episodes with seed 1, and on `visit_c` for
 //! 8000082 steps in 65009 episodes with seed 2; settings alpha harmonic half 8.0, start 1.0,
-//! counterfactual true, epsilon constant 1.0, gamma 0.99999, horizon 200, initial 0.0, remember
-//! true, rewards environment 0.0, mode acceptance, step_penalty 0.0, trap_penalty 0.0.
+//! counterfactual true, coverage false, epsilon constant 1.0, gamma 0.99999, horizon 200,
+//! initial 0.0, remember true, rewards environment 0.0, mode acceptance, step_penalty 0.0,
+//! trap_penalty 0.0.
 //!
 //! Exact value, mean over the starts with the first state read: P(satisfied) = 1.000000
 //! (largest possible 1.000000), E[steps | satisfied] = 16.7163 (smallest possible 16.7111).
