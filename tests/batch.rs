@@ -54,8 +54,8 @@ proptest! {
         let names = 1 + choices.choose(5);
         let operators = choices.choose(10);
         let automaton = automaton(&random::formula(&mut choices, names, operators));
-        let is_table = matches!(automaton.tables().transitions, Transitions::Table { .. });
-        prop_assert!(is_table);
+        // A few of these formulas need so many states that a diagram is smaller.
+        prop_assume!(matches!(automaton.tables().transitions, Transitions::Table { .. }));
         agree(&automaton, &mut random::Seeded(seed))?;
     }
 }
