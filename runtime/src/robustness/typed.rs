@@ -12,7 +12,7 @@
 //!
 //! # Blocks
 //!
-//! [`Backward`] takes [`BLOCK`] rows at once, for two reasons. The predicates of a block are
+//! [`Backward`] takes four rows at once, for two reasons. The predicates of a block are
 //! independent of each other, so the processor computes several at once. And a temporal operator
 //! waits for its value at the next instant: one maximum takes four cycles before the next can begin.
 //! So within a block it combines the rows first, which depends on nothing outside, and meets the
