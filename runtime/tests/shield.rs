@@ -212,8 +212,8 @@ fn every_allowed_policy_of_a_small_world_keeps_the_promise() {
     );
 }
 
-/// Per step the careless way is 10^-10 more likely to be lost than the careful one, and in the long run 27
-/// times as likely: what is negligible at each step is not.
+/// Per step the careless way is 6e-4 or 6e-5 more likely to be lost than the careful one, and in the long
+/// run 27 times as likely: what is little at each step is not.
 #[test]
 fn negligible_steps_add_up() {
     let slow = |rate: f64| {

@@ -2,7 +2,7 @@
 //!
 //! [`Learner`] turns steps of a finite environment into action values for a task. Its inner loop is
 //! the one of [`episode`], compiled for the number of actions and for the recipe: it is as fast as flat
-//! arrays written by hand for one problem that do the same (`cargo bench -p tltl-tests --bench learn`: 0.95
+//! arrays written by hand for one problem that do the same (`cargo bench -p tltl-tests --bench learn`: 0.9
 //! of their speed or more).
 //!
 //! It never evaluates a predicate, for its task is a table. What it hands out is finished: the world as

@@ -42,7 +42,8 @@ pub use evaluation::{Evaluation, Values};
 pub use optimum::Optimum;
 use rule::{Backup, Rule};
 
-/// The largest error of values, relative to them where they exceed 1.
+/// The change at which sweeps stop, relative to values where they exceed 1. In worlds that are left
+/// slowly the error is larger than the last change: 5e-9 on a grid of 100 × 100 with traps.
 const TOLERANCE: f64 = 1e-11;
 
 /// A finite world under a task: the augmented MDP that is solved. Cheap to clone: clones share the
@@ -126,7 +127,7 @@ impl Problem {
         Optimum::new(self.clone(), rewards)
     }
 
-    /// The optimal flat action values Q* of the augmented MDP, to 1e-10.
+    /// The optimal flat action values Q* of the augmented MDP, to about 1e-10.
     ///
     /// ```
     /// use tltl::model;
@@ -241,7 +242,8 @@ impl Problem {
         self.evaluation(policy, satisfied, &weighted)
     }
 
-    /// The largest possible P(satisfied), to 1e-10: 1 at the accepting state, 0 at the trap.
+    /// The largest possible P(satisfied), to about 1e-10 (5e-9 in a world that is left slowly): 1 at the
+    /// accepting state, 0 at the trap.
     #[must_use]
     #[inline]
     pub fn largest_satisfied(&self) -> Values {
