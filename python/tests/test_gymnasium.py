@@ -21,7 +21,7 @@ MODES = ["shaped", "acceptance", "progress", "robustness", "literal"]
 FORMULAS = ["a T b", "F a && F b", "!b U a", "F a && F b ensuring !c", "X a", "F (a && X a && X X a)"]
 
 
-class Tape(gym.Env[int, int]):
+class Tape(gym.Env[Any, Any]):
     """Plays what holds, one observation after the other, and ends where it is told."""
 
     def __init__(self, letters: list[int], terminated_at: int = -1, truncated_at: int = -1) -> None:
@@ -228,14 +228,12 @@ def test_what_is_refused_says_what_to_do() -> None:
     class Image(Tape):
         def __init__(self) -> None:
             super().__init__([0])
-            self.observation_space: Any = spaces.Box(0, 255, (4, 4, 3), np.uint8)
+            self.observation_space = spaces.Box(0, 255, (4, 4, 3), np.uint8)
 
     with pytest.raises(ValueError, match='use observe="dict"'):
         wrapped(Image(), "F a")
-    assert set(wrapped(Image(), "F a", observe="dict").observation_space) == {
-        "observation",
-        "task_state",
-    }
+    named: Any = wrapped(Image(), "F a", observe="dict").observation_space
+    assert set(named) == {"observation", "task_state"}
     with pytest.raises(ValueError, match="choose another `key`"):
         TaskEnv(Goals(gym.make("FrozenLake-v1")), "F goal", cells, observe="dict", key="cell")
     with pytest.raises(ValueError, match="give `labels` or `columns`"):

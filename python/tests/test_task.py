@@ -71,7 +71,7 @@ def test_what_a_task_is() -> None:
     with pytest.raises(ValueError, match="read-only"):
         task.table[0, 0] = 1
     guards = {(edge.source, edge.target): edge.guard for edge in task.edges}
-    assert guards[task.initial, task.trap] == "c"
+    assert task.trap is not None and guards[task.initial, task.trap] == "c"
     assert "not c" in task.explain()
     assert task.svg().startswith("<svg") and task._repr_svg_() == task.svg()
     assert task.to_hoa().startswith("HOA: v1") and "digraph" in task.to_dot()

@@ -46,16 +46,17 @@ def test_rows_are_task_envs(mode: str, autoreset: AutoresetMode, observe: Any) -
         "observe": observe,
     }
     makes = tapes(1, 6)
+
+    def wrapped(make: Any) -> Any:
+        return lambda: TaskEnv(make(), task, abc, **options)
+
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         task = Task("a T b T a")
-        one = SyncVectorEnv(
-            [lambda make=make: TaskEnv(make(), task, abc, **options) for make in makes],
-            autoreset_mode=autoreset,
-        )
+        one = SyncVectorEnv([wrapped(make) for make in makes], autoreset_mode=autoreset)
         base = SyncVectorEnv(makes, autoreset_mode=AutoresetMode.DISABLED)
         ours = TaskVectorEnv(base, task, many, autoreset_mode=autoreset, **options)
-    equal = lambda a, b: np.testing.assert_equal(a, b)  # noqa: E731
+    equal: Any = np.testing.assert_equal
     (obs, infos), (own, told) = one.reset(), ours.reset()
     equal(own, obs)
     ended = 0
@@ -126,7 +127,7 @@ def test_relabelled_steps_are_steps_of_the_task(mode: str) -> None:
         assert (i, q) == pair and to == task.step(int(q), rho[i])
         moved = task.progress_robustness(int(q), rho[i])
         alone = rewards.pay(
-            task, int(q), int(to), rho=moved, reward=reward[i], terminated=bool(terminated[i])
+            task, int(q), int(to), rho=moved, reward=float(reward[i]), terminated=bool(terminated[i])
         )
         assert paid == alone
         assert over == (terminated[i] or to in (task.accepting, task.trap))

@@ -20,8 +20,8 @@ try:
     import gymnasium as gym
     from gymnasium import spaces
     from gymnasium.utils import RecordConstructorArgs
-except ImportError as error:
-    raise ImportError("tltl.gymnasium needs Gymnasium: pip install 'tltl[gymnasium]'") from error
+except ImportError:
+    raise ImportError("tltl.gymnasium needs Gymnasium: pip install 'tltl[gymnasium]'")
 
 __all__ = ["TaskEnv"]
 
@@ -115,7 +115,8 @@ class TaskEnv(gym.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Any, dict[str, Any]]:
-        for resampled in range(RESETS + 1):
+        resampled = 0
+        while True:
             obs, info = self.env.reset(seed=seed if resampled == 0 else None, options=options)
             self._q = self.task.initial
             told = self._read(obs, info)
@@ -124,8 +125,9 @@ class TaskEnv(gym.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
                 break
             if self._on_decided_reset == "raise":
                 raise RuntimeError(f"the task is decided at the start {obs!r}")
-        else:
-            raise RuntimeError(f"{RESETS} starts were decided; the last is {obs!r}")
+            if resampled == RESETS:
+                raise RuntimeError(f"{RESETS} starts were decided; the last is {obs!r}")
+            resampled += 1
         told["progress"] = False
         obs, info = self._observe(obs, self._q), {**info, "tltl": told}
         self._last = (obs, info) if self._is_over(told) else None
@@ -218,7 +220,8 @@ def flat(
     )
 
     def joined(obs: Any, q: int) -> Any:
-        return np.concatenate([spaces.flatten(base, obs), states[q]], dtype=dtype)
+        flat: Any = spaces.flatten(base, obs)
+        return np.concatenate([flat, states[q]], dtype=dtype)
 
     return joined, spaces.Box(low, high, dtype=dtype.type)
 
