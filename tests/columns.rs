@@ -76,7 +76,7 @@ fn condition(choices: &mut impl Choices, operators: u32, earlier: u32) -> String
 }
 
 /// A file of random predicates and one task of them; `None` if that has a mistake.
-fn module(choices: &mut impl Choices) -> Option<(String, Module)> {
+pub(crate) fn module(choices: &mut impl Choices) -> Option<(String, Module)> {
     let mut text = STATE.to_owned();
     let names = 1 + choices.choose(NAMES.len() as u32);
     for (earlier, name) in (0..).zip(&NAMES[..names as usize]) {
@@ -90,7 +90,7 @@ fn module(choices: &mut impl Choices) -> Option<(String, Module)> {
 }
 
 /// A place of the state in a row, with a number that the place can hold.
-fn number(choices: &mut impl Choices, input: &str) -> f64 {
+pub(crate) fn number(choices: &mut impl Choices, input: &str) -> f64 {
     let corners = [0.0, -0.0, 1.0, -1.0, 1.5, 3.0, f64::INFINITY, f64::NEG_INFINITY, 1e-310];
     match input {
         "on" => f64::from(choices.choose(2)),

@@ -2,6 +2,7 @@
 
 mod batch;
 mod bounded;
+mod c;
 mod columns;
 mod corpus;
 mod differences;

@@ -8,17 +8,20 @@ use tltl_compiler::error::{Error, Kind, Style};
 use tltl_compiler::source::{Source, Span};
 use tltl_compiler::translate::Budget;
 
-use crate::emit::{dot, hoa, json, mermaid, rust, svg, text};
+use crate::emit::{c, dot, hoa, json, mermaid, rust, svg, text};
 use crate::task::{Entry, TaskFile};
 
 use super::input::{self, File, Foreign};
 use super::{Automaton, Exit, Format, Outcome, Report, Streams, subject};
 
+const NO_FORMULA: &str =
+    "C is written of formulas and tasks, and an automaton of another tool has neither";
+
 /// Shows the automaton that the arguments name, in the form that they ask for.
 pub(super) fn run(arguments: &Automaton, streams: &mut Streams<'_>) -> Outcome {
-    // What becomes Rust is within the limits of the macros.
+    // What becomes code is within the limits of the macros.
     let budget = match arguments.format {
-        Format::Rust => arguments.limits.over(Budget::EMITTED),
+        Format::Rust | Format::C => arguments.limits.over(Budget::EMITTED),
         _ => arguments.limits.shown(),
     };
     if let Some(list) = &arguments.formulas {
@@ -46,8 +49,11 @@ pub(super) fn run(arguments: &Automaton, streams: &mut Streams<'_>) -> Outcome {
         Some(File::Automaton(automaton)) => {
             let Foreign { name, dfa } = *automaton;
             let text = || text::automaton(&name, &dfa);
-            let rust = || rust::foreign(&name, &dfa);
-            match formatted(arguments, [&name, &name], &dfa, Span::default(), [&text, &rust]) {
+            let code = || match arguments.format {
+                Format::C => Err(Error::new(Kind::Automaton, NO_FORMULA, Span::default())),
+                _ => Ok(rust::foreign(&name, &dfa)),
+            };
+            match formatted(arguments, [&name, &name], &dfa, Span::default(), (&text, &code)) {
                 Ok(text) => streams.out.write(&text),
                 Err(error) => {
                     streams.complain(&format!("{}: {}", path.display(), error.message()));
@@ -154,9 +160,16 @@ fn shown<'a>(
     let task = entry.task();
     let title = task.name.as_deref().unwrap_or(&task.text);
     let text = || sizes(arguments, &task.text, automata);
-    let rust = || rust::file(entry.file().compiled());
     let dfa = selected(arguments, automata);
-    formatted(arguments, [title, &task.text], dfa, task.span, [&text, &rust])
+    let compiled = entry.file().compiled();
+    let code = || match arguments.format {
+        Format::C => c::header(&compiled.module, task, dfa).map_err(|refused| {
+            let kind = if let c::Refused::Large(..) = refused { Kind::Budget } else { Kind::Type };
+            Error::new(kind, refused.to_string(), task.span)
+        }),
+        _ => Ok(rust::file(compiled)),
+    };
+    formatted(arguments, [title, &task.text], dfa, task.span, (&text, &code))
 }
 
 /// An automaton in the form that the arguments ask for; the table of text and the Rust are made by
@@ -166,7 +179,7 @@ fn formatted<'a>(
     [title, formula]: [&str; 2],
     dfa: &'a Dfa,
     span: Span,
-    [text, rust]: [&dyn Fn() -> String; 2],
+    (text, code): (&dyn Fn() -> String, &dyn Fn() -> Result<String, Error>),
 ) -> Result<Box<dyn Display + 'a>, Error> {
     let written = match arguments.format {
         Format::Text => return Ok(Box::new(text())),
@@ -178,7 +191,7 @@ fn formatted<'a>(
         Format::Svg => return Ok(Box::new(svg::automaton(title, dfa))),
         Format::Mermaid => mermaid::automaton(title, dfa),
         Format::Hoa => hoa::automaton(title, dfa),
-        Format::Rust => return Ok(Box::new(rust())),
+        Format::Rust | Format::C => return Ok(Box::new(code()?)),
     };
     match written {
         Ok(text) => Ok(Box::new(text)),

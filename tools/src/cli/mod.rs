@@ -244,6 +244,8 @@ enum Format {
     Hoa,
     /// The Rust that the macros generate.
     Rust,
+    /// A C99 header of a task: automaton, predicates, monitor.
+    C,
 }
 
 /// Runs the command of `arguments`, the first of which is the name of the program.
