@@ -7,7 +7,10 @@
 //! | `labels` | what holds in a state, as mappings, names or arrays |
 //! | `task`, `batch`, `monitor`, `file` | tasks |
 //! | `rewards` | what moves pay |
-//! | `model`, `solution` | finite worlds, and what policies are worth in them |
+//! | `model`, `labelled` | finite worlds, and tasks on their states |
+//! | `solution`, `certificate`, `shield` | what is optimal, what policies are worth, what is allowed |
+//! | `settings`, `learner`, `policy` | learning, and what is learned |
+//! | `composition` | skills that become new ones |
 //! | `values` | what tasks take and give, as data |
 //! | `error` | mistakes of a source into exceptions and warnings |
 //!
@@ -18,12 +21,19 @@
 
 mod array;
 mod batch;
+mod certificate;
+mod composition;
 mod error;
 mod file;
+mod labelled;
 mod labels;
+mod learner;
 mod model;
 mod monitor;
+mod policy;
 mod rewards;
+mod settings;
+mod shield;
 mod solution;
 mod states;
 mod task;
@@ -41,15 +51,27 @@ mod _core {
     use super::*;
 
     #[pymodule_export]
+    use super::certificate::{Certificate, Mistake};
+    #[pymodule_export]
+    use super::composition::{Composition, compose};
+    #[pymodule_export]
     use super::file::{Parameter, TaskFile};
+    #[pymodule_export]
+    use super::learner::Learner;
     #[pymodule_export]
     use super::model::FiniteModel;
     #[pymodule_export]
     use super::monitor::Monitor;
     #[pymodule_export]
+    use super::policy::Policy;
+    #[pymodule_export]
     use super::rewards::Rewards;
     #[pymodule_export]
-    use super::solution::{Certificate, Solution, solve};
+    use super::settings::{Schedule, Settings};
+    #[pymodule_export]
+    use super::shield::{Shield, Shielded};
+    #[pymodule_export]
+    use super::solution::{Solution, solve};
     #[pymodule_export]
     use super::task::{Task, restore};
     #[pymodule_export]

@@ -1,14 +1,17 @@
 //! `tltl.FiniteModel`: a finite world as sparse rows.
 
+use std::sync::Arc;
+
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
+use tltl::learn::Experience;
 use tltl::model::{Dynamics, FiniteModel as Model};
 
 use super::array::{Array, frozen};
 use super::error::wrong;
 
 /// Sparse rows of outcomes, as they came.
-struct Rows {
+pub(crate) struct Rows {
     actions: usize,
     first: Vec<usize>,
     to: Vec<usize>,
@@ -56,6 +59,57 @@ impl Model for Rows {
     }
 }
 
+/// Where a model comes from: what is sampled when a learner steps in it. A clone costs a reference
+/// count.
+#[derive(Clone)]
+pub(crate) enum Source {
+    Rows(Arc<Rows>),
+    Seen(Arc<Experience>),
+}
+
+impl Model for Source {
+    type State = usize;
+
+    fn states(&self) -> usize {
+        match self {
+            Self::Rows(rows) => rows.states(),
+            Self::Seen(seen) => seen.states(),
+        }
+    }
+
+    fn actions(&self) -> usize {
+        match self {
+            Self::Rows(rows) => rows.actions(),
+            Self::Seen(seen) => seen.actions(),
+        }
+    }
+
+    fn state(&self, s: usize) -> usize {
+        s
+    }
+
+    fn transitions(&self, s: usize, a: usize, outcome: impl FnMut(usize, f64)) {
+        match self {
+            Self::Rows(rows) => rows.transitions(s, a, outcome),
+            Self::Seen(seen) => seen.transitions(s, a, outcome),
+        }
+    }
+
+    fn endings(&self, s: usize, a: usize, outcome: impl FnMut(usize, f64)) {
+        match self {
+            Self::Rows(rows) => rows.endings(s, a, outcome),
+            Self::Seen(seen) => seen.endings(s, a, outcome),
+        }
+    }
+
+    fn start(&self, s: usize) -> f64 {
+        match self {
+            Self::Rows(rows) => rows.start(s),
+            Self::Seen(seen) => seen.start(s),
+        }
+    }
+}
+
 /// A finite world whose probabilities are known.
 ///
 /// Where an outcome ends the episode, its state is read, and nothing after it.
@@ -67,6 +121,7 @@ impl Model for Rows {
 /// (2, 1)
 #[pyclass(frozen, module = "tltl")]
 pub struct FiniteModel {
+    pub(crate) source: Source,
     pub(crate) dynamics: Dynamics,
     #[pyo3(get)]
     pub(crate) horizon: Option<u64>,
@@ -79,6 +134,18 @@ pub struct FiniteModel {
 impl FiniteModel {
     pub(crate) fn origins(&self) -> &[i32] {
         &self.origin
+    }
+
+    /// The world as it was seen, with the frequencies as probabilities; `like` has the names.
+    pub(crate) fn seen(py: Python<'_>, like: &Self, seen: Experience) -> PyResult<Self> {
+        let dynamics = py.detach(|| Dynamics::new(&seen));
+        Ok(Self {
+            source: Source::Seen(Arc::new(seen)),
+            dynamics: dynamics.map_err(|error| wrong(error.to_string()))?,
+            horizon: like.horizon,
+            origin: like.origin.clone(),
+            event: like.event.clone_ref(py),
+        })
     }
 
     pub(crate) fn events<'py>(&self, py: Python<'py>) -> &Bound<'py, PyTuple> {
@@ -158,11 +225,13 @@ impl FiniteModel {
         let ends = expect(ends, "ends", count)?;
         let starts = starts.map(|starts| expect(numbers(starts, "starts")?, "starts", states));
         let rows = Rows { actions, first, to, probability, ends, starts: starts.transpose()? };
+        let source = Source::Rows(Arc::new(rows));
         let dynamics =
-            py.detach(|| Dynamics::new(&rows)).map_err(|error| wrong(error.to_string()))?;
+            py.detach(|| Dynamics::new(&source)).map_err(|error| wrong(error.to_string()))?;
         let origin = origin.unwrap_or_else(|| (0..states as i32).collect());
         let event = event.unwrap_or_else(|| PyTuple::empty(py));
         Ok(Self {
+            source,
             dynamics,
             horizon,
             origin: expect(origin, "origin", states)?,

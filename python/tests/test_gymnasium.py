@@ -14,7 +14,7 @@ from gymnasium.utils.env_checker import check_env
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tltl import Rewards, Task, TaskWarning
+from tltl import FiniteModel, Rewards, Task, TaskWarning, solve
 from tltl.gymnasium import TaskEnv, has_a_way_back
 
 MODES = ["shaped", "acceptance", "progress", "robustness", "literal"]
@@ -266,3 +266,46 @@ def test_vectors_of_task_envs_agree_with_one() -> None:
                 alone[i], reward, terminated, truncated, info = env.step(int(row[i]))
                 done[i] = terminated or truncated
             assert rewards[i] == reward and infos["tltl"]["state"][i] == info["tltl"]["state"]
+
+
+def test_a_shield_bars_actions() -> None:
+    lake = gym.make("FrozenLake-v1")
+    hole = {5, 7, 11, 12}
+
+    def places(s: int) -> dict[str, bool]:
+        return {"hole": s in hole, "goal": s == 15}
+
+    def seen(env: Any, obs: Any, info: dict[str, Any]) -> dict[str, bool]:
+        return places(int(obs))
+
+    model = FiniteModel.from_env(lake)
+    shield = solve(model, "!hole U goal", places).shield(epsilon=0.1)
+    env = TaskEnv(lake, "!hole U goal", seen, shield=shield, observe="none")
+    with pytest.raises(RuntimeError, match="reset the environment first"):
+        env.action_masks()
+    rng, barred, ends = np.random.default_rng(1), 0, []
+    for episode in range(200):
+        obs, info = env.reset(seed=episode)
+        while True:
+            mask = env.action_masks()
+            assert np.array_equal(mask, shield.mask(info["tltl"]["state"], int(obs)))
+            if not mask.all() and episode == 0:
+                with pytest.raises(ValueError, match="the shield bars action"):
+                    env.step(int(np.flatnonzero(~mask)[0]))
+                barred += 1
+            obs, _, terminated, truncated, info = env.step(int(rng.choice(np.flatnonzero(mask))))
+            if terminated or truncated:
+                ends.append(info["tltl"]["lost"])
+                break
+    assert barred > 0
+    # What is promised, and three standard errors.
+    most = shield.certify(np.zeros((3, 16), int)).smallest_lost + 0.1
+    assert np.mean(ends) < most + 3 * np.sqrt(most * (1 - most) / len(ends))
+    with pytest.raises(ValueError, match="there is no shield"):
+        TaskEnv(lake, "F goal", seen).action_masks()
+    with pytest.raises(ValueError, match="is for another task than `F goal`"):
+        TaskEnv(lake, "F goal", seen, shield=shield)
+    with pytest.raises(ValueError, match="is for another task than `!goal U hole`"):
+        TaskEnv(lake, "!goal U hole", seen, shield=shield)
+    with pytest.raises(ValueError, match="give `model_state`"):
+        TaskEnv(Goals(lake), "!hole U goal", seen, shield=shield)

@@ -65,13 +65,15 @@ def test_frozen_lake_is_what_value_iteration_says() -> None:
         assert np.allclose(best.satisfied[live], values[live], atol=1e-9)
         cut, _ = iterated(world.P, task, cells, 100, starts)
         assert worth.optimal_satisfied_within == pytest.approx(cut, abs=1e-12)
-        own, _ = iterated(world.P, task, cells, 100, starts, best.policy)
+        own, _ = iterated(world.P, task, cells, 100, starts, best.policy.table)
         assert worth.satisfied_within == pytest.approx(own, abs=1e-12)
         # A function, a table and a worse policy.
-        same = best.certify(lambda q, s: int(best.policy[q, s]))
+        table = best.policy.table
+        assert best.certify(table).satisfied == worth.satisfied
+        same = best.certify(lambda q, s: int(table[q, s]))
         assert same.satisfied == worth.satisfied
-        down = best.certify(np.ones_like(best.policy), within=7)
-        expected, _ = iterated(world.P, task, cells, 7, starts, np.ones_like(best.policy))
+        down = best.certify(np.ones_like(table), within=7)
+        expected, _ = iterated(world.P, task, cells, 7, starts, np.ones_like(table))
         assert down.satisfied_within == pytest.approx(expected, abs=1e-12)
         assert down.regret_satisfied > 0.5 and down.starts[0][0] == 0
         assert str(worth).splitlines()[0].split() == [

@@ -11,8 +11,9 @@ from typing import Any, Literal
 from warnings import warn
 
 import numpy as np
+from numpy.typing import NDArray
 
-from tltl._core import Rewards, Task
+from tltl._core import Rewards, Shield, Task
 from tltl._errors import TaskWarning
 from tltl._labels import Labels
 
@@ -43,6 +44,9 @@ class TaskEnv(gym.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
     - `observe`: `"flat"` appends the state of the automaton, one-hot, to the flattened observation;
       `"dict"` gives a `Dict` with it under `key`; `"none"` leaves the observation as it is.
     - `terminate`: whether the episode terminates where the task is satisfied or lost.
+    - `shield` (of `Solution.shield`): `action_masks()` says what it allows, which MaskablePPO of
+      sb3-contrib reads, and any other action is a `ValueError`. `model_state(obs)` gives the state of
+      the model that the shield is for; for `Discrete` observations that is the observation.
     - `on_decided_reset`: the first observation is read too, so the task may be satisfied or lost
       before the first action. `"resample"` resets again (at most 100 times); `"raise"` is an
       error; with `"keep"` the first step pays nothing and terminates.
@@ -73,6 +77,8 @@ class TaskEnv(gym.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
         observe: Literal["flat", "dict", "none"] = "flat",
         key: str = "task_state",
         terminate: bool = True,
+        shield: Shield | None = None,
+        model_state: Callable[[Any], int] | None = None,
         on_decided_reset: Literal["resample", "raise", "keep"] = "resample",
     ) -> None:
         RecordConstructorArgs.__init__(
@@ -84,6 +90,8 @@ class TaskEnv(gym.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
             observe=observe,
             key=key,
             terminate=terminate,
+            shield=shield,
+            model_state=model_state,
             on_decided_reset=on_decided_reset,
         )
         super().__init__(env)
@@ -103,6 +111,10 @@ class TaskEnv(gym.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
         )
         self._q = self.task.initial
         self._last: tuple[Any, dict[str, Any]] | None = None
+        self._shield, self._model_state = shield, model_state
+        self._mask: NDArray[np.bool_] | None = None
+        if shield is not None:
+            self._check_shield(shield, env.observation_space)
         if self.rewards.mode == "progress" and has_a_way_back(self.task):
             warn(
                 f"the automaton of `{self.task.text}` has a way back: it is paid again and again "
@@ -129,6 +141,7 @@ class TaskEnv(gym.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
                 raise RuntimeError(f"{RESETS} starts were decided; the last is {obs!r}")
             resampled += 1
         told["progress"] = False
+        self._see(obs)
         obs, info = self._observe(obs, self._q), {**info, "tltl": told}
         self._last = (obs, info) if self._is_over(told) else None
         return obs, info
@@ -138,6 +151,9 @@ class TaskEnv(gym.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
             # The task was decided before the first action.
             obs, info = self._last
             return obs, 0.0, True, False, info
+        if self._mask is not None and not self._mask[action]:
+            allowed = np.flatnonzero(self._mask).tolist()
+            raise ValueError(f"the shield bars action {action}; it allows {allowed}: see action_masks()")
         obs, reward, terminated, truncated, info = self.env.step(action)
         q = self._q
         told = self._read(obs, info)
@@ -147,7 +163,31 @@ class TaskEnv(gym.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
             self.task, q, self._q, rho=rho, reward=float(reward), terminated=terminated
         )
         over = bool(terminated) or self._is_over(told)
+        self._see(obs)
         return self._observe(obs, self._q), paid, over, truncated, {**info, "tltl": told}
+
+    def action_masks(self) -> NDArray[np.bool_]:
+        """What the shield allows now: bool, of shape (actions,).
+
+        Raises `ValueError` if there is no shield, and `RuntimeError` before the first reset.
+        """
+        if self._shield is None:
+            raise ValueError("there is no shield: TaskEnv(…, shield=solution.shield())")
+        if self._mask is None:
+            raise RuntimeError("reset the environment first")
+        return self._mask.copy()
+
+    def _check_shield(self, shield: Shield, base: spaces.Space[Any]) -> None:
+        if shield.task is None or shield.task.fingerprint != self.task.fingerprint:
+            raise ValueError(f"{shield} is for another task than `{self.task.text}`")
+        if self._model_state is None and not isinstance(base, spaces.Discrete):
+            raise ValueError(f"give `model_state`: observations of {base} are no states of a model")
+
+    def _see(self, obs: Any) -> None:
+        """What the shield allows where the world is now."""
+        if self._shield is not None:
+            state = int(obs) if self._model_state is None else self._model_state(obs)
+            self._mask = self._shield.mask(self._q, state)
 
     def _is_over(self, told: dict[str, Any]) -> bool:
         return self._terminate and bool(told["satisfied"] or told["lost"])
