@@ -20,6 +20,7 @@ use tltlc::task::{self, Bound as Made, TaskFile, Value, Verdict};
 
 use super::array::{frozen, shaped};
 use super::batch::Letters;
+use super::certificate::preformatted;
 use super::error::{diagnostics, mistaken, warn, wrong};
 use super::labels;
 use super::states::States;
@@ -27,6 +28,10 @@ use super::values::{Budget, Edge, Input, Run};
 
 /// The largest number of propositions whose table of all letters is given out: 65,536 columns.
 const TABLE: usize = 16;
+
+/// Units of time, in seconds.
+const SECONDS: [(&str, f64); 6] =
+    [("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("ns", 1e-9), ("min", 60.0), ("h", 3600.0)];
 
 /// A formula of temporal logic, compiled to its minimal automaton.
 ///
@@ -111,6 +116,21 @@ impl Task {
         }
     }
 
+    /// All moves, with their guards as text.
+    fn moves(&self) -> Vec<Edge> {
+        let dfa = self.dfa();
+        let mut guards = tltl_compiler::dfa::Guards::new(dfa);
+        let mut edges = Vec::new();
+        for source in dfa.states() {
+            for (target, guard) in guards.edges(source) {
+                let cubes = guards.cubes(guard);
+                let guard = emit::sum::Sum::new(&dfa.propositions, &cubes).to_string();
+                edges.push(Edge { source, target, guard });
+            }
+        }
+        edges
+    }
+
     fn key(&self) -> (&str, Option<&str>, String) {
         let arguments = format!("{:?}", self.inner.arguments());
         (self.source().text(), self.inner.entry().name(), arguments)
@@ -191,20 +211,18 @@ impl Task {
         self.automaton().trap()
     }
 
+    /// How long a step lasts, in seconds, if the task file says it (`step 0.1 s`) in a unit of time:
+    /// `s`, `ms`, `us`, `ns`, `min` or `h`.
+    #[getter]
+    fn step_seconds(&self) -> Option<f64> {
+        let (amount, unit) = self.inner.entry().file().step()?;
+        SECONDS.iter().find(|(name, _)| *name == unit).map(|(_, seconds)| seconds * amount)
+    }
+
     /// All moves, self-loops included, each with its guard as text.
     #[getter]
     fn edges<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        let dfa = self.dfa();
-        let mut guards = tltl_compiler::dfa::Guards::new(dfa);
-        let mut edges = Vec::new();
-        for source in dfa.states() {
-            for (target, guard) in guards.edges(source) {
-                let cubes = guards.cubes(guard);
-                let guard = emit::sum::Sum::new(&dfa.propositions, &cubes).to_string();
-                edges.push(Edge { source, target, guard });
-            }
-        }
-        PyTuple::new(py, edges)
+        PyTuple::new(py, self.moves())
     }
 
     /// The fewest moves from each state to the accepting one: int32, -1 where there is no way.
@@ -445,6 +463,32 @@ impl Task {
 
     fn _repr_svg_(&self) -> String {
         self.svg()
+    }
+
+    /// In a notebook: the automaton, and what it asks for.
+    fn _repr_html_(&self) -> String {
+        format!("<div>{}</div>{}", self.svg(), preformatted(&self.explain()))
+    }
+
+    /// The automaton as a `networkx.MultiDiGraph`: nodes are states, with `initial`, `accepting` and
+    /// `trap`; each edge has its `guard`.
+    ///
+    /// Raises `ImportError` if networkx is not installed.
+    fn to_networkx<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let graph = py.import("networkx")?.call_method0("MultiDiGraph")?;
+        for q in 0..self.inner.states() {
+            let named = PyDict::new(py);
+            named.set_item("initial", q == self.initial())?;
+            named.set_item("accepting", Some(q) == self.accepting())?;
+            named.set_item("trap", Some(q) == self.trap())?;
+            graph.call_method("add_node", (q,), Some(&named))?;
+        }
+        for Edge { source, target, guard } in self.moves() {
+            let named = PyDict::new(py);
+            named.set_item("guard", guard)?;
+            graph.call_method("add_edge", (source, target), Some(&named))?;
+        }
+        Ok(graph)
     }
 
     /// The automaton for Graphviz.

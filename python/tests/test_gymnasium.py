@@ -14,7 +14,7 @@ from gymnasium.utils.env_checker import check_env
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tltl import FiniteModel, Rewards, Task, TaskWarning, solve
+from tltl import FiniteModel, Rewards, Task, TaskFile, TaskWarning, solve
 from tltl.gymnasium import TaskEnv, has_a_way_back
 
 MODES = ["shaped", "acceptance", "progress", "robustness", "literal"]
@@ -240,6 +240,11 @@ def test_what_is_refused_says_what_to_do() -> None:
         TaskEnv(Tape([0]), "F a")
     with pytest.raises(ValueError, match="`goal` is missing; given: goall; did you mean `goall`"):
         TaskEnv(Tape([0]), "F goal", lambda env, obs, info: {"goall": True}).reset()
+    timed = TaskFile.from_text("state S { a: bool }\nstep 0.1 s\ntask t = F[0,2 s] a").task()
+    slow: Any = Tape([0])
+    slow.dt = 0.05
+    with pytest.warns(TaskWarning, match="lasts 0.05 s, and the task says 0.1 s"):
+        TaskEnv(slow, timed, abc)
     with pytest.warns(TaskWarning, match="has a way back"):
         TaskEnv(Tape([0]), "F (a && X a && X X a)", abc, rewards="progress")
     assert has_a_way_back(Task("F (a && X a)")) and not has_a_way_back(Task("a T b"))

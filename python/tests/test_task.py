@@ -74,6 +74,7 @@ def test_what_a_task_is() -> None:
     assert task.trap is not None and guards[task.initial, task.trap] == "c"
     assert "not c" in task.explain()
     assert task.svg().startswith("<svg") and task._repr_svg_() == task.svg()
+    assert "<svg" in task._repr_html_() and "<pre>" in task._repr_html_()
     assert task.to_hoa().startswith("HOA: v1") and "digraph" in task.to_dot()
     assert "flowchart" in task.to_mermaid()
     assert '"states"' in task.to_json() and "FORMULA" in task.to_rust()
@@ -217,3 +218,24 @@ def test_label_functions_declare_their_names() -> None:
     assert seen(1) == {"key": True, "door": False}
     with pytest.raises(ValueError, match="'kee'; it declares key, door"):
         seen(0)
+
+
+def test_how_long_a_step_lasts() -> None:
+    text = "state S {{ a: bool }}\n{}\ntask t = F a"
+    for step, seconds in (("step 0.1 s", 0.1), ("step 20 ms", 0.02), ("step 2 beats", None), ("", None)):
+        task = tltl.TaskFile.from_text(text.format(step)).task()
+        assert task.step_seconds == pytest.approx(seconds) if seconds else task.step_seconds is None
+    assert Task("F a").step_seconds is None
+
+
+def test_the_automaton_as_a_graph() -> None:
+    networkx = pytest.importorskip("networkx")
+    task = Task("F a && F b ensuring !c")
+    graph = task.to_networkx()
+    assert isinstance(graph, networkx.MultiDiGraph) and len(graph) == task.num_states
+    edges = {(u, v): guard for u, v, guard in graph.edges(data="guard")}
+    assert edges == {(edge.source, edge.target): edge.guard for edge in task.edges}
+    assert [q for q, is_trap in graph.nodes(data="trap") if is_trap] == [task.trap]
+    # As far as the automaton says.
+    far = networkx.shortest_path_length(graph, target=task.accepting)
+    assert all(task.distances[q] == far.get(q, -1) for q in graph)

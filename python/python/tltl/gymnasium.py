@@ -115,6 +115,13 @@ class TaskEnv(gym.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
         self._mask: NDArray[np.bool_] | None = None
         if shield is not None:
             self._check_shield(shield, env.observation_space)
+        lasts, declared = getattr(env.unwrapped, "dt", None), self.task.step_seconds
+        if declared is not None and isinstance(lasts, float) and not np.isclose(lasts, declared):
+            warn(
+                f"a step of the environment lasts {lasts} s, and the task says {declared} s",
+                TaskWarning,
+                stacklevel=2,
+            )
         if self.rewards.mode == "progress" and has_a_way_back(self.task):
             warn(
                 f"the automaton of `{self.task.text}` has a way back: it is paid again and again "

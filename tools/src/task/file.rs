@@ -166,6 +166,26 @@ impl TaskFile {
         &self.source
     }
 
+    /// How long a step lasts, as the source says it: `step 0.1 s` is 0.1 and `s`.
+    ///
+    /// ```
+    /// use tltl_compiler::{source::Source, translate::Budget};
+    /// use tltlc::task::TaskFile;
+    ///
+    /// let source = Source::new("soon.tltl", "state S { a: bool }\nstep 0.1 s\ntask soon = F[0,2 s] a");
+    /// assert_eq!(TaskFile::new(source, Budget::default())?.step(), Some((0.1, "s")));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn step(&self) -> Option<(f64, &str)> {
+        let (ast, _) = parse::recover_file(&self.source);
+        let text = |span: Span| &self.source.text()[span.start..span.end];
+        ast.items().iter().find_map(|item| match item.kind {
+            ItemKind::Step { amount, unit } => Some((text(amount).parse().ok()?, text(unit))),
+            _ => None,
+        })
+    }
+
     /// The compiler's result: the module, and an automaton or a factored task for each task.
     #[must_use]
     pub fn compiled(&self) -> &Compiled {
