@@ -48,7 +48,7 @@ const WORLD: &str = "enum Room { kitchen, hall, attic }
 ";
 
 /// Formulas and what they mean, in the words of the automaton's propositions.
-const MEANINGS: [(&str, &str); 27] = [
+const MEANINGS: [(&str, &str); 33] = [
     (
         "for all r in Room: F visited[r]",
         "F visited[kitchen] && F visited[hall] && F visited[attic]",
@@ -87,6 +87,13 @@ const MEANINGS: [(&str, &str); 27] = [
     ("for all i in 1..3: F open[i]", "F open[1] && F open[2]"),
     ("for all i in 1..=two: F open[i]", "F open[1] && F open[2]"),
     ("for some i in 0..two: F (x < i)", "F (x < 0) || F (x < 1)"),
+    // What a known comparison settles is not asked whether its bounds and indices are in order.
+    ("for all i in 0..3: i > 0 => F[1,i] open[i]", "X open[1] && F[1,2] open[2]"),
+    ("for some i in 0..3: F lit && (i > 1 && F[2,i] open[i])", "F lit && X[2] open[2]"),
+    ("for all i in 2..9: i >= 4 || F open[i]", "F open[2] && F open[3]"),
+    ("!(for some i in 3..6: !(i > 3) && open[i]) U lit", "!open[3] U lit"),
+    ("for all r in Room: r == hall => (r == attic => X[-1] lit) && F lit", "F lit"),
+    ("for all r in {attic}: r == hall => F lit && (r == attic => X[-1] lit) || lit", "true"),
     ("for all i in 2..4: F ready(i, true)", "F ready(2, true) && F ready(3, true)"),
     ("F holds(none) && F holds(Object::mug)", "F holds(none) && F holds(mug)"),
     ("F near(n)", "F near(n)"),
@@ -100,6 +107,11 @@ fn quantifiers_and_arguments_mean_what_they_spell_out() {
         let task = compiled.module.tasks.last().unwrap();
         assert_eq!(task.spec.to_string(), meaning, "{formula}");
     }
+    let high = "predicate high = for all i in 2..9: 0 < i < 4 => level[i] > i";
+    let module = compiled(&format!("{WORLD}{high}\ntask t = F high")).module;
+    let high = module.predicates.iter().find(|predicate| predicate.name == "high").unwrap();
+    let meaning = "level[2] > 2 && level[3] > 3";
+    assert_eq!(module.display(high.condition).to_string(), meaning);
 }
 
 #[test]

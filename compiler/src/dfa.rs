@@ -172,24 +172,25 @@ impl Dfa {
     /// The size of the automaton.
     #[must_use]
     pub fn size(&self) -> Size {
-        self.survey(&mut |_| {})
+        self.survey(usize::MAX, &mut |_| {})
     }
 
     /// The [size](Self::size) of the automaton. `again` gets each node and each leaf that some
     /// state reaches in more than one way, except those that it reaches only through another of
-    /// them; it may get one several times.
+    /// them; it may get one several times. Counting ends at the first state with which there are
+    /// more than `most` edges.
     ///
     /// ```
     /// # use tltl_compiler::{bdd::Bdd, compile, source::Source, translate::Budget};
     /// let source = Source::new("formula", "F (a && b)");
     /// let dfa = &compile::formula(&source, Budget::EMITTED)?.automata[0].dfa;
     /// let mut again = Vec::new();
-    /// assert_eq!(dfa.survey(&mut |f| again.push(f)), dfa.size());
+    /// assert_eq!(dfa.survey(usize::MAX, &mut |f| again.push(f)), dfa.size());
     /// // State 0 stays where it is without `a`, and with `a` but without `b`.
     /// assert_eq!(again, [Bdd::leaf(0)]);
     /// # Ok::<(), tltl_compiler::error::Errors>(())
     /// ```
-    pub fn survey(&self, again: &mut dyn FnMut(Bdd)) -> Size {
+    pub fn survey(&self, most: usize, again: &mut dyn FnMut(Bdd)) -> Size {
         let mut size = Size {
             states: self.len(),
             edges: 0,
@@ -201,19 +202,21 @@ impl Dfa {
             size.self_loops += usize::from(to == q);
             size.edges += usize::from(to != q);
             size.into_trap += usize::from(to != q && self.trap == Some(to));
+            size.edges + size.self_loops <= most
         };
         self.each_edge(&mut edge, again);
         size
     }
 
-    /// Visits each pair of a state and a successor once, states rising, and hands what the walk of
-    /// one state meets once more to `again`. One mark for each node and each state serves all
+    /// Visits each pair of a state and a successor once, states rising, until `edge` says after the
+    /// last one of a state that it is enough, and hands what the walk of one state meets once more
+    /// to `again`. One mark for each node and each state serves all
     /// walks: some automata have ten thousand times more edges than nodes.
-    fn each_edge(&self, edge: &mut dyn FnMut(State, State), again: &mut dyn FnMut(Bdd)) {
+    fn each_edge(&self, edge: &mut dyn FnMut(State, State) -> bool, again: &mut dyn FnMut(Bdd)) {
         let mut passed = vec![State::MAX; self.diagram.nodes().len()];
         let mut entered = vec![State::MAX; self.len()];
         let nodes = self.diagram.nodes();
-        let mut stack = Vec::new();
+        let (mut stack, mut more) = (Vec::new(), true);
         for q in self.states() {
             stack.push(self.transitions[q as usize]);
             while let Some(f) = stack.pop() {
@@ -224,11 +227,14 @@ impl Dfa {
                 if std::mem::replace(&mut marks[at], q) == q {
                     again(f);
                 } else if let Some(to) = f.value() {
-                    edge(q, to);
+                    more = edge(q, to);
                 } else {
                     let Node { low, high, .. } = nodes[at];
                     stack.extend([high, low]);
                 }
+            }
+            if !more {
+                break;
             }
         }
     }
@@ -238,7 +244,11 @@ impl Dfa {
     #[must_use]
     pub fn distances(&self) -> Vec<Option<u32>> {
         let mut predecessors = vec![Vec::new(); self.len()];
-        self.each_edge(&mut |q, to| predecessors[to as usize].push(q), &mut |_| {});
+        let mut edge = |q, to: State| {
+            predecessors[to as usize].push(q);
+            true
+        };
+        self.each_edge(&mut edge, &mut |_| {});
         let mut distances = vec![None; self.len()];
         let mut queue: std::collections::VecDeque<_> = self.accepting.into_iter().collect();
         queue.iter().for_each(|&q| distances[q as usize] = Some(0));

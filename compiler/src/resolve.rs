@@ -211,6 +211,8 @@ pub(crate) struct Entry {
     pub(crate) ends: Vec<ExpressionId>,
     /// Its value, if it is a number made of numbers and constants alone.
     pub(crate) value: Option<f64>,
+    /// Whether it holds, if it is made of truth values and comparisons of known values alone.
+    truth: Option<bool>,
     /// The names that quantifiers bind around it.
     pub(crate) environment: Environment,
 }
@@ -302,6 +304,77 @@ impl Resolved<'_> {
         };
         // Adding 0 makes -0 to 0: the sign of zero is not part of any meaning here.
         value.is_finite().then_some(value + 0.0)
+    }
+
+    /// Whether an expression holds, if it is made of truth values and comparisons of known values.
+    fn known(&self, expression: &Expression) -> Option<bool> {
+        let of = |id: ExpressionId| self[id].truth;
+        match *expression {
+            Expression::Truth(truth) => Some(truth),
+            Expression::Prefix(Prefix::Not, a) => of(a).map(|truth| !truth),
+            Expression::Infix(Infix::Compare(op), a, b) => self.compared(op, a, b),
+            Expression::Infix(op, a, b) => self.settled(op, a, b).or_else(|| match op {
+                Infix::And => Some(of(a)? && of(b)?),
+                Infix::Or => Some(of(a)? || of(b)?),
+                Infix::Implies => Some(!of(a)? || of(b)?),
+                Infix::Iff => Some(of(a)? == of(b)?),
+                _ => None,
+            }),
+            _ => None,
+        }
+    }
+
+    /// Whether `a op b` holds, if one of the two says so whatever the other is.
+    fn settled(&self, op: Infix, a: ExpressionId, b: ExpressionId) -> Option<bool> {
+        let [first, second] = [a, b].map(|id| self[id].truth);
+        match op {
+            Infix::And => [first, second].contains(&Some(false)).then_some(false),
+            Infix::Or => [first, second].contains(&Some(true)).then_some(true),
+            Infix::Implies => (first == Some(false)).then_some(true),
+            _ => None,
+        }
+    }
+
+    /// The operand of an expression of which nothing depends: the other one settles what they are
+    /// together, as `i > 0` does in `i > 0 => F[1,i] p` for an `i` of 0.
+    pub(crate) fn idle(&self, id: ExpressionId) -> Option<ExpressionId> {
+        let Expression::Infix(op, a, b) = self[id].expression else { return None };
+        self.settled(op, a, b)?;
+        [a, b].into_iter().find(|operand| self[*operand].truth.is_none())
+    }
+
+    /// The truth of a comparison of known numbers, of a chain of them, or of two values.
+    fn compared(&self, op: Comparison, a: ExpressionId, b: ExpressionId) -> Option<bool> {
+        let (before, a) = match self[a].expression {
+            Expression::Infix(_, _, middle) if self.is_chained(a) => (self[a].truth?, middle),
+            _ => (true, a),
+        };
+        if let (Some(x), Some(y)) = (self[a].value, self[b].value) {
+            return Some(before && op.holds(x, y));
+        }
+        let is_equal = self.single(a, b).or_else(|| self.single(b, a))?;
+        match op {
+            Comparison::Equal => Some(is_equal),
+            Comparison::Unequal => Some(!is_equal),
+            _ => None,
+        }
+    }
+
+    /// Whether two expressions are one value, if the first of them can only be a value.
+    fn single(&self, a: ExpressionId, b: ExpressionId) -> Option<bool> {
+        let values = |id| match &self[id].expression {
+            Expression::Name(Name::Value(value)) => std::slice::from_ref(value),
+            Expression::Name(
+                Name::Values(values) | Name::Item(_, values) | Name::Place(_, values),
+            ) => values,
+            _ => &[],
+        };
+        let &[one] = values(a) else { return None };
+        let other = values(b).iter().find(|other| other.of == one.of)?;
+        let Expression::Name(Name::Value(_) | Name::Values(_)) = self[a].expression else {
+            return None;
+        };
+        Some(*other == one)
     }
 
     /// Whether an expression is a truth value with a name: a field, a parameter, a predicate.

@@ -85,11 +85,11 @@ use obligation::Obligations;
 /// ```
 /// use tltl_compiler::{check, source::Source, translate::{Budget, Resource, translate}};
 ///
-/// let goals: Vec<String> = (0..20).map(|i| format!("F g{i}")).collect();
+/// let goals: Vec<String> = (0..17).map(|i| format!("F g{i}")).collect();
 /// let module = check::formula(&Source::new("formula", goals.join(" && ")))?;
-/// // 2^20 states: the nodes run out first.
+/// // 2^17 states, and the first one leads to all of them: it is not even left.
 /// let exceeded = translate(&module.tasks[0].spec, Budget::EMITTED).unwrap_err();
-/// assert_eq!((exceeded.what, exceeded.limit), (Resource::Nodes, 1 << 20));
+/// assert_eq!((exceeded.what, exceeded.limit), (Resource::States, 1 << 14));
 /// # Ok::<(), tltl_compiler::error::Errors>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -466,6 +466,9 @@ impl<'a> Translation<'a> {
         }
         let mut transitions = Vec::new();
         while let Some(&root) = self.roots.get(transitions.len()) {
+            if self.demands(root) > 2 * self.budget.states {
+                return Err(Exceeded { what: Resource::States, limit: self.budget.states });
+            }
             let target = self.target(root);
             transitions.push(target);
             self.check_nodes()?;
@@ -481,11 +484,39 @@ impl<'a> Translation<'a> {
         })
     }
 
+    /// The number of demands that letters lead to from an expansion and that were not met before:
+    /// functions of obligations, of which only those with one expansion are one state. To count
+    /// them costs a step each, to expand those of a large conjunction a hundred times as much; so
+    /// what has twice as many as the automaton may have states is refused before.
+    fn demands(&self, root: Bdd) -> usize {
+        let (most, mut demands) = (2 * self.budget.states, 0);
+        if self.functions.nodes().len() <= most {
+            return 0;
+        }
+        let (mut seen, mut stack) = (Seen::default(), vec![root]);
+        while let Some(f) = stack.pop() {
+            if demands > most || self.targets.get(f).is_some() || !seen.insert(f) {
+                continue;
+            }
+            match self.functions.get(f) {
+                Some(Node { level, low, high }) if level < self.propositions => {
+                    stack.extend([high, low]);
+                }
+                _ => demands += 1,
+            }
+        }
+        demands
+    }
+
     /// The transition function of an expansion: its part above the obligations, with states as
     /// leaves.
     fn target(&mut self, f: Bdd) -> Bdd {
         if let Some(known) = self.targets.get(f) {
             return known;
+        }
+        if self.roots.len() > self.budget.states {
+            // One letter can lead to many states. What is too much already need not be finished.
+            return Bdd::FALSE;
         }
         let target = match self.functions.get(f) {
             Some(Node { level, low, high }) if level < self.propositions => {

@@ -262,6 +262,34 @@ fn recordings_of_other_programs_are_read_or_named() {
     }
 }
 
+#[test]
+fn a_message_quotes_no_more_of_a_header_than_a_sentence_bears() {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("header.csv");
+    let noise: String = (0..100_000_u32).map(|i| ['q', '~', '\u{7}'][i as usize % 3]).collect();
+    let columns = format!("{noise},{}\n", vec![&noise[..50]; 500].join(","));
+    let twice = format!("{noise},{noise}\n");
+    for (header, formula, map, shown) in [
+        (&columns, "F x", "x=x", "and 461 more"),
+        (&twice, "F x", &format!("x={noise}"), "two columns are called"),
+        (&format!("x\n{noise}"), "F (x > 1)", "x=x", "which `x` is"),
+    ] {
+        std::fs::write(&path, header).unwrap();
+        let arguments = ["run", formula, path.to_str().unwrap(), "--map", map];
+        let text = String::from_utf8(run(&arguments, b"").stderr).unwrap();
+        assert!(text.contains(shown) && text.len() < 8_000, "{} bytes: {text}", text.len());
+    }
+}
+
+#[test]
+fn a_formula_is_no_file_whatever_characters_it_has() {
+    let formula = "\"goal\nroom\" U home";
+    for arguments in [vec!["automaton", formula], vec!["explain", formula]] {
+        let Output { status, stdout, .. } = run(&arguments, b"");
+        assert_eq!(status.code(), Some(0));
+        assert!(String::from_utf8(stdout).unwrap().contains("home"));
+    }
+}
+
 /// More rows than are read at once: the same as the library gives for all of them together.
 #[test]
 fn a_long_recording_is_followed_in_pieces() {

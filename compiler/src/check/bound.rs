@@ -146,7 +146,8 @@ fn empty(
     if !named {
         return error;
     }
-    error.help("if `for` gives the number, let its range begin later: a condition such as `i > 0 => …` leaves no bound out")
+    error
+        .help("if `for` gives the number, let its range begin later, or leave it out: `i > 0 => …`")
 }
 
 /// The error for a bound that this operator cannot have.

@@ -13,7 +13,7 @@
 use super::atom::{Atom, Atoms};
 use super::role::Role;
 use crate::ast::{Infix, Prefix};
-use crate::predicate::ConditionId;
+use crate::predicate::{Condition, ConditionId};
 use crate::resolve::{Expression, ExpressionId};
 
 impl Atoms<'_, '_> {
@@ -24,6 +24,7 @@ impl Atoms<'_, '_> {
         for (id, role) in roles.iter() {
             let condition = match role {
                 Role::Condition => self.build(id, &|operand| built[roles.position(operand)]),
+                Role::Idle => Some(self.lowering.arena.add_condition(Condition::Truth(true))),
                 _ => None,
             };
             built.push(condition);

@@ -16,11 +16,13 @@
 //! # Ok::<(), tltl_compiler::error::Errors>(())
 //! ```
 
+use std::ops::RangeInclusive;
+
 use super::{bound, intent};
 use crate::ast::{Comparison, Infix, Prefix};
 use crate::error::{Error, Kind};
 use crate::predicate::{ParameterType, Scalar};
-use crate::resolve::{Callee, Expression, ExpressionId, Resolved};
+use crate::resolve::{Callee, Expression, ExpressionId, Name, Resolved};
 
 /// The role of an expression: the type that its position asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,6 +45,9 @@ pub(super) enum Role {
     Part,
     /// An expression with a mistake that has been reported.
     Broken,
+    /// A formula or a condition of which nothing is asked: the operand beside it settles what they
+    /// are together.
+    Idle,
 }
 
 impl Role {
@@ -83,7 +88,8 @@ pub(super) fn roles(
 ) -> Roles {
     let count = (root.0 - first.0 + 1) as usize;
     let roles = Roles { first: first.0, roles: vec![Role::Part; count] };
-    let mut descent = Descent { resolved, roles, mistakes };
+    let within = root..=first;
+    let mut descent = Descent { resolved, roles, within, mistakes };
     descent.set(root, role);
     for id in (first.0..=root.0).rev().map(ExpressionId) {
         descent.descend(id);
@@ -95,6 +101,8 @@ pub(super) fn roles(
 struct Descent<'r> {
     resolved: &'r Resolved<'r>,
     roles: Roles,
+    /// Expressions that were found to have their bounds and indices in order.
+    within: RangeInclusive<ExpressionId>,
     mistakes: &'r mut Vec<Error>,
 }
 
@@ -108,7 +116,7 @@ impl Descent<'_> {
     /// Gives the operands of an expression their roles.
     fn descend(&mut self, id: ExpressionId) {
         match self.roles.of(id) {
-            Role::Part => {}
+            Role::Part | Role::Idle => {}
             Role::Broken => self.give(id, Role::Broken),
             Role::Number => self.number(id),
             Role::Chain => self.comparison(id),
@@ -139,6 +147,32 @@ impl Descent<'_> {
 
     /// The operands of a formula or a condition.
     fn formula(&mut self, id: ExpressionId, role: Role) {
+        self.connective(id, role);
+        if let Some(operand) = self.resolved.idle(id)
+            && self.is_beyond(operand)
+        {
+            self.set(operand, Role::Idle);
+        }
+    }
+
+    /// Whether a bound in an expression is empty or in the past, or an index is not one of its
+    /// array.
+    fn is_beyond(&mut self, id: ExpressionId) -> bool {
+        let resolved = self.resolved;
+        let is_beyond = |part| match &resolved[part].expression {
+            Expression::Name(Name::Unknown(error)) => error.kind() == Kind::Type,
+            _ => bound::window(resolved, part).is_err_and(|error| error.kind() == Kind::Bound),
+        };
+        // Of what is within all is within, and depth costs nothing.
+        if self.within.contains(&id) {
+            return false;
+        }
+        self.within = resolved[id].first..=id;
+        (resolved[id].first.0..=id.0).map(ExpressionId).any(is_beyond)
+    }
+
+    /// The operands of a formula or a condition, whatever is known of them.
+    fn connective(&mut self, id: ExpressionId, role: Role) {
         let flipped = match role {
             Role::Formula { negated, state } => {
                 Role::Formula { negated: negated.xor(Some(id)), state }
@@ -378,6 +412,7 @@ mod tests {
                 Role::Chain => '-',
                 Role::Part => '.',
                 Role::Broken => 'x',
+                Role::Idle => '0',
             };
             let roles = roles(resolved, expressions, role, mistakes);
             roles.iter().map(|(_, role)| letter(role)).collect()

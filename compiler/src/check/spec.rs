@@ -57,6 +57,7 @@ pub(super) fn spec(mut atoms: Atoms<'_, '_>) -> Option<(Spec, Vec<PredicateId>)>
     for ((id, role), leaf) in roles.iter().zip(leaves) {
         let formula = match role {
             Role::Formula { negated, state } => builder.formula(id, leaf, negated, state),
+            Role::Idle => Some(builder.spec.truth(true, builder.lowering.resolved.span(id))),
             _ => None,
         };
         builder.built.push(formula);

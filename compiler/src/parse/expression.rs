@@ -89,8 +89,8 @@ impl Yard<'_> {
     }
 
     /// A number, or its mistake.
-    fn number(&mut self, text: &str, span: Span) -> Node {
-        Node::Number(number(text, span).unwrap_or_else(|error| {
+    fn number(&mut self, number: Result<f64, Error>) -> Node {
+        Node::Number(number.unwrap_or_else(|error| {
             self.mistakes.push(error);
             1.0
         }))
@@ -146,7 +146,7 @@ impl Yard<'_> {
             match part.as_rule() {
                 Rule::minus => negative = true,
                 Rule::identifier if node.is_some() => unit = Some(place(&part, at)),
-                _ => node = Some(self.element(&part)),
+                _ => node = Some(self.element(&part, count)),
             }
         }
         End { node: node.expect("an end is a number or a name"), negative, unit, span }
@@ -167,7 +167,8 @@ impl Yard<'_> {
                         match part.as_rule() {
                             Rule::range => range = Some(false),
                             Rule::inclusive => range = Some(true),
-                            Rule::element | Rule::end => listed.push(self.element(&part)),
+                            Rule::element => listed.push(self.element(&part, number)),
+                            Rule::end => listed.push(self.element(&part, count)),
                             _ => {}
                         }
                     }
@@ -180,11 +181,15 @@ impl Yard<'_> {
         Pending::Quantifier { all, name, set, elements, range, span }
     }
 
-    /// An element of a listed set, or an end of a range or of a bound.
-    fn element(&mut self, element: &Pair<'_>) -> NodeId {
+    /// An element of a listed set, or an end of a range or of a bound. A number is read by `read`.
+    fn element(
+        &mut self,
+        element: &Pair<'_>,
+        read: fn(&str, Span) -> Result<f64, Error>,
+    ) -> NodeId {
         let span = place(element, self.at);
         let node = match element.as_str().starts_with(|c: char| c.is_ascii_digit()) {
-            true => self.number(element.as_str(), span),
+            true => self.number(read(element.as_str(), span)),
             false => Node::Name,
         };
         self.ast.push(node, span, span)
@@ -195,7 +200,7 @@ impl Yard<'_> {
         match token.as_rule() {
             Rule::truth => Node::Truth(true),
             Rule::falsity => Node::Truth(false),
-            Rule::number => self.number(token.as_str(), span),
+            Rule::number => self.number(number(token.as_str(), span)),
             Rule::verbatim => Node::Verbatim,
             Rule::text => Node::Text,
             _ => Node::Name,
@@ -514,6 +519,16 @@ fn number(text: &str, span: Span) -> Result<f64, Error> {
             .help("whole numbers are exact up to 2^53 = 9007199254740992; write it with an exponent if a rounded value will do"));
     }
     Ok(value)
+}
+
+/// The value of an end of a bound or of a range: a number that the compiler counts to.
+fn count(text: &str, span: Span) -> Result<f64, Error> {
+    number(text, span).map_err(|_| {
+        let message = format!("`{}` is too large to be counted to", short(text));
+        Error::new(Kind::Number, message, span).help(
+            "an automaton has a state for each step that a bound counts, and a range is written out number by number",
+        )
+    })
 }
 
 /// A literal, cut to what a message can show.

@@ -244,9 +244,10 @@ impl Expansion<'_, '_> {
     ) -> ExpressionId {
         let id = u32::try_from(self.resolved.entries.len()).expect("fewer than 2^32 expressions");
         let value = self.resolved.calculated(&expression);
+        let truth = self.resolved.known(&expression);
         let first = first.unwrap_or(ExpressionId(id));
         let ends = Vec::new();
-        let entry = Entry { expression, node, outer, first, ends, value, environment };
+        let entry = Entry { expression, node, outer, first, ends, value, truth, environment };
         self.resolved.entries.push(entry);
         ExpressionId(id)
     }

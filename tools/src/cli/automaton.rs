@@ -17,6 +17,9 @@ use super::{Automaton, Exit, Format, Outcome, Report, Streams, subject};
 const NO_FORMULA: &str =
     "C is written of formulas and tasks, and an automaton of another tool has neither";
 
+/// How one task of several is named.
+const HOW: &str = " with --task";
+
 /// Shows the automaton that the arguments name, in the form that they ask for.
 pub(super) fn run(arguments: &Automaton, streams: &mut Streams<'_>) -> Outcome {
     // What becomes code is within the limits of the macros.
@@ -32,17 +35,24 @@ pub(super) fn run(arguments: &Automaton, streams: &mut Streams<'_>) -> Outcome {
         return single(arguments, formula, budget, streams);
     }
     let Some(path) = &arguments.file else { return Err("there is no formula and no file".into()) };
+    if let (Some(text), None) = (path.to_str(), &arguments.task)
+        && !subject::looks_like_file(text)
+    {
+        return single(arguments, text, budget, streams);
+    }
     // Rust is of the file as a whole.
     let task = arguments.task.as_deref().filter(|_| arguments.format != Format::Rust);
-    match input::file(path, task, budget, streams)?.whole(streams)? {
+    let mut file = input::file(path, task, budget, streams)?;
+    if arguments.format != Format::Rust {
+        file = subject::one(file, task, HOW)?;
+    }
+    match file.whole(streams)? {
         Some(File::Tasks(file)) if arguments.format == Format::Rust => {
             streams.print(&rust::file(file.compiled()))
         }
-        Some(File::Tasks(file)) => write(
-            arguments,
-            &subject::choose(&file, arguments.task.as_deref(), " with --task")?,
-            streams,
-        ),
+        Some(File::Tasks(file)) => {
+            write(arguments, &subject::choose(&file, arguments.task.as_deref(), HOW)?, streams)
+        }
         Some(File::Automaton(_)) if arguments.task.is_some() => {
             Err(format!("{} is an automaton: it has no tasks with names", path.display()))
         }

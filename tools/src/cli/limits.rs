@@ -5,6 +5,8 @@ use std::str::FromStr;
 
 use tltl_compiler::translate::Budget;
 
+use crate::emit::labels::MOST_PRODUCTS;
+
 /// The limits that the arguments set.
 #[derive(clap::Args)]
 pub(super) struct Limits {
@@ -13,7 +15,8 @@ pub(super) struct Limits {
     /// There are `states`, `nodes` of decision diagrams (about 180 bytes each), `edges`, and
     /// `products` of one guard. `check` and `--format rust` have the limits of the
     /// macros: 16384 states, 1048576 nodes, 32768 edges, 4096 products. What is only shown has
-    /// 262144 states, 4194304 nodes and 65536 products.
+    /// 262144 states, 4194304 nodes and 65536 products, and for `explain` and `run`, which ask for
+    /// all guards, 1048576 edges.
     #[arg(long, value_delimiter = ',', value_name = "WHAT=NUMBER")]
     budget: Vec<Limit>,
 }
@@ -38,6 +41,11 @@ impl Limits {
     /// The budget of what is only shown, with these limits.
     pub(super) fn shown(&self) -> Budget {
         self.over(Budget::SHOWN)
+    }
+
+    /// The budget of what asks for the guards of all edges, with these limits.
+    pub(super) fn with_guards(&self) -> Budget {
+        self.over(Budget { edges: MOST_PRODUCTS, ..Budget::SHOWN })
     }
 
     /// A budget with these limits in the place of its own.

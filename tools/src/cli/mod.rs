@@ -160,13 +160,13 @@ enum Report {
 
 #[derive(Args)]
 struct Automaton {
-    /// The task file, or an automaton in HOA; `-` is the standard input.
-    #[arg(required_unless_present_any = ["formula", "formulas"])]
+    /// A formula, a task file, or an automaton in HOA; `-` is the standard input.
+    #[arg(value_name = "FORMULA|FILE", required_unless_present_any = ["formula", "formulas"])]
     file: Option<PathBuf>,
     /// The task of the file; may be left out if there is only one.
     #[arg(long, requires = "file")]
     task: Option<String>,
-    /// A formula whose names are free propositions.
+    /// A formula, whatever files there are.
     #[arg(long, conflicts_with_all = ["file", "formulas"])]
     formula: Option<String>,
     /// A list of formulas, one a line; `-` is the standard input.
@@ -287,7 +287,7 @@ fn run(command: Command, streams: &mut Streams<'_>) -> Outcome {
             input::check(&files, limits.over(Budget::EMITTED), format, streams)
         }
         Command::Explain { subject, task, limits } => {
-            tell::explain(&subject, task.as_deref(), limits.shown(), streams)
+            tell::explain(&subject, task.as_deref(), limits.with_guards(), streams)
         }
         Command::Diff { first, second, limits } => {
             tell::difference(&first, &second, limits.shown(), streams)

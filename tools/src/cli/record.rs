@@ -16,6 +16,7 @@ mod unique;
 use std::fmt;
 use std::io::BufRead;
 
+use tltl_compiler::ast::quoted;
 use tltl_compiler::predicate::{Numeric, Scalar};
 
 use crate::evaluate::{Input, InputKind};
@@ -109,6 +110,7 @@ fn number(text: &str, input: &Input) -> Result<f64, String> {
         (InputKind::Place(Scalar::Enum { .. }), _) => {
             let known = values.iter().position(|value| value == text);
             let Some(number) = known else {
+                let text = quoted(text);
                 return Err(format!("`{text}` is no value of `{name}`: {}", values.join(", ")));
             };
             Some(number as f64)
@@ -123,7 +125,7 @@ fn number(text: &str, input: &Input) -> Result<f64, String> {
         None => {
             let hint =
                 if is_decimal_comma(text) { ": write a decimal point, not a comma" } else { "" };
-            Err(format!("`{text}` is no `{ty}`, which `{name}` is{hint}"))
+            Err(format!("`{}` is no `{ty}`, which `{name}` is{hint}", quoted(text)))
         }
     }
 }

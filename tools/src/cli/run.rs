@@ -10,9 +10,6 @@ mod reading;
 mod written;
 
 use rustc_hash::FxHashMap;
-use tltl_compiler::translate::Budget;
-
-use crate::emit::labels::MOST_PRODUCTS;
 
 use crate::evaluate::{Input, Scratch};
 use crate::task::{Bound, Unmade};
@@ -58,10 +55,8 @@ fn reading(run: &Run, streams: &mut Streams<'_>) -> Result<Option<Reading>, Stri
         Some(task) => arguments::split(task).map(|(name, given)| (Some(name), given))?,
         None => (None, None),
     };
-    // Guards are needed, so edges and products count.
-    let budget = run.limits.over(Budget { edges: MOST_PRODUCTS, ..Budget::SHOWN });
     let given = given.unwrap_or_default();
-    match subject::read_any(subject, name, budget, streams)? {
+    match subject::read_any(subject, name, run.limits.with_guards(), streams)? {
         Made::Mistaken => Ok(None),
         Made::Whole(Subject::Automaton(automaton)) => Reading::of_automaton(*automaton).map(Some),
         Made::Whole(Subject::Task(entry)) => {
@@ -76,8 +71,7 @@ fn reading(run: &Run, streams: &mut Streams<'_>) -> Result<Option<Reading>, Stri
             }
         }
         Made::TooLarge(error, module) => {
-            let unmade = Unmade::new(*module, name)
-                .map_err(|error| subject::missing(&error, " as FILE:TASK"))?;
+            let unmade = Unmade::new(*module, name).map_err(|error| error.to_string())?;
             let parameters = unmade.parameters();
             let named = arguments::named(unmade.task().name.as_deref(), &parameters, &given)?;
             let evaluator = unmade.bind(&named).map_err(|error| error.to_string())?;

@@ -62,9 +62,9 @@ impl Streams<'_> {
         self.report(&shown(text));
     }
 
-    /// Writes a message that has colours, and else only what a terminal shows.
+    /// Writes a message that has colours, and else only what a terminal shows. It is one write.
     pub(super) fn report(&mut self, text: &str) {
-        let _ = writeln!(self.err.stream, "{text}");
+        let _ = self.err.stream.write_all(format!("{text}\n").as_bytes());
     }
 }
 

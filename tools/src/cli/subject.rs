@@ -6,9 +6,10 @@
 use std::path::Path;
 
 use tltl_compiler::dfa::Automata;
+use tltl_compiler::predicate::Module;
 use tltl_compiler::translate::Budget;
 
-use crate::task::{Entry, NoSuchTask, TaskFile};
+use crate::task::{Entry, NoSuchTask, TaskFile, Unmade};
 
 use super::Streams;
 use super::input::{self, File, Foreign, Made};
@@ -40,7 +41,7 @@ pub(super) fn read_any(
     streams: &mut Streams<'_>,
 ) -> Result<Made<Subject>, String> {
     let (path, named) = split(text);
-    if exists(path) || looks_like_file(path) || task.is_some() {
+    if looks_like_file(path) || task.is_some() {
         return file(path, once(named, task)?, budget, streams);
     }
     let formula = input::made(TaskFile::of_formula(text, budget), streams)?;
@@ -78,7 +79,7 @@ fn exists(path: &str) -> bool {
 }
 
 /// Whether a text is meant as a path.
-fn looks_like_file(path: &str) -> bool {
+pub(super) fn looks_like_file(path: &str) -> bool {
     exists(path) || path.ends_with(".tltl") || path.ends_with(".hoa")
 }
 
@@ -89,13 +90,23 @@ fn file(
     budget: Budget,
     streams: &mut Streams<'_>,
 ) -> Result<Made<Subject>, String> {
-    input::file(Path::new(path), name, budget, streams)?.map(|file| match file {
-        File::Tasks(file) => choose(&file, name, " as FILE:TASK").map(Subject::Task),
+    let how = " as FILE:TASK";
+    one(input::file(Path::new(path), name, budget, streams)?, name, how)?.map(|file| match file {
+        File::Tasks(file) => choose(&file, name, how).map(Subject::Task),
         File::Automaton(_) if name.is_some() => {
             Err(format!("{path} is an automaton: it has no tasks with names"))
         }
         File::Automaton(automaton) => Ok(Subject::Automaton(automaton)),
     })
+}
+
+/// A file of which one task is meant. If the automaton of some task is too large, it must be that
+/// one: nobody has asked for the others.
+pub(super) fn one<T>(made: Made<T>, name: Option<&str>, how: &str) -> Result<Made<T>, String> {
+    if let Made::TooLarge(_, module) = &made {
+        Unmade::new(Module::clone(module), name).map_err(|error| missing(&error, how))?;
+    }
+    Ok(made)
 }
 
 /// The task of that name, or the only one if no name is given. `how` tells how to name one.

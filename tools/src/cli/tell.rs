@@ -1,5 +1,7 @@
 //! `tltlc explain` and `tltlc diff`.
 
+use std::io::{self, Write};
+
 use tltl_compiler::error::Style;
 use tltl_compiler::translate::Budget;
 
@@ -8,7 +10,7 @@ use crate::explain::{Explanation, explain as explanation, explain_automaton};
 
 use super::streams::shown;
 use super::subject::{self, Subject};
-use super::{Exit, Outcome, Streams};
+use super::{Exit, Outcome, Output, Streams};
 
 /// Explains a task, under its formula as title.
 pub(super) fn explain(
@@ -47,6 +49,12 @@ pub(super) fn difference(
     budget: Budget,
     streams: &mut Streams<'_>,
 ) -> Outcome {
+    let mut once = Once { stream: &mut *streams.err.stream, told: Vec::new() };
+    let streams = &mut Streams {
+        input: &mut *streams.input,
+        out: Output { stream: &mut *streams.out.stream, style: streams.out.style },
+        err: Output { stream: &mut once, style: streams.err.style },
+    };
     let first = subject::read(first, None, budget, streams)?;
     let (Some(first), Some(second)) = (first, subject::read(second, None, budget, streams)?) else {
         return Ok(Exit::Mistaken);
@@ -54,6 +62,26 @@ pub(super) fn difference(
     let found = of_definitions(side(&first)?, side(&second)?);
     streams.print(&found.to_string())?;
     Ok(Exit::of(found == Difference::None))
+}
+
+/// A stream for messages that writes each of them once: two tasks of one file share its warnings.
+struct Once<'a> {
+    stream: &'a mut dyn Write,
+    told: Vec<Vec<u8>>,
+}
+
+impl Write for Once<'_> {
+    fn write(&mut self, message: &[u8]) -> io::Result<usize> {
+        if !self.told.iter().any(|told| told == message) {
+            self.stream.write_all(message)?;
+            self.told.push(message.to_vec());
+        }
+        Ok(message.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.stream.flush()
+    }
 }
 
 /// A subject as a side of a comparison, with its automaton after arithmetic.

@@ -21,6 +21,9 @@ use super::sum::{Notation, Sum};
 /// unordered goals have half as many, which are 50 MB of JSON.
 pub const MOST_PRODUCTS: usize = 1 << 20;
 
+/// The most edges that are counted to say how many there are: a third of a second.
+const MOST_COUNTED: usize = 1 << 26;
+
 /// The bytes that are put together before they are written.
 const PIECE: usize = 1 << 15;
 
@@ -293,7 +296,7 @@ fn paths(dfa: &Dfa, is_restricted: bool) -> (Size, Vec<bool>, Vec<bool>) {
         Some(to) => several[to as usize] = true,
         None => shared[f.code() as usize] = true,
     };
-    let size = dfa.survey(&mut |f| mark(f, &mut shared));
+    let size = dfa.survey(MOST_COUNTED, &mut |f| mark(f, &mut shared));
     // What is below a node that is reached in several ways is so too.
     // Nodes stand before their parents.
     for (place, Node { low, high, .. }) in nodes.iter().enumerate().rev() {

@@ -8,6 +8,8 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
+use tltl_compiler::ast::quoted;
+
 use super::lines::Lines;
 use super::place::{Place, find};
 use super::{At, number};
@@ -81,8 +83,7 @@ fn columns(header: &Rows<'_>, places: &[Place<'_>]) -> Result<Vec<usize>, String
         match find(&header, place).map_err(|what| format!("{name}: {what}"))? {
             Some(column) => columns.push(column),
             None if place.input.is_none() => {
-                let found: Vec<_> = header.iter().map(|name| format!("`{name}`")).collect();
-                let (column, found) = (place.column, found.join(", "));
+                let (column, found) = (place.column, listed(&header));
                 return Err(format!(
                     "{name}: episodes are told apart by the column `{column}`; the file has {found}"
                 ));
@@ -96,11 +97,7 @@ fn columns(header: &Rows<'_>, places: &[Place<'_>]) -> Result<Vec<usize>, String
 /// The message for a header without some of the columns.
 fn lacking(name: &str, missing: &[&str], header: &[&str]) -> String {
     let word = if missing.len() == 1 { "the column" } else { "the columns" };
-    let quoted = |names: &[&str]| {
-        let names: Vec<_> = names.iter().map(|name| format!("`{name}`")).collect();
-        names.join(", ")
-    };
-    let (lacks, found) = (quoted(missing), quoted(header));
+    let (lacks, found) = (listed(missing), listed(header));
     let mut text = format!("{name}: the task reads {word} {lacks}; the file has {found}");
     let signs = [('/', "division"), ('-', "subtraction"), ('+', "addition"), ('*', "a product")];
     for (sign, operation) in signs {
@@ -114,6 +111,17 @@ fn lacking(name: &str, missing: &[&str], header: &[&str]) -> String {
         }
     }
     text
+}
+
+/// The most names of columns that a message lists.
+const LISTED: usize = 40;
+
+/// Names of columns, as many and as much of each as a sentence bears.
+fn listed(names: &[&str]) -> String {
+    let shown = names.iter().take(LISTED).map(|name| format!("`{}`", quoted(name)));
+    let more = names.len().saturating_sub(LISTED);
+    let more = (more > 0).then(|| format!("… and {more} more"));
+    shown.chain(more).collect::<Vec<_>>().join(", ")
 }
 
 /// The rows of a file, without those that are blank.

@@ -4,6 +4,8 @@
 //! its path: `/pose/x`, `pose/x`, `joints.2`, `joints/2`, each with its unit behind it or without,
 //! `x [m]`, `x (m)`. A unit must be the one that the source declares, for numbers are not converted.
 
+use tltl_compiler::ast::quoted;
+
 use crate::evaluate::Input;
 
 /// One column that is wanted.
@@ -61,9 +63,10 @@ pub(super) fn find(names: &[&str], place: &Place<'_>) -> Result<Option<usize>, S
     let mut found = names.iter().enumerate().filter(|(_, name)| is_this(name));
     let Some((index, name)) = found.next() else { return Ok(None) };
     if let Some((_, second)) = found.next() {
+        let [first, other] = [name, second].map(|name| quoted(name.trim()));
         return Err(match name.trim() == second.trim() {
-            true => format!("two columns are called `{}`", name.trim()),
-            false => format!("`{name}` and `{second}` are both `{}`", place.column),
+            true => format!("two columns are called `{first}`"),
+            false => format!("`{first}` and `{other}` are both `{}`", place.column),
         });
     }
     check_unit(name, place).map(|()| Some(index))
@@ -74,7 +77,7 @@ fn check_unit(column: &str, place: &Place<'_>) -> Result<(), String> {
     let declared = place.input.and_then(|input| input.unit.as_deref());
     match (declared, without_unit(column).1) {
         (Some(declared), Some(unit)) if !place.is_chosen && written(declared) != written(unit) => {
-            let name = place.column;
+            let (name, column, unit) = (place.column, quoted(column), quoted(unit));
             Err(format!(
                 "the column `{column}` is in {unit}, and `{name}` is in {declared}; numbers are \
                  not converted (--map '{name}={column}' reads them as they stand)"
