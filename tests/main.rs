@@ -6,6 +6,7 @@ mod c;
 mod columns;
 mod corpus;
 mod differences;
+mod embedded;
 mod emitted;
 mod evaluate;
 mod factored;

@@ -227,6 +227,13 @@ impl Check for OnBatches {
         let one_by_one: Vec<u32> =
             before.iter().zip(&self.0).map(|(&q, s)| task.next(q, s).unwrap()).collect();
         assert_eq!(one_by_one, after, "{text}");
+        let (mut run, mut at) = (task.run(), 0);
+        for s in &self.0 {
+            let verdict = run.step(s).unwrap();
+            at = expected(at, s);
+            let decided = task.is_terminal(at).then(|| task.is_accepting(at));
+            assert_eq!((run.state(), verdict), (at, decided), "{text}");
+        }
         let mut q = before.clone();
         task.step_batch(&mut q, &self.0).unwrap();
         assert_eq!(q, after, "{text}");
@@ -274,6 +281,12 @@ fn automata_of_many_propositions_step_alike() {
         assert_eq!(q, after);
         let one_by_one = before.iter().zip(rows).map(|(&q, s)| task.next(q, s).unwrap());
         assert!(one_by_one.eq(after));
+        let (mut run, mut q) = (task.run(), 0);
+        for s in rows {
+            q = next((&q, s));
+            run.step(s).unwrap();
+            assert_eq!(run.state(), q);
+        }
     }
     check(&five(), &rows);
     check(&twelve(), &rows);

@@ -413,22 +413,29 @@ impl Automaton {
         }
     }
 
-    /// The next state from `q` under a valuation, of which bit i is proposition i.
+    /// Panics if `q` is not a state of this automaton.
+    #[inline(always)]
+    pub(crate) fn expect_state(&self, q: u32) {
+        if q >= self.tables.states {
+            no_state(q);
+        }
+    }
+
+    /// The next state of a table from `q`, which is one, under a valuation, of which bit i is
+    /// proposition i. It never panics: what is no state leads anywhere.
     #[inline(always)]
     pub(crate) fn of_letter(&self, q: u32, letter: usize) -> u32 {
         if let Some(shifts) = &self.shifts {
-            if q >= self.tables.states {
-                no_state(q);
-            }
-            return (shifts[letter % SMALL] >> (4 * q)) as u32 % SMALL as u32;
+            return shifts[letter % SMALL].wrapping_shr(4 * q) as u32 % SMALL as u32;
         }
         match &self.tables.transitions {
             Transitions::Table { class, width, next } => {
-                next[q as usize * *width as usize + usize::from(class[letter])]
+                let class = class.get(letter).copied().unwrap_or_default();
+                let entry = (q as usize).wrapping_mul(*width as usize) + usize::from(class);
+                next.get(entry).copied().unwrap_or(q)
             }
-            Transitions::Diagram { nodes, roots } => {
-                batch::descend(nodes, roots[q as usize], |i| letter >> i & 1 == 1)
-            }
+            // What has a letter is a table.
+            Transitions::Diagram { .. } => q,
         }
     }
 

@@ -294,6 +294,20 @@ pub(crate) fn letter<S: ?Sized, P: Predicates<S>>(predicates: &P, s: &S) -> (u16
     (letter, is_nan)
 }
 
+/// The first of [so many](Predicates::DENSE) predicates that is not a number at `s`; each number is
+/// written out here too, so that no predicate is asked for that there is not.
+pub(crate) fn unreadable<S: ?Sized, P: Predicates<S>>(predicates: &P, s: &S) -> usize {
+    macro_rules! each {
+        ($($i:literal)*) => {$(
+            if $i < P::DENSE && predicates.holds($i, s).is_err() {
+                return $i;
+            }
+        )*};
+    }
+    each! { 0 1 2 3 4 5 6 7 8 9 }
+    0
+}
+
 /// Robustness of a guard: max over its cubes, min over their literals, where `rho` gives the
 /// robustness of each proposition. A guard without cubes is -∞, a cube without literals +∞.
 ///

@@ -7,11 +7,13 @@
 mod batch;
 mod online;
 mod parametric;
+mod run;
 
 use core::fmt;
 
 pub use online::{Interval, Online};
 pub use parametric::Parametric;
+pub use run::Run;
 
 #[cfg(feature = "alloc")]
 use crate::automaton::TableError;
@@ -352,7 +354,10 @@ impl<P: Copy> Reader<'_, P> {
     {
         if self.is_generated && (1..=TOGETHER).contains(&P::DENSE) {
             return match robustness::letter(&self.predicates, s) {
-                (letter, false) => Ok(self.automaton.of_letter(q, letter.into())),
+                (letter, false) => {
+                    self.automaton.expect_state(q);
+                    Ok(self.automaton.of_letter(q, letter.into()))
+                }
                 _ => Err(self.unreadable(s)),
             };
         }
@@ -465,12 +470,11 @@ impl<P: Copy> Reader<'_, P> {
     /// reference, it would have to lie in memory at every step.
     #[cold]
     #[inline(never)]
-    fn unreadable<S: ?Sized>(self, s: &S) -> Error
+    pub(crate) fn unreadable<S: ?Sized>(self, s: &S) -> Error
     where
         P: Predicates<S>,
     {
-        let is_error = |i: &usize| self.predicates.holds(*i, s).is_err();
-        not_a_number(self.automaton, (0..P::DENSE).find(is_error).unwrap_or_default())
+        not_a_number(self.automaton, robustness::unreadable(&self.predicates, s))
     }
 
     pub(crate) fn satisfied<S>(&self, trajectory: &[S]) -> Result<bool, Error>
@@ -494,5 +498,6 @@ impl<P: Copy> Reader<'_, P> {
 #[cold]
 #[inline]
 fn not_a_number(automaton: &Automaton, i: usize) -> Error {
-    Error { predicate: automaton.propositions()[i].clone(), instant: None }
+    let name = automaton.propositions().get(i).cloned();
+    Error { predicate: name.unwrap_or(Shared::from_static("")), instant: None }
 }

@@ -151,7 +151,7 @@ fn letter(labels: &[bool]) -> usize {
 /// The state that a reference of a diagram leads to. To compute the next reference's place costs
 /// less than to branch on what nobody can predict.
 #[inline]
-pub(super) fn descend(nodes: &[[u32; 3]], mut at: u32, holds: impl Fn(usize) -> bool) -> u32 {
+fn descend(nodes: &[[u32; 3]], mut at: u32, holds: impl Fn(usize) -> bool) -> u32 {
     while at < Transitions::LEAF {
         let node = &nodes[at as usize];
         at = node[1 + usize::from(holds(node[0] as usize))];

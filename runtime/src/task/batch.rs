@@ -17,7 +17,8 @@ impl<P> Task<P> {
     /// it have moved, the others have not.
     ///
     /// # Panics
-    /// If `q` and `states` differ in length, or one of `q` is not a state of the automaton.
+    /// If `q` and `states` differ in length, or one of `q` is not a state of the automaton: some of
+    /// those before it have then moved.
     ///
     /// ```
     /// use tltl::tltl;
@@ -86,6 +87,8 @@ impl<P: Copy> Reader<'_, P> {
                     any |= is_nan;
                 }
                 if !any {
+                    // Asked of all before any moves, so that the moves have no branch.
+                    self.automaton.expect_state(q.iter().copied().fold(0, u32::max));
                     let moves = q.iter_mut().zip(letters);
                     moves.for_each(|(q, letter)| {
                         *q = self.automaton.of_letter(*q, (*letter).into())

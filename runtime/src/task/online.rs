@@ -3,9 +3,7 @@
 use core::array;
 use core::fmt;
 
-use super::{Error, Reader, Task};
-use crate::automaton::Automaton;
-use crate::monitor::Acceptor;
+use super::{Error, Run, Task};
 use crate::robustness::Predicates;
 use crate::robustness::typed::forward::{Forward, Once};
 use crate::robustness::typed::{BLOCK, Block, Typed};
@@ -58,9 +56,8 @@ pub struct Online<'a, P: Typed>
 where
     P::Formula: Forward<Once>,
 {
-    task: &'a Task<P>,
+    run: Run<'a, P>,
     kept: <P::Formula as Forward<Once>>::Kept,
-    q: u32,
     steps: usize,
     interval: Interval,
 }
@@ -73,8 +70,7 @@ where
     #[inline]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Online")
-            .field("task", &self.task)
-            .field("q", &self.q)
+            .field("run", &self.run)
             .field("interval", &self.interval)
             .finish_non_exhaustive()
     }
@@ -93,11 +89,9 @@ impl<P> Task<P> {
         P: Typed,
         P::Formula: Forward<Once>,
     {
-        assert!(self.is_generated, "the predicates were generated with another formula");
         Online {
-            task: self,
+            run: self.run(),
             kept: P::Formula::NEW,
-            q: Automaton::INITIAL,
             steps: 0,
             interval: Interval { lower: f64::NEG_INFINITY, upper: f64::INFINITY },
         }
@@ -118,28 +112,27 @@ where
     where
         P: Predicates<S>,
     {
-        let at = self.steps;
-        // `Task::online` has asserted it; said here, the other way to step is no code.
-        let reader = Reader { is_generated: true, ..self.task.reader() };
-        let next = match reader.next(self.q, s) {
+        let (at, task) = (self.steps, self.run.task);
+        let next = match self.run.next(s) {
             Ok(next) => next,
             Err(error) => return Err(at_instant(error, at)),
         };
         if P::DENSE == 0 {
             // The automaton has not looked at all predicates.
-            for i in 0..self.task.automaton.propositions().len() {
-                if let Err(error) = self.task.predicate_robustness(i, s) {
+            for i in 0..task.automaton.propositions().len() {
+                if let Err(error) = task.predicate_robustness(i, s) {
                     return Err(at_instant(error, at));
                 }
             }
         }
-        let (rows, predicates) = (array::from_ref(s), &self.task.predicates);
+        let (rows, predicates) = (array::from_ref(s), &task.predicates);
         let (first, length, mut is_nan) = (at, at + 1, [0; BLOCK]);
         let mut row = Block { first, length, rows, predicates, is_nan: &mut is_nan };
         let (now, never) =
             (if at == 0 { f64::INFINITY } else { f64::NEG_INFINITY }, f64::NEG_INFINITY);
         let [lower, upper] = P::Formula::step(&mut self.kept, now, never, &mut row);
-        (self.q, self.steps, self.interval) = (next, length, Interval { lower, upper });
+        self.run.set(next);
+        (self.steps, self.interval) = (length, Interval { lower, upper });
         Ok(self.interval)
     }
 
@@ -150,8 +143,7 @@ where
     #[must_use]
     #[inline]
     pub fn verdict(&self) -> Option<bool> {
-        let is_accepting = self.task.is_accepting(self.q);
-        (is_accepting || self.task.is_trap(self.q)).then_some(is_accepting)
+        self.run.verdict()
     }
 
     /// The robustness so far, and what it can still become.
@@ -165,7 +157,7 @@ where
     #[must_use]
     #[inline]
     pub fn state(&self) -> u32 {
-        self.q
+        self.run.state()
     }
 }
 

@@ -127,11 +127,11 @@ pub struct Queue<const C: usize> {
 }
 
 impl<const C: usize> Queue<C> {
-    /// The cell of entry `i`.
+    /// The cell of entry `i`, of up to `C`. The least keeps a panic out of the code.
     #[inline(always)]
     fn cell(&self, i: usize) -> usize {
         let cell = self.first + i;
-        if cell < C { cell } else { cell - C }
+        if cell < C { cell } else { (cell - C).min(C - 1) }
     }
 
     #[inline(always)]
@@ -158,7 +158,7 @@ impl<const C: usize> Starts for Queue<C> {
 
     #[inline]
     fn forget(&mut self, t: usize) {
-        while self.length > 0 && self.instants[self.first] < t {
+        while self.length > 0 && self.instants[self.cell(0)] < t {
             self.pop_first();
         }
     }
@@ -166,20 +166,20 @@ impl<const C: usize> Starts for Queue<C> {
     #[inline]
     fn lower(&mut self, rho: f64) {
         let mut newest = None;
-        while self.length > 0 && self.weights[self.first] > rho {
-            newest = Some(self.instants[self.first]);
+        while self.length > 0 && self.weights[self.cell(0)] > rho {
+            newest = Some(self.instants[self.cell(0)]);
             self.pop_first();
         }
         if let Some(instant) = newest {
             self.first = self.first.checked_sub(1).unwrap_or(C - 1);
-            (self.weights[self.first], self.instants[self.first]) = (rho, instant);
+            (self.weights[self.cell(0)], self.instants[self.cell(0)]) = (rho, instant);
             self.length += 1;
         }
     }
 
     #[inline(always)]
     fn best(&self) -> f64 {
-        if self.length > 0 { self.weights[self.first] } else { NONE }
+        if self.length > 0 { self.weights[self.cell(0)] } else { NONE }
     }
 }
 

@@ -13,7 +13,7 @@ use super::Unfollowed;
 
 /// A longer formula is not followed: with what is shared written out, its code would have no end.
 const OPERATORS: usize = 256;
-/// The cells of all windows together; the monitor has up to 10 bytes for each.
+/// The cells of all windows together; the monitor has 10 to 26 bytes for each.
 const CELLS: usize = 4096;
 
 /// The parts of a monitor that depend on the formula.

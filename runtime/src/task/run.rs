@@ -1,0 +1,115 @@
+//! The automaton's run on a trajectory, one state at a time.
+
+use core::fmt;
+
+use super::{Error, Reader, Task};
+use crate::automaton::Automaton;
+use crate::monitor::Acceptor;
+use crate::robustness::{self, Predicates};
+
+/// The run of a task's automaton on one trajectory: a state `q` that is never anything else.
+///
+/// [`Task::next`] takes the state from its caller and has to look whether it is one. Here it is known
+/// to be, so for a compiled task of up to ten predicates whose automaton is a table a step has no panic
+/// in it, and a binary that only steps links none.
+///
+/// ```
+/// use tltl::tltl;
+///
+/// let task = tltl! { |x: &f64| ({ *x } > 3) T ({ *x } < 1) };
+/// let mut run = task.run();
+/// assert_eq!(run.step(&5.0)?, None);
+/// assert_eq!(run.step(&0.5)?, Some(true));
+/// assert_eq!(run.state(), 2);
+/// # Ok::<(), tltl::task::Error>(())
+/// ```
+pub struct Run<'a, P> {
+    pub(super) task: &'a Task<P>,
+    q: u32,
+}
+
+/// Where it stands.
+impl<P> fmt::Debug for Run<'_, P> {
+    #[inline]
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Run").field("task", &self.task).field("q", &self.q).finish()
+    }
+}
+
+impl<P> Clone for Run<'_, P> {
+    #[inline]
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<P> Copy for Run<'_, P> {}
+
+impl<P> Task<P> {
+    /// The run on a trajectory, before its first state.
+    ///
+    /// # Panics
+    /// If the task was put together of predicates and another formula, by [`Task::new`].
+    #[must_use]
+    #[track_caller]
+    #[inline]
+    pub fn run(&self) -> Run<'_, P> {
+        assert!(self.is_generated, "the predicates were generated with another formula");
+        Run { task: self, q: Automaton::INITIAL }
+    }
+}
+
+impl<P> Run<'_, P> {
+    /// Reads the next state, and gives the [verdict](Self::verdict) after it.
+    ///
+    /// # Errors
+    /// If a predicate that decides the move is not a number. The run stays where it was.
+    // Inlined, so that the state stays in a register.
+    #[inline(always)]
+    pub fn step<S: ?Sized>(&mut self, s: &S) -> Result<Option<bool>, Error>
+    where
+        P: Predicates<S>,
+    {
+        self.q = self.next(s)?;
+        Ok(self.verdict())
+    }
+
+    /// The state after `s`.
+    #[inline(always)]
+    pub(super) fn next<S: ?Sized>(&self, s: &S) -> Result<u32, Error>
+    where
+        P: Predicates<S>,
+    {
+        // `Task::run` has asserted that predicates and automaton belong together.
+        if P::DENSE > 0 {
+            return match robustness::letter(&self.task.predicates, s) {
+                (letter, false) => Ok(self.task.automaton.of_letter(self.q, letter.into())),
+                _ => Err(self.task.reader().unreadable(s)),
+            };
+        }
+        let reader = Reader { is_generated: true, ..self.task.reader() };
+        reader.next(self.q, s)
+    }
+
+    /// Moves to a state that [`next`](Self::next) gave.
+    #[inline(always)]
+    pub(super) fn set(&mut self, q: u32) {
+        self.q = q;
+    }
+
+    /// Whether the task is satisfied (`true`) or lost (`false`), as soon as it is decided; `None`
+    /// while it can still go either way.
+    #[must_use]
+    #[inline]
+    pub fn verdict(&self) -> Option<bool> {
+        let is_accepting = self.task.is_accepting(self.q);
+        (is_accepting || self.task.is_trap(self.q)).then_some(is_accepting)
+    }
+
+    /// The state of the automaton.
+    #[must_use]
+    #[inline]
+    pub fn state(&self) -> u32 {
+        self.q
+    }
+}
