@@ -252,6 +252,11 @@ fn recordings_of_other_programs_are_read_or_named() {
         (b"{\"x\":0,\"y\":0,\"z\":\"\xe9\"}\n{\"x\":3,\"y\":2}", satisfied),
         (b"\xff\xfex\0,\0y\0\n\0", "this is UTF-16; save it as UTF-8"),
         (b"\0x\0,\0y\0\n", "this is UTF-16; save it as UTF-8"),
+        (
+            b"PAR1\x15\x04",
+            if cfg!(feature = "parquet") { "not Parquet" } else { "--features parquet" },
+        ),
+        (b"PAR1,x,y\n,0,0\n,3,2", satisfied),
         (b"\n# nothing\n", "a trajectory has at least one state, and this has none"),
     ] {
         std::fs::write(&path, bytes).unwrap();

@@ -191,7 +191,8 @@ struct Run {
     #[arg(value_name = "FILE|FORMULA")]
     subject: String,
     /// The trajectories, one state a row; `-` is the standard input. CSV, JSON Lines, a JSON array
-    /// of objects, or a JSON object of columns. Columns have the names of the state's fields: `x`,
+    /// of objects, or a JSON object of columns; Parquet, if `tltlc` is built with
+    /// `--features parquet`. Columns have the names of the state's fields: `x`,
     /// `pose.x`, `joints[2]`; also `/pose/x`, `joints.2`, `x [m]`. Others are ignored.
     #[arg(required = true, value_name = "TRACE")]
     traces: Vec<PathBuf>,

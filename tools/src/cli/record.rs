@@ -1,4 +1,4 @@
-//! Recorded trajectories, one state a row: CSV, JSON Lines, and JSON as one document.
+//! Recorded trajectories, one state a row: CSV, JSON Lines, JSON as one document, and Parquet.
 //!
 //! Columns are matched to the places that the task reads by their [names](place). Other columns are
 //! ignored, so a log need not be cut to the task. Every number must be one of its type: an overflow,
@@ -10,11 +10,14 @@
 mod delimited;
 mod json;
 mod lines;
+#[cfg(feature = "parquet")]
+mod parquet;
 mod place;
 mod unique;
 
 use std::fmt;
 use std::io::BufRead;
+use std::path::Path;
 
 use tltl_compiler::ast::quoted;
 use tltl_compiler::predicate::{Numeric, Scalar};
@@ -54,18 +57,26 @@ pub(super) struct Record<'a> {
 enum Rows<'a> {
     Delimited(Delimited<'a>),
     Json(Json<'a>),
+    #[cfg(feature = "parquet")]
+    Parquet(Box<parquet::Parquet<'a>>),
     /// There is nothing to read.
     None,
 }
 
 impl<'a> Record<'a> {
-    /// A recording; `name` is its name in messages. One whose first line, comments apart, begins
-    /// with `{` or `[` is JSON, any other CSV.
+    /// A recording; `name` is its name in messages. One that begins as Parquet does is read from
+    /// `path`; of the others, one whose first line, comments apart, begins with `{` or `[` is JSON,
+    /// any other CSV.
     pub(super) fn new(
         name: &'a str,
-        reader: Box<dyn BufRead + 'a>,
+        path: &Path,
+        mut reader: Box<dyn BufRead + 'a>,
         places: &'a [Place<'a>],
     ) -> Result<Self, String> {
+        let start = reader.fill_buf().map_err(|error| format!("cannot read {name}: {error}"))?;
+        if is_parquet(start) {
+            return Ok(Self { places, rows: Rows::parquet(name, path, places)? });
+        }
         let mut lines = Lines::new(name, reader)?;
         let rows = match lines.first()? {
             None => Rows::None,
@@ -85,9 +96,36 @@ impl<'a> Record<'a> {
         match &mut self.rows {
             Rows::Delimited(rows) => rows.next(self.places, values, episode),
             Rows::Json(rows) => rows.next(self.places, values, episode),
+            #[cfg(feature = "parquet")]
+            Rows::Parquet(rows) => rows.next(self.places, values, episode),
             Rows::None => Ok(None),
         }
     }
+}
+
+impl<'a> Rows<'a> {
+    #[cfg(feature = "parquet")]
+    fn parquet(name: &'a str, path: &Path, places: &[Place<'_>]) -> Result<Self, String> {
+        if path == Path::new("-") {
+            return Err("Parquet is read from its end, so not from the standard input".into());
+        }
+        parquet::Parquet::open(name, path, places).map(Box::new).map(Self::Parquet)
+    }
+
+    #[cfg(not(feature = "parquet"))]
+    fn parquet(name: &str, _: &Path, _: &[Place<'_>]) -> Result<Self, String> {
+        Err(format!(
+            "{name}: this is Parquet, which `tltlc` reads if it is built with `--features parquet`; or \
+             make it CSV: python -c \"import pandas; \
+             pandas.read_parquet('run.parquet').to_csv('run.csv', index=False)\""
+        ))
+    }
+}
+
+/// Whether a file that begins so is Parquet, and not the CSV of a column called `PAR1`.
+fn is_parquet(start: &[u8]) -> bool {
+    let is_text = |byte: &u8| !byte.is_ascii_control() || b"\t\r\n".contains(byte);
+    start.starts_with(b"PAR1") && !start.get(4).is_none_or(is_text)
 }
 
 /// Whether every number is one of the input's type.

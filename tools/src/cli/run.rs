@@ -35,7 +35,7 @@ pub(super) fn run(run: &Run, streams: &mut Streams<'_>) -> Outcome {
     let mut writer = Writer::new(run, &reading);
     for path in &run.traces {
         let name = path.display().to_string();
-        let record = Record::new(&name, open(streams.input, path)?, &places)?;
+        let record = Record::new(&name, path, open(streams.input, path)?, &places)?;
         let mut following = Following::new(&reading, &name, run.episode.as_deref());
         following.read(record, &mut |text| streams.out.print(text), &mut writer)?;
         if following.followed.is_empty() {

@@ -33,7 +33,9 @@ impl<'a> Delimited<'a> {
         if !rows.next(|_| false)? {
             return Ok(None);
         }
-        let columns = columns(&rows, places)?;
+        let header: Vec<_> = (0..rows.fields.len()).map(|column| rows.field(column)).collect();
+        let header: Vec<&str> = header.iter().map(|column| &**column).collect();
+        let columns = columns(rows.lines.name, &header, places)?;
         Ok(Some(Self { width: rows.fields.len(), columns, rows }))
     }
 
@@ -72,18 +74,20 @@ impl<'a> Delimited<'a> {
     }
 }
 
-/// The column of each place. All missing columns are reported at once.
-fn columns(header: &Rows<'_>, places: &[Place<'_>]) -> Result<Vec<usize>, String> {
-    let name = header.lines.name;
-    let header: Vec<_> = (0..header.fields.len()).map(|column| header.field(column)).collect();
-    let header: Vec<&str> = header.iter().map(|column| &**column).collect();
+/// The column of each place in a file that has columns of these names. All missing columns are
+/// reported at once.
+pub(super) fn columns(
+    name: &str,
+    header: &[&str],
+    places: &[Place<'_>],
+) -> Result<Vec<usize>, String> {
     let mut columns = Vec::new();
     let mut missing = Vec::new();
     for place in places {
-        match find(&header, place).map_err(|what| format!("{name}: {what}"))? {
+        match find(header, place).map_err(|what| format!("{name}: {what}"))? {
             Some(column) => columns.push(column),
             None if place.input.is_none() => {
-                let (column, found) = (place.column, listed(&header));
+                let (column, found) = (place.column, listed(header));
                 return Err(format!(
                     "{name}: episodes are told apart by the column `{column}`; the file has {found}"
                 ));
@@ -91,7 +95,7 @@ fn columns(header: &Rows<'_>, places: &[Place<'_>]) -> Result<Vec<usize>, String
             None => missing.push(place.column),
         }
     }
-    if missing.is_empty() { Ok(columns) } else { Err(lacking(name, &missing, &header)) }
+    if missing.is_empty() { Ok(columns) } else { Err(lacking(name, &missing, header)) }
 }
 
 /// The message for a header without some of the columns.
