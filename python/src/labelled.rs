@@ -1,6 +1,7 @@
 //! A task on the states of a model: the table that is solved and learned.
 
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
 use tltl::Acceptor;
 use tltl::augmented::Labelled;
 use tltl::reward::Rewards;
@@ -33,37 +34,53 @@ pub(crate) fn task_of(task: &Bound<'_, PyAny>) -> PyResult<Task> {
     Ok(task.cast_into::<Task>()?.get().clone())
 }
 
-/// The robustness of the propositions in each state of the model: of an array of shape (states,
-/// propositions), or by asking a function for each state, `labels(s)` or `labels(s, event)`.
-fn rows(model: &FiniteModel, task: &Task, labels: &Bound<'_, PyAny>) -> PyResult<Vec<Vec<f64>>> {
-    if !labels.is_callable() {
-        let (states, width) = (model.dynamics.states(), task.names().len());
-        let all = task.rows_of(labels, states)?;
-        return Ok((0..states).map(|s| all[s * width..][..width].to_vec()).collect());
-    }
-    let events = model.events(labels.py());
-    let ask = |(s, &origin): (usize, &i32)| {
-        let told = match events.is_empty() {
-            true => labels.call1((origin,)),
-            false => labels.call1((origin, events.get_item(s)?)),
-        }?;
-        labels::robustness(task.names(), &told)
-    };
-    model.origins().iter().enumerate().map(ask).collect()
+/// The states of a world as its labels are asked for them, and the number of its actions.
+pub(crate) struct States<'py> {
+    /// The arguments of the label function for each state.
+    pub(crate) arguments: Vec<Bound<'py, PyTuple>>,
+    pub(crate) actions: usize,
 }
 
-/// The task on the states of `model`, with the robustness that `rewards` need.
+impl FiniteModel {
+    /// A state is asked for by its number in the tables, and by its event if there are some.
+    pub(crate) fn named<'py>(&self, py: Python<'py>) -> PyResult<States<'py>> {
+        let events = self.events(py);
+        let arguments = |(s, &origin): (usize, &i32)| match events.is_empty() {
+            true => (origin,).into_pyobject(py),
+            false => (origin, events.get_item(s)?).into_pyobject(py),
+        };
+        let arguments =
+            self.origins().iter().enumerate().map(arguments).collect::<PyResult<_>>()?;
+        Ok(States { arguments, actions: self.dynamics.actions() })
+    }
+}
+
+/// The robustness of the propositions in each state: of an array of shape (states, propositions), or
+/// by asking a function for each of them.
+fn rows(states: &States<'_>, task: &Task, labels: &Bound<'_, PyAny>) -> PyResult<Vec<Vec<f64>>> {
+    if !labels.is_callable() {
+        let (count, width) = (states.arguments.len(), task.names().len());
+        let all = task.rows_of(labels, count)?;
+        return Ok((0..count).map(|s| all[s * width..][..width].to_vec()).collect());
+    }
+    let ask = |arguments: &Bound<'_, PyTuple>| {
+        labels::robustness(task.names(), &labels.call1(arguments)?)
+    };
+    states.arguments.iter().map(ask).collect()
+}
+
+/// The task on these states, with the robustness that `rewards` need.
 pub(crate) fn labelled(
-    model: &FiniteModel,
+    states: &States<'_>,
     task: &Task,
     labels: &Bound<'_, PyAny>,
     rewards: Option<&Rewards>,
 ) -> PyResult<Labelled> {
-    let rows = rows(model, task, labels)?;
+    let rows = rows(states, task, labels)?;
     let (formula, automaton) = (task.inner.formula().clone(), task.automaton().clone());
     let monitor = tltl::Task::new(task.inner.name().to_owned(), formula, automaton, Row);
     let monitor = monitor.map_err(|error| wrong(error.to_string()))?;
-    let actions = (0..model.dynamics.actions()).map(|a| a.to_string());
+    let actions = (0..states.actions).map(|a| a.to_string());
     let needs_robustness = rewards.is_some_and(Rewards::needs_robustness);
     labels.py().detach(|| {
         let labelled = Labelled::new(rows.clone(), actions, &monitor);

@@ -1,29 +1,32 @@
-//! `tltl.Learner`: the tabular learner of the crate, in a finite model.
+//! `tltl.Learner`: the tabular learner of the crate, in a finite model or in an environment.
 
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
 use tltl::augmented::Labelled;
-use tltl::env::ModelEnv;
 use tltl::learn::{self, Checkpoint};
 
 use super::array::frozen;
 use super::certificate::Certificate;
 use super::error::wrong;
 use super::labelled::{labelled, task_of};
-use super::model::{FiniteModel, Source};
+use super::model::FiniteModel;
 use super::policy::Policy;
 use super::settings::Settings;
 use super::solution::Solution;
 use super::task::Task;
+use super::world::World;
 
-/// Steps after which Python may interrupt: some milliseconds.
-const SLICE: u64 = 200_000;
-
-/// A tabular learner of a task in a finite model, of which it sees samples only.
+/// A tabular learner of a task in a finite world, of which it sees samples only.
 ///
-/// `labels` as for `solve`. All that is random comes from `seed`: the same arguments give the same
-/// policy. No Python runs while it learns, and other threads do.
+/// The world is a `FiniteModel`, and then no Python runs while it learns, and other threads do. Or it
+/// is an environment of Gymnasium whose observations and actions are numbers (`Discrete`,
+/// `MultiDiscrete`, `MultiBinary`, or `Tuple` of them), which are numbered from 0, the last axis
+/// fastest. What ends an episode there is the environment's own matter, and an exception in it stops
+/// training, with what was learned until then.
+///
+/// `labels` as for `solve`, of an observation for an environment. All that is random comes from
+/// `seed`: the same arguments give the same policy.
 ///
 /// >>> import gymnasium as gym
 /// >>> from tltl import FiniteModel, Learner, solve
@@ -36,8 +39,9 @@ const SLICE: u64 = 200_000;
 #[pyclass(module = "tltl")]
 pub struct Learner {
     inner: learn::Learner,
-    env: ModelEnv<Source>,
-    model: Py<FiniteModel>,
+    world: World,
+    /// The world as it was given.
+    given: Py<PyAny>,
     task: Task,
 }
 
@@ -47,7 +51,7 @@ impl Learner {
     }
 
     pub(crate) fn horizon(&self) -> Option<u64> {
-        self.model.get().horizon
+        Python::attach(|py| Some(self.given.bind(py).cast::<FiniteModel>().ok()?.get().horizon))?
     }
 
     fn labelled(&self) -> &Labelled {
@@ -58,10 +62,9 @@ impl Learner {
 #[pymethods]
 impl Learner {
     #[new]
-    #[pyo3(signature = (model, task, labels, *, settings=None, seed=0))]
+    #[pyo3(signature = (world, task, labels, *, settings=None, seed=0))]
     fn new(
-        py: Python<'_>,
-        model: Bound<'_, FiniteModel>,
+        world: Bound<'_, PyAny>,
         task: &Bound<'_, PyAny>,
         labels: &Bound<'_, PyAny>,
         settings: Option<Settings>,
@@ -69,11 +72,10 @@ impl Learner {
     ) -> PyResult<Self> {
         let task = task_of(task)?;
         let settings = settings.map_or_else(learn::Settings::default, |settings| settings.0);
-        let labelled = labelled(model.get(), &task, labels, Some(&settings.rewards()))?;
-        let source = model.get().source.clone();
-        let env = py.detach(|| ModelEnv::new(source)).map_err(|error| wrong(error.to_string()))?;
-        let inner = learn::Learner::new(&labelled, settings, seed);
-        Ok(Self { inner, env, model: model.unbind(), task })
+        let (given, world) = (world.clone().unbind(), World::new(&world, seed)?);
+        let states = world.states(given.bind(labels.py()))?;
+        let labelled = labelled(&states, &task, labels, Some(&settings.rewards()))?;
+        Ok(Self { inner: learn::Learner::new(&labelled, settings, seed), world, given, task })
     }
 
     /// Trains until so many steps have been taken in all, and returns the learner. Episodes are whole,
@@ -84,9 +86,8 @@ impl Learner {
         let py = learner.py();
         while learner.inner.steps() < steps {
             let before = learner.inner.steps();
-            let total = steps.min(before + SLICE);
-            let Self { inner, env, .. } = &mut *learner;
-            py.detach(|| inner.train(env, total)).map_err(|error| wrong(error.to_string()))?;
+            let Self { inner, world, .. } = &mut *learner;
+            world.train(py, inner, steps)?;
             py.check_signals()?;
             if learner.inner.steps() == before {
                 return Err(wrong("the task is decided at every start that was drawn"));
@@ -129,13 +130,17 @@ impl Learner {
         if self.inner.settings().memory() == learn::Memory::None {
             return Err(wrong("nothing is remembered: settings.remember is False"));
         }
-        FiniteModel::seen(py, self.model.get(), self.inner.experience().clone())
+        let seen = self.inner.experience().clone();
+        match self.given.bind(py).cast::<FiniteModel>() {
+            Ok(model) => model.get().as_seen(py, seen),
+            Err(_) => FiniteModel::seen(py, seen),
+        }
     }
 
-    /// The model that it learns in.
+    /// What it learns in.
     #[getter]
-    fn world(&self, py: Python<'_>) -> Py<FiniteModel> {
-        self.model.clone_ref(py)
+    fn world(&self, py: Python<'_>) -> Py<PyAny> {
+        self.given.clone_ref(py)
     }
 
     #[getter]

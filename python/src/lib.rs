@@ -9,7 +9,7 @@
 //! | `rewards` | what moves pay |
 //! | `model`, `labelled` | finite worlds, and tasks on their states |
 //! | `solution`, `certificate`, `shield` | what is optimal, what policies are worth, what is allowed |
-//! | `settings`, `learner`, `policy` | learning, and what is learned |
+//! | `settings`, `world`, `learner`, `policy` | learning, and what is learned |
 //! | `composition` | skills that become new ones |
 //! | `values` | what tasks take and give, as data |
 //! | `error` | mistakes of a source into exceptions and warnings |
@@ -38,6 +38,7 @@ mod solution;
 mod states;
 mod task;
 mod values;
+mod world;
 
 use std::ffi::OsString;
 use std::io::{stderr, stdin, stdout};

@@ -136,15 +136,22 @@ impl FiniteModel {
         &self.origin
     }
 
-    /// The world as it was seen, with the frequencies as probabilities; `like` has the names.
-    pub(crate) fn seen(py: Python<'_>, like: &Self, seen: Experience) -> PyResult<Self> {
+    /// The world as it was seen in this one, with the frequencies as probabilities.
+    pub(crate) fn as_seen(&self, py: Python<'_>, seen: Experience) -> PyResult<Self> {
+        let (origin, event) = (self.origin.clone(), self.event.clone_ref(py));
+        Ok(Self { origin, event, horizon: self.horizon, ..Self::seen(py, seen)? })
+    }
+
+    /// The world as it was seen: states are called by their numbers.
+    pub(crate) fn seen(py: Python<'_>, seen: Experience) -> PyResult<Self> {
         let dynamics = py.detach(|| Dynamics::new(&seen));
+        let dynamics = dynamics.map_err(|error| wrong(error.to_string()))?;
         Ok(Self {
+            origin: (0..dynamics.states() as i32).collect(),
+            event: PyTuple::empty(py).unbind(),
+            horizon: None,
             source: Source::Seen(Arc::new(seen)),
-            dynamics: dynamics.map_err(|error| wrong(error.to_string()))?,
-            horizon: like.horizon,
-            origin: like.origin.clone(),
-            event: like.event.clone_ref(py),
+            dynamics,
         })
     }
 

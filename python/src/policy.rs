@@ -230,7 +230,7 @@ impl Policy {
         task: &Bound<'_, PyAny>,
         labels: &Bound<'_, PyAny>,
     ) -> PyResult<()> {
-        let own = labelled(model, &task_of(task)?, labels, None)?;
+        let own = labelled(&model.named(labels.py())?, &task_of(task)?, labels, None)?;
         let problem = Problem::new(&model.dynamics, &own);
         let fits = problem.and_then(|problem| problem.satisfied_within(&self.0, 0));
         fits.map(|_| ()).map_err(|error| wrong(error.to_string()))

@@ -37,7 +37,7 @@ pub(crate) fn solve(
     if rewards.needs_robustness() {
         return Err(wrong("rewards: models are not solved for the mode `robustness`"));
     }
-    let labelled = labelled(model, &task, labels, None)?;
+    let labelled = labelled(&model.named(py)?, &task, labels, None)?;
     let optimum = py.detach(|| {
         let problem = Problem::new(&model.dynamics, &labelled);
         problem.map(|problem| problem.optimum(&rewards))

@@ -17,6 +17,7 @@ from typing import Any
 import gymnasium as gym
 import numpy as np
 import pytest
+from gymnasium import spaces
 from test_solve import cells
 
 from tltl import (
@@ -30,6 +31,7 @@ from tltl import (
     compose,
     solve,
 )
+from tltl._spaces import numbered
 
 LAKE = ["SFFF", "FHFH", "FFFH", "HFFG"]
 
@@ -309,3 +311,100 @@ def test_skills_compose_to_the_task(
         compose(operator, [learners[0], Learner(lake, other, holes, settings=settings)])
     with pytest.raises(ValueError, match="none are given"):
         compose(operator, [])
+
+
+class Grid(gym.Env[Any, Any]):
+    """3 × 4 cells as observations of any kind; the far corner ends the episode and pays."""
+
+    MOVES = np.array([[-1, 0], [1, 0], [0, -1], [0, 1]])
+
+    def __init__(self, kind: str, fails_after: int = -1) -> None:
+        self.kind, self.left = kind, fails_after
+        self.seeds: list[int | None] = []
+        self.observation_space = {
+            "digits": spaces.MultiDiscrete([3, 4], start=[1, 5]),
+            "bits": spaces.MultiBinary((2, 2)),
+            "tuple": spaces.Tuple([spaces.Discrete(3), spaces.Discrete(4, start=-2)]),
+        }[kind]
+        self.action_space = spaces.Tuple([spaces.MultiBinary(1), spaces.Discrete(2)])
+
+    def seen(self) -> Any:
+        x, y = map(int, self.cell)
+        if self.kind == "digits":
+            return np.array([x + 1, y + 5])
+        if self.kind == "bits":
+            return np.array([[x // 2, x % 2], [y // 2, y % 2]], np.int8)
+        return (x, y - 2)
+
+    def reset(self, *, seed: int | None = None, options: Any = None) -> tuple[Any, dict[str, Any]]:
+        super().reset(seed=seed)
+        self.seeds.append(seed)
+        self.cell = np.zeros(2, int)
+        return self.seen(), {}
+
+    def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
+        assert self.action_space.contains(action)
+        if self.left == 0:
+            raise RuntimeError("the wire is cut")
+        self.left -= 1
+        (axis,), up = action
+        self.cell = np.clip(self.cell + self.MOVES[2 * axis + up], 0, [2, 3])
+        end = tuple(self.cell) == (2, 3)
+        return self.seen(), float(end), end, False, {}
+
+
+LABELS: dict[str, Any] = {
+    "digits": lambda obs: {"right": obs[1] == 8, "up": obs[0] == 3 and obs[1] == 5},
+    "bits": lambda obs: {"right": obs[1].all(), "up": obs[0, 0] and not obs[1].any()},
+    "tuple": lambda obs: {"right": obs[1] == 1, "up": obs == (2, -2)},
+}
+
+
+@pytest.mark.parametrize("kind", LABELS)
+def test_environments_are_learned_in(kind: str) -> None:
+    env = Grid(kind)
+    learner = Learner(env, "up T right", LABELS[kind], seed=5).train(3_000)
+    assert env.seeds[0] == 5 and set(env.seeds[1:]) == {None} and learner.world is env
+    policy = learner.policy()
+    count, number, _ = numbered(env.observation_space)
+    _, _, action = numbered(env.action_space)
+    assert policy.table.shape == (3, count)
+    (obs, _), steps = env.reset(), 0
+    q, over = policy.reset(number(obs)), False
+    while not over:
+        obs, _, over, _, _ = env.step(action(policy(q, number(obs))))
+        q, steps = policy.next(q, number(obs)), steps + 1
+    assert (q, steps) == (2, 5), "the corner above, and then to the right"
+    # An exception stops training, and what was learned is kept.
+    broken = Learner(Grid(kind, fails_after=100), "up T right", LABELS[kind], seed=5)
+    with pytest.raises(RuntimeError, match="the wire is cut"):
+        broken.train(3_000)
+    assert broken.steps == 100
+    seen = Learner(env, "up T right", LABELS[kind], seed=5).train(80)
+    assert seen.steps < 300 and seen.experience.num_states == count
+
+
+def test_a_lake_as_an_environment_is_the_lake(lake: FiniteModel) -> None:
+    env = gym.make("FrozenLake-v1")
+    learner = Learner(env, "corner T goal", cells, seed=1).train(60_000)
+    worth = learner.certify(solve(lake, "corner T goal", cells))
+    assert worth.regret_satisfied < 0.02
+    with pytest.raises(ValueError, match="cannot be numbered: a table needs Discrete"):
+        Learner(gym.make("CartPole-v1"), "F x", cells)
+
+
+@pytest.mark.parametrize(
+    "space",
+    [
+        spaces.Discrete(5, start=-2),
+        spaces.MultiDiscrete(np.array([[2, 3], [4, 1]]), start=np.array([[0, 1], [-1, 7]])),
+        spaces.MultiBinary(3),
+        spaces.Tuple([spaces.Discrete(2), spaces.MultiBinary(2), spaces.Discrete(3, start=1)]),
+    ],
+)
+def test_elements_are_numbered_one_to_one(space: Any) -> None:
+    count, number, element = numbered(space)
+    elements = [element(i) for i in range(count)]
+    assert [number(x) for x in elements] == list(range(count))
+    assert all(space.contains(x) for x in elements)
+    assert len({str(x) for x in elements}) == count

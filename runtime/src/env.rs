@@ -13,6 +13,7 @@
 
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
+use core::convert::Infallible;
 
 use rand::Rng;
 
@@ -170,6 +171,108 @@ pub trait FiniteEnv: Env {
     fn step_index<R: Rng + ?Sized>(&mut self, action: usize, rng: &mut R) -> Step<usize> {
         let Step { reward, terminated, truncated, .. } = self.step(action, rng);
         Step { state: self.state_index(), reward, terminated, truncated }
+    }
+}
+
+/// A finite environment that may fail: one behind a wire, or in another language.
+///
+/// [`Learner::train`](crate::learn::Learner::train) takes it as it takes a [`FiniteEnv`], every one of which is one
+/// that never fails. Where it fails, training stops, and nothing is learned from the step that was not
+/// taken.
+///
+/// ```
+/// use tltl::env::FallibleEnv;
+/// use tltl::learn::TrainError;
+/// use tltl::prelude::*;
+/// use tltl::rand::Rng;
+///
+/// /// A lamp that is switched by telegraph, while there is a line.
+/// struct Lamp { lit: usize, left: u32 }
+///
+/// struct NoLine;
+/// impl From<NoLine> for TrainError {
+///     fn from(_: NoLine) -> Self {
+///         Self::Environment
+///     }
+/// }
+///
+/// impl FallibleEnv for Lamp {
+///     type Error = NoLine;
+///     fn states(&self) -> usize {
+///         2
+///     }
+///     fn actions(&self) -> usize {
+///         2
+///     }
+///     fn try_reset<R: Rng + ?Sized>(&mut self, _: &mut R) -> Result<usize, NoLine> {
+///         Ok(0)
+///     }
+///     fn try_step<R: Rng + ?Sized>(&mut self, a: usize, _: &mut R) -> Result<Step<usize>, NoLine> {
+///         self.left = self.left.checked_sub(1).ok_or(NoLine)?;
+///         self.lit = a;
+///         Ok(Step::to(self.lit))
+///     }
+/// }
+///
+/// let task = Labelled::new(0..2, ["off", "on"], &tltl! { |s: &usize| F ({ *s } == 1) })?;
+/// let mut learner = Learner::new(&task, Settings::default(), 1);
+/// let error = learner.train(&mut Lamp { lit: 0, left: 50 }, 1_000).unwrap_err();
+/// assert_eq!((error, learner.steps()), (TrainError::Environment, 50), "what was learned is kept");
+/// assert_eq!(learner.policy().act(0, 0), 1);
+/// # Ok::<(), tltl::augmented::LabelError>(())
+/// ```
+pub trait FallibleEnv {
+    /// Why it fails.
+    type Error;
+
+    /// The number of states; they are numbered `0..states()`.
+    fn states(&self) -> usize;
+
+    /// The number of actions; they are numbered `0..actions()`.
+    fn actions(&self) -> usize;
+
+    /// Starts an episode; the number of its first state.
+    ///
+    /// # Errors
+    /// If it cannot start one.
+    fn try_reset<R: Rng + ?Sized>(&mut self, rng: &mut R) -> Result<usize, Self::Error>;
+
+    /// Takes an action; the number of the new state.
+    ///
+    /// # Errors
+    /// If it cannot take it.
+    fn try_step<R: Rng + ?Sized>(
+        &mut self,
+        action: usize,
+        rng: &mut R,
+    ) -> Result<Step<usize>, Self::Error>;
+}
+
+impl<E: FiniteEnv> FallibleEnv for E {
+    type Error = Infallible;
+
+    #[inline(always)]
+    fn states(&self) -> usize {
+        FiniteEnv::states(self)
+    }
+
+    #[inline(always)]
+    fn actions(&self) -> usize {
+        Env::actions(self)
+    }
+
+    #[inline(always)]
+    fn try_reset<R: Rng + ?Sized>(&mut self, rng: &mut R) -> Result<usize, Infallible> {
+        Ok(self.reset_index(rng))
+    }
+
+    #[inline(always)]
+    fn try_step<R: Rng + ?Sized>(
+        &mut self,
+        action: usize,
+        rng: &mut R,
+    ) -> Result<Step<usize>, Infallible> {
+        Ok(self.step_index(action, rng))
     }
 }
 

@@ -491,7 +491,7 @@ class Settings:
 class Learner:
     def __new__(
         cls,
-        model: FiniteModel,
+        world: Any,
         task: Task | str,
         labels: _Labels,
         *,
@@ -506,7 +506,7 @@ class Learner:
     @property
     def experience(self) -> FiniteModel: ...
     @property
-    def world(self) -> FiniteModel: ...
+    def world(self) -> Any: ...
     @property
     def task(self) -> Task: ...
     @property

@@ -21,7 +21,7 @@ use super::table::{
 };
 use super::{Checkpoint, Experience, Settings, TrainError};
 use crate::augmented::Labelled;
-use crate::env::FiniteEnv;
+use crate::env::FallibleEnv;
 use crate::episode::{self, Agent, Elapsed};
 use crate::mismatch::Mismatch;
 use crate::model::Dynamics;
@@ -111,8 +111,12 @@ impl Learner {
     /// ```
     ///
     /// # Errors
-    /// If the environment is of another world, or pays what is not a finite number.
-    pub fn train<E: FiniteEnv>(&mut self, env: &mut E, total: u64) -> Result<(), TrainError> {
+    /// If the environment is of another world, pays what is not a finite number, or fails.
+    pub fn train<E: FallibleEnv<Error: Into<TrainError>>>(
+        &mut self,
+        env: &mut E,
+        total: u64,
+    ) -> Result<(), TrainError> {
         // Grids have four actions, or five with one that stays; other numbers take the general loop.
         match (self.task().actions(), self.settings.is_papers(), self.settings.updates_values()) {
             (4, _, false) => self.run::<_, _, Survey>(env, Fixed::<4>, total),
@@ -128,7 +132,7 @@ impl Learner {
 
     /// Trains in a loop that was made for a number of actions and a recipe: a fifth faster than
     /// one that asks for them at every step.
-    fn run<E: FiniteEnv, W: Width, C: Recipe>(
+    fn run<E: FallibleEnv<Error: Into<TrainError>>, W: Width, C: Recipe>(
         &mut self,
         env: &mut E,
         width: W,
@@ -190,7 +194,7 @@ impl Learner {
     ///
     /// # Errors
     /// As [`Self::train`], or if the shield is of another task.
-    pub fn train_shielded<E: FiniteEnv>(
+    pub fn train_shielded<E: FallibleEnv<Error: Into<TrainError>>>(
         &mut self,
         env: &mut E,
         shield: &mut Shield,
@@ -206,7 +210,7 @@ impl Learner {
     #[inline(always)]
     fn run_as<
         'a,
-        E: FiniteEnv,
+        E: FallibleEnv<Error: Into<TrainError>>,
         W: Width,
         C: Recipe,
         A: Agent<State = usize, Error = TrainError>,

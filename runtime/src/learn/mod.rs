@@ -65,6 +65,8 @@ pub enum TrainError {
     NotANumber(task::Error),
     /// The environment paid what is not a finite number, at this step, counted from 1.
     Reward(u64),
+    /// The environment failed, and knows why: a [`FallibleEnv`](crate::env::FallibleEnv).
+    Environment,
 }
 
 impl fmt::Display for TrainError {
@@ -73,6 +75,7 @@ impl fmt::Display for TrainError {
         match self {
             Self::Mismatch(error) => error.fmt(f),
             Self::NotANumber(error) => error.fmt(f),
+            Self::Environment => f.write_str("the environment failed"),
             Self::Reward(step) => write!(f, "the reward of step {step} is not a finite number"),
         }
     }

@@ -10,7 +10,6 @@
 //! table, so entries are indexed without a second look.
 
 use alloc::vec::Vec;
-use core::convert::Infallible;
 use core::marker::PhantomData;
 
 use rand::Rng;
@@ -18,7 +17,7 @@ use rand::Rng;
 use super::coverage::Coverage;
 use super::{Experience, Settings, TrainError};
 use crate::augmented::{Labelled, Payment};
-use crate::env::{FiniteEnv, Step, below, unit};
+use crate::env::{FallibleEnv, Step, below, unit};
 use crate::episode::{Agent, Monitored, Move, Transition};
 use crate::q::{argmax, largest};
 use crate::reward::Rewards;
@@ -79,13 +78,13 @@ impl<'a, E> IndexedWorld<'a, E> {
     }
 }
 
-impl<E: FiniteEnv> Monitored for IndexedWorld<'_, E> {
+impl<E: FallibleEnv> Monitored for IndexedWorld<'_, E> {
     type State = usize;
-    type Error = Infallible;
+    type Error = E::Error;
 
     #[inline(always)]
-    fn reset<R: Rng + ?Sized>(&mut self, rng: &mut R) -> Result<usize, Infallible> {
-        Ok(self.env.reset_index(rng))
+    fn reset<R: Rng + ?Sized>(&mut self, rng: &mut R) -> Result<usize, E::Error> {
+        self.env.try_reset(rng)
     }
 
     #[inline(always)]
@@ -93,12 +92,12 @@ impl<E: FiniteEnv> Monitored for IndexedWorld<'_, E> {
         &mut self,
         action: usize,
         rng: &mut R,
-    ) -> Result<Step<usize>, Infallible> {
-        Ok(self.env.step_index(action, rng))
+    ) -> Result<Step<usize>, E::Error> {
+        self.env.try_step(action, rng)
     }
 
     #[inline(always)]
-    fn read(&self, q: u32, step: &Step<usize>) -> Result<Move, Infallible> {
+    fn read(&self, q: u32, step: &Step<usize>) -> Result<Move, E::Error> {
         let Move { to, mut reward, over } = self.moves[(self.kind[step.state] + q) as usize];
         if step.terminated {
             reward = self.pays_last(q, step.state);
