@@ -247,9 +247,13 @@ pub struct Automaton {
 }
 
 /// An automaton of up to so many states and valuations also has its transition function as shifts: a
-/// number for each valuation, in which the four bits from 4q on are the state after q. A step then
-/// waits for the state before it through a shift and a mask, and not through a look-up.
+/// number for each valuation, in which the four bits from 4q + 2 on are the state after q. A step then
+/// waits for the state before it through a rotation and a mask, and not through a look-up. Rotated by
+/// 4q, a number has four times the next state, so whoever keeps that rotates by it as it is.
 const SMALL: usize = 16;
+
+/// The bits of four times a state.
+const PLACE: u32 = 4 * SMALL as u32 - 4;
 
 #[cold]
 #[inline(never)]
@@ -270,6 +274,7 @@ const fn shifts(states: u32, class: &[u16], width: u32, next: &[u32]) -> Option<
             shifts[letter] |= (to as u64) << (4 * q);
             q += 1;
         }
+        shifts[letter] = shifts[letter].rotate_left(2);
         letter += 1;
     }
     Some(shifts)
@@ -421,13 +426,53 @@ impl Automaton {
         }
     }
 
-    /// The next state of a table from `q`, which is one, under a valuation, of which bit i is
-    /// proposition i. It never panics: what is no state leads anywhere.
+    /// Panics if one of `q` is not a state of this automaton.
+    #[inline(always)]
+    pub(crate) fn expect_states(&self, q: &[u32]) {
+        // The highest bit of the difference tells, or that of q itself: a comparison without a sign takes
+        // vectors of SSE2 several instructions.
+        let last = self.tables.states - 1;
+        if q.iter().fold(0, |all, &q| all | q | last.wrapping_sub(q)) >> 31 != 0 {
+            q.iter().for_each(|&q| self.expect_state(q));
+        }
+    }
+
+    /// Where a run is that is in state `q`: a number that [`move_on`](Self::move_on) takes.
+    #[inline(always)]
+    pub(crate) fn place(&self, q: u32) -> u32 {
+        if self.shifts.is_some() { 4 * q } else { q }
+    }
+
+    /// The state of a place.
+    #[inline(always)]
+    pub(crate) fn state(&self, place: u32) -> u32 {
+        if self.shifts.is_some() { place / 4 } else { place }
+    }
+
+    /// The next place of a run through a table under a valuation, of which bit i is proposition i. It
+    /// never panics: what is no place leads anywhere.
+    #[inline(always)]
+    pub(crate) fn move_on(&self, place: u32, letter: usize) -> u32 {
+        match &self.shifts {
+            Some(shifts) => shifts[letter % SMALL].rotate_right(place) as u32 & PLACE,
+            None => self.look_up(place, letter),
+        }
+    }
+
+    /// The next state of a table from `q`, which is one, under a valuation. It never panics either.
     #[inline(always)]
     pub(crate) fn of_letter(&self, q: u32, letter: usize) -> u32 {
-        if let Some(shifts) = &self.shifts {
-            return shifts[letter % SMALL].wrapping_shr(4 * q) as u32 % SMALL as u32;
+        match &self.shifts {
+            // The first rotation does not wait for `q`.
+            Some(shifts) => {
+                shifts[letter % SMALL].rotate_right(2).wrapping_shr(4 * q) as u32 % SMALL as u32
+            }
+            None => self.look_up(q, letter),
         }
+    }
+
+    #[inline(always)]
+    fn look_up(&self, q: u32, letter: usize) -> u32 {
         match &self.tables.transitions {
             Transitions::Table { class, width, next } => {
                 let class = class.get(letter).copied().unwrap_or_default();

@@ -279,13 +279,14 @@ impl<S: ?Sized, P: Predicates<S>> Predicates<S> for &P {
 /// Each number is written out, so that each predicate is inlined, and errors are looked at together:
 /// a branch for each costs more than the comparison.
 #[inline(always)]
-pub(crate) fn letter<S: ?Sized, P: Predicates<S>>(predicates: &P, s: &S) -> (u16, bool) {
+pub(crate) fn letter<S: ?Sized, P: Predicates<S>>(predicates: &P, s: &S) -> (usize, bool) {
     let (mut letter, mut is_nan) = (0, false);
     macro_rules! each {
         ($($i:literal)*) => {$(
             if $i < P::DENSE {
                 let holds = predicates.holds($i, s);
-                letter |= u16::from(holds == Ok(true)) << $i;
+                // What is not a number counts as true: "greater or unordered" is one comparison.
+                letter |= usize::from(holds.unwrap_or(true)) << $i;
                 is_nan |= holds.is_err();
             }
         )*};
@@ -296,6 +297,8 @@ pub(crate) fn letter<S: ?Sized, P: Predicates<S>>(predicates: &P, s: &S) -> (u16
 
 /// The first of [so many](Predicates::DENSE) predicates that is not a number at `s`; each number is
 /// written out here too, so that no predicate is asked for that there is not.
+#[cold]
+#[inline(never)]
 pub(crate) fn unreadable<S: ?Sized, P: Predicates<S>>(predicates: &P, s: &S) -> usize {
     macro_rules! each {
         ($($i:literal)*) => {$(

@@ -328,11 +328,6 @@ impl<S: ?Sized, P: Predicates<S>> Monitor<S> for Task<P> {
     }
 }
 
-/// Up to so many predicates are evaluated together for a step, and one after the other beyond, with a
-/// branch for each that may not be a number: together, two predicates take 0.6 of the time, and eight
-/// 1.2 times as much.
-const TOGETHER: usize = 4;
-
 /// Reads states for an automaton that someone else holds: a task, or one of the parts of a factored
 /// task, for which a [`Task`] would count references at every step.
 #[derive(Clone, Copy)]
@@ -352,11 +347,11 @@ impl<P: Copy> Reader<'_, P> {
     where
         P: Predicates<S>,
     {
-        if self.is_generated && (1..=TOGETHER).contains(&P::DENSE) {
+        if self.is_generated && P::DENSE > 0 {
             return match robustness::letter(&self.predicates, s) {
                 (letter, false) => {
                     self.automaton.expect_state(q);
-                    Ok(self.automaton.of_letter(q, letter.into()))
+                    Ok(self.automaton.of_letter(q, letter))
                 }
                 _ => Err(self.unreadable(s)),
             };
@@ -466,10 +461,10 @@ impl<P: Copy> Reader<'_, P> {
         }
     }
 
-    /// The error of a state at which a predicate is not a number. It takes itself by value: by
-    /// reference, it would have to lie in memory at every step.
-    #[cold]
-    #[inline(never)]
+    /// The error of a state at which a predicate is not a number.
+    // Inlined but for the search: rustc then sees that it is an error, and a loop that ends with one keeps
+    // what it knows of the task in registers.
+    #[inline(always)]
     pub(crate) fn unreadable<S: ?Sized>(self, s: &S) -> Error
     where
         P: Predicates<S>,
@@ -495,8 +490,7 @@ impl<P: Copy> Reader<'_, P> {
 }
 
 /// The error of predicate `i`.
-#[cold]
-#[inline]
+#[inline(always)]
 fn not_a_number(automaton: &Automaton, i: usize) -> Error {
     let name = automaton.propositions().get(i).cloned();
     Error { predicate: name.unwrap_or(Shared::from_static("")), instant: None }

@@ -169,6 +169,19 @@ fn steps(trajectory: &[Sample]) {
             all
         },
     );
+    compare(
+        "run, 2 predicates",
+        n,
+        || by_hand::steps(black_box(trajectory)),
+        || {
+            let (mut run, mut all) = (task.run(), 0);
+            for sample in black_box(trajectory) {
+                run.step(sample).unwrap();
+                all += u64::from(run.state());
+            }
+            all
+        },
+    );
     let (x, y): (Vec<f64>, Vec<f64>) = trajectory.iter().map(|s| (s.x, s.y)).unzip();
     let [mut q, mut r] = [vec![0; n], vec![0; n]];
     compare(

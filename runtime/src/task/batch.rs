@@ -5,9 +5,10 @@ use core::borrow::Borrow;
 use super::{Error, Reader, Task};
 use crate::robustness::{Predicates, letter};
 
-/// The states whose predicates are evaluated before any of them moves: the predicates of a block do
-/// not depend on each other, so they are computed several at once.
-const BLOCK: usize = 64;
+/// Above this bit of a state of the automaton its letter is kept, between the pass that evaluates all
+/// predicates and the one that moves. Each pass is a loop without a branch: the first is vectorised where
+/// states come from columns, and no buffer is needed. Tables have up to 4,096 states and 1,024 letters.
+const LETTER: u32 = 16;
 
 impl<P> Task<P> {
     /// Moves many automaton states, each on a state of its own world: `q[i] = δ(q[i], states[i])`.
@@ -17,8 +18,7 @@ impl<P> Task<P> {
     /// it have moved, the others have not.
     ///
     /// # Panics
-    /// If `q` and `states` differ in length, or one of `q` is not a state of the automaton: some of
-    /// those before it have then moved.
+    /// If `q` and `states` differ in length, or one of `q` is not a state of the automaton.
     ///
     /// ```
     /// use tltl::tltl;
@@ -30,6 +30,7 @@ impl<P> Task<P> {
     /// # Ok::<(), tltl::task::Error>(())
     /// ```
     #[track_caller]
+    #[inline(always)]
     pub fn step_batch<S>(&self, q: &mut [u32], states: &[S]) -> Result<(), Error>
     where
         P: Predicates<S>,
@@ -39,7 +40,11 @@ impl<P> Task<P> {
     }
 
     /// The same, where `state(i)` makes state i: from columns, say, which need not become rows in
-    /// memory first.
+    /// memory first. It is called once for each i, in their order, and again from the start if a
+    /// predicate is not a number.
+    ///
+    /// rustc makes vector instructions of it if it sees that indices are in range: slice the columns,
+    /// `&x[..q.len()]`, before the call.
     ///
     /// # Errors
     /// As [`step_batch`](Self::step_batch).
@@ -58,6 +63,7 @@ impl<P> Task<P> {
     /// assert_eq!(q, [0, 1, 0]);
     /// # Ok::<(), tltl::task::Error>(())
     /// ```
+    #[inline(always)]
     pub fn step_batch_of<S>(&self, q: &mut [u32], state: impl Fn(usize) -> S) -> Result<(), Error>
     where
         P: Predicates<S>,
@@ -67,7 +73,8 @@ impl<P> Task<P> {
 }
 
 impl<P: Copy> Reader<'_, P> {
-    #[inline]
+    // Inlined, so that rustc sees where the states come from.
+    #[inline(always)]
     fn step_batch<S, B: Borrow<S>>(
         &self,
         q: &mut [u32],
@@ -76,30 +83,39 @@ impl<P: Copy> Reader<'_, P> {
     where
         P: Predicates<S>,
     {
-        for (block, q) in q.chunks_mut(BLOCK).enumerate() {
-            let first = block * BLOCK;
-            if self.is_generated && P::DENSE > 0 {
-                let (mut letters, mut any) = ([0; BLOCK], false);
-                let letters = &mut letters[..q.len()];
-                for (i, to) in letters.iter_mut().enumerate() {
-                    let (letter, is_nan) = letter(&self.predicates, state(first + i).borrow());
-                    *to = letter;
-                    any |= is_nan;
-                }
-                if !any {
-                    // Asked of all before any moves, so that the moves have no branch.
-                    self.automaton.expect_state(q.iter().copied().fold(0, u32::max));
-                    let moves = q.iter_mut().zip(letters);
-                    moves.for_each(|(q, letter)| {
-                        *q = self.automaton.of_letter(*q, (*letter).into())
-                    });
-                    continue;
-                }
-            }
+        if self.is_generated && P::DENSE > 0 && self.automaton.tables().states < 1 << LETTER {
+            self.automaton.expect_states(q);
+            let mut any = false;
             for (i, q) in q.iter_mut().enumerate() {
-                let moved = self.next(*q, state(first + i).borrow());
-                *q = moved.map_err(|error| Error { instant: Some(first + i), ..error })?;
+                let (letter, is_nan) = letter(&self.predicates, state(i).borrow());
+                *q |= (letter as u32) << LETTER;
+                any |= is_nan;
             }
+            let states = (1 << LETTER) - 1;
+            if !any {
+                q.iter_mut().for_each(|q| {
+                    *q = self.automaton.of_letter(*q & states, (*q >> LETTER) as usize);
+                });
+                return Ok(());
+            }
+            q.iter_mut().for_each(|q| *q &= states);
+        }
+        self.one_by_one(q, state)
+    }
+
+    /// Until there is an error.
+    #[inline(never)]
+    fn one_by_one<S, B: Borrow<S>>(
+        &self,
+        q: &mut [u32],
+        state: impl Fn(usize) -> B,
+    ) -> Result<(), Error>
+    where
+        P: Predicates<S>,
+    {
+        for (i, q) in q.iter_mut().enumerate() {
+            let moved = self.next(*q, state(i).borrow());
+            *q = moved.map_err(|error| Error { instant: Some(i), ..error })?;
         }
         Ok(())
     }

@@ -25,14 +25,15 @@ use crate::robustness::{self, Predicates};
 /// ```
 pub struct Run<'a, P> {
     pub(super) task: &'a Task<P>,
-    q: u32,
+    /// The [place](Automaton::place) of its state.
+    place: u32,
 }
 
 /// Where it stands.
 impl<P> fmt::Debug for Run<'_, P> {
     #[inline]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Run").field("task", &self.task).field("q", &self.q).finish()
+        f.debug_struct("Run").field("task", &self.task).field("q", &self.state()).finish()
     }
 }
 
@@ -55,7 +56,7 @@ impl<P> Task<P> {
     #[inline]
     pub fn run(&self) -> Run<'_, P> {
         assert!(self.is_generated, "the predicates were generated with another formula");
-        Run { task: self, q: Automaton::INITIAL }
+        Run { task: self, place: self.automaton.place(Automaton::INITIAL) }
     }
 }
 
@@ -70,11 +71,11 @@ impl<P> Run<'_, P> {
     where
         P: Predicates<S>,
     {
-        self.q = self.next(s)?;
+        self.place = self.next(s)?;
         Ok(self.verdict())
     }
 
-    /// The state after `s`.
+    /// The place after `s`.
     #[inline(always)]
     pub(super) fn next<S: ?Sized>(&self, s: &S) -> Result<u32, Error>
     where
@@ -83,18 +84,18 @@ impl<P> Run<'_, P> {
         // `Task::run` has asserted that predicates and automaton belong together.
         if P::DENSE > 0 {
             return match robustness::letter(&self.task.predicates, s) {
-                (letter, false) => Ok(self.task.automaton.of_letter(self.q, letter.into())),
+                (letter, false) => Ok(self.task.automaton.move_on(self.place, letter)),
                 _ => Err(self.task.reader().unreadable(s)),
             };
         }
         let reader = Reader { is_generated: true, ..self.task.reader() };
-        reader.next(self.q, s)
+        Ok(self.task.automaton.place(reader.next(self.state(), s)?))
     }
 
-    /// Moves to a state that [`next`](Self::next) gave.
+    /// Moves to a place that [`next`](Self::next) gave.
     #[inline(always)]
-    pub(super) fn set(&mut self, q: u32) {
-        self.q = q;
+    pub(super) fn set(&mut self, place: u32) {
+        self.place = place;
     }
 
     /// Whether the task is satisfied (`true`) or lost (`false`), as soon as it is decided; `None`
@@ -102,14 +103,15 @@ impl<P> Run<'_, P> {
     #[must_use]
     #[inline]
     pub fn verdict(&self) -> Option<bool> {
-        let is_accepting = self.task.is_accepting(self.q);
-        (is_accepting || self.task.is_trap(self.q)).then_some(is_accepting)
+        let q = self.state();
+        let is_accepting = self.task.is_accepting(q);
+        (is_accepting || self.task.is_trap(q)).then_some(is_accepting)
     }
 
     /// The state of the automaton.
     #[must_use]
     #[inline]
     pub fn state(&self) -> u32 {
-        self.q
+        self.task.automaton.state(self.place)
     }
 }
