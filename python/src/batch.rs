@@ -56,6 +56,9 @@ impl Task {
             return Err(wrong("q: wanted is an array of shape (n,)"));
         }
         let count = u64::from(self.inner.states());
+        if let Some(states) = array.states(self.inner.states()) {
+            return Ok(states);
+        }
         let states = array.naturals().ok_or_else(|| {
             PyTypeError::new_err("q: automaton states are whole numbers from 0 on")
         })?;

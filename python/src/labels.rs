@@ -1,6 +1,7 @@
 //! What holds in a state: a mapping of names, the names of what holds, or an array in the order of
 //! the propositions. A number is a robustness, and holds if it is positive.
 
+use numpy::PyUntypedArray;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyFloat, PyFrozenSet, PyMapping, PySet, PyString};
 use tltl::Shared;
@@ -19,7 +20,9 @@ pub(crate) fn robustness(
     propositions: &[Shared<str>],
     labels: &Bound<'_, PyAny>,
 ) -> PyResult<Vec<f64>> {
-    if let Ok(mapping) = labels.cast::<PyMapping>() {
+    // Asked first, for what is an array is asked at every step, and whether it is a mapping takes long.
+    let is_array = labels.cast_exact::<PyUntypedArray>().is_ok();
+    if !is_array && let Ok(mapping) = labels.cast::<PyMapping>() {
         return propositions.iter().map(|name| of_mapping(mapping, name)).collect();
     }
     if labels.is_instance_of::<PySet>() || labels.is_instance_of::<PyFrozenSet>() {

@@ -9,7 +9,7 @@
 //! | `rewards` | what moves pay |
 //! | `model`, `labelled` | finite worlds, and tasks on their states |
 //! | `solution`, `certificate`, `shield` | what is optimal, what policies are worth, what is allowed |
-//! | `settings`, `world`, `learner`, `policy` | learning, and what is learned |
+//! | `settings`, `world`, `learner`, `policy`, `network` | learning, and what is learned |
 //! | `composition` | skills that become new ones |
 //! | `values` | what tasks take and give, as data |
 //! | `error` | mistakes of a source into exceptions and warnings |
@@ -30,6 +30,7 @@ mod labels;
 mod learner;
 mod model;
 mod monitor;
+mod network;
 mod policy;
 mod rewards;
 mod settings;
@@ -63,6 +64,8 @@ mod _core {
     use super::model::FiniteModel;
     #[pymodule_export]
     use super::monitor::Monitor;
+    #[pymodule_export]
+    use super::network::NetworkPolicy;
     #[pymodule_export]
     use super::policy::Policy;
     #[pymodule_export]

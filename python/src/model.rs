@@ -246,6 +246,57 @@ impl FiniteModel {
         })
     }
 
+    /// The world as stored steps show it, with frequencies as probabilities: step i is from `states[i]`
+    /// under `actions[i]` to `next_states[i]`, all of shape (n,), and ends the episode where
+    /// `terminated[i]`. `starts`, of any length, are first states of episodes; without them each state
+    /// that was met is a start alike.
+    ///
+    /// An action that was never tried in a state stays there. The order of the steps does not matter,
+    /// so they may come from any policy and any task: `solve` and `compose` on this world are learning
+    /// and composition from stored experience.
+    ///
+    /// Raises `ValueError` if a state or an action is out of range.
+    #[staticmethod]
+    #[pyo3(signature = (states, actions, next_states, *, num_states, num_actions, terminated=None, starts=None))]
+    #[allow(clippy::too_many_arguments, reason = "each is a column of the steps")]
+    fn from_experience(
+        py: Python<'_>,
+        states: &Bound<'_, PyAny>,
+        actions: &Bound<'_, PyAny>,
+        next_states: &Bound<'_, PyAny>,
+        num_states: usize,
+        num_actions: usize,
+        terminated: Option<&Bound<'_, PyAny>>,
+        starts: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
+        // Numbers of states are 32 bits, one of which says whether the episode ended.
+        let sized = (1..1 << 31).contains(&num_states) && num_actions > 0;
+        if !sized || num_states.checked_mul(num_actions).is_none_or(|cells| cells > 1 << 32) {
+            return Err(wrong("num_states, num_actions: a world needs some, and not so many"));
+        }
+        let from = self::indices(states, "states", num_states - 1)?;
+        let count = from.len();
+        let by = expect(self::indices(actions, "actions", num_actions - 1)?, "actions", count)?;
+        let to = self::indices(next_states, "next_states", num_states - 1)?;
+        let to = expect(to, "next_states", count)?;
+        let ends = terminated.map(|ends| numbers(ends, "terminated")).transpose()?;
+        let ends = ends.map(|ends| expect(ends, "terminated", count)).transpose()?;
+        let starts =
+            starts.map(|starts| self::indices(starts, "starts", num_states - 1)).transpose()?;
+        let mut seen = Experience::new(num_states, num_actions);
+        for (i, (&s, (&a, &next))) in from.iter().zip(by.iter().zip(&to)).enumerate() {
+            match ends.as_ref().is_some_and(|ends| ends[i] > 0.0) {
+                true => seen.push_ending(s, a, next),
+                false => seen.push(s, a, next),
+            }
+        }
+        let mut met = from;
+        met.sort_unstable();
+        met.dedup();
+        starts.unwrap_or(met).into_iter().for_each(|s| seen.push_start(s));
+        Self::seen(py, seen)
+    }
+
     /// The world of Gymnasium's tables: `P[state][action]` are outcomes (probability, next state,
     /// reward, done), for states and actions numbered from 0.
     ///

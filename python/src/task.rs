@@ -337,7 +337,10 @@ impl Task {
             let (found, wanted) = (target.len(), states.len());
             return Err(wrong(format!("out: {found} states; wanted are {wanted}")));
         }
-        target.iter_mut().zip(states).for_each(|(to, q)| *to = q);
+        match target.as_slice_mut() {
+            Some(target) => target.copy_from_slice(&states),
+            None => target.iter_mut().zip(states).for_each(|(to, q)| *to = q),
+        }
         Ok(out.as_any().clone())
     }
 

@@ -408,3 +408,53 @@ def test_elements_are_numbered_one_to_one(space: Any) -> None:
     assert [number(x) for x in elements] == list(range(count))
     assert all(space.contains(x) for x in elements)
     assert len({str(x) for x in elements}) == count
+
+
+def test_stored_steps_are_a_world(lake: FiniteModel) -> None:
+    """Skills and their composition from steps that somebody else took."""
+    env: Any = gym.make("FrozenLake-v1")
+    rng = np.random.default_rng(3)
+    steps: list[tuple[int, int, int, bool]] = []
+    starts: list[int] = []
+    env.reset(seed=3)
+    while len(steps) < 40_000:
+        obs, done = int(env.reset()[0]), False
+        starts.append(obs)
+        while not done:
+            action = int(rng.integers(4))
+            to, _, terminated, truncated, _ = env.step(action)
+            steps.append((obs, action, int(to), terminated))
+            obs, done = int(to), terminated or truncated
+    columns = [np.array(column) for column in zip(*steps, strict=True)]
+    s, a, to, ended = columns
+    seen = FiniteModel.from_experience(
+        s, a, to, terminated=ended, starts=starts, num_states=16, num_actions=4
+    )
+    # P(goal in one step) is a frequency; three steps are then a sum of products.
+    once = solve(seen, "F goal", cells).certify(np.ones((2, 16), int), within=1)
+    assert once.satisfied_within == 0.0
+    from_14 = FiniteModel.from_experience(
+        s, a, to, terminated=ended, starts=[14], num_states=16, num_actions=4
+    )
+    once = solve(from_14, "F goal", cells).certify(np.ones((2, 16), int), within=1)
+    at = (s == 14) & (a == 1)
+    assert once.satisfied_within == pytest.approx(np.mean(to[at] == 15), abs=1e-12)
+    skills = [solve(seen, task, cells) for task in ("F corner", "F goal")]
+    both = compose("then", skills)
+    worth = both.solve(lake).certify(both.policy)
+    assert worth.regret_satisfied < 0.02
+    shuffled = rng.permutation(len(s))
+    again = FiniteModel.from_experience(
+        s[shuffled], a[shuffled], to[shuffled], terminated=ended[shuffled], starts=starts,
+        num_states=16, num_actions=4,
+    )
+    assert np.allclose(solve(again, "F goal", cells).satisfied, skills[1].satisfied, atol=1e-9)
+    for wrong, message in (
+        ({"num_states": 9}, r"states\[\d+\] is \d+, and the largest is 8"),
+        ({"num_actions": 3}, r"actions\[\d+\] is 3, and the largest is 2"),
+        ({"num_actions": 0}, "a world needs some"),
+        ({"terminated": [True]}, "terminated: 1 entries"),
+    ):
+        options: dict[str, Any] = {"num_states": 16, "num_actions": 4} | wrong
+        with pytest.raises(ValueError, match=message):
+            FiniteModel.from_experience(s, a, to, **options)

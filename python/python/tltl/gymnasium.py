@@ -173,6 +173,10 @@ class TaskEnv(gym.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
         self._see(obs)
         return self._observe(obs, self._q), paid, over, truncated, {**info, "tltl": told}
 
+    def observed(self, obs: Any, q: int) -> Any:
+        """What the agent sees where the environment shows `obs` and the automaton is in `q`."""
+        return self._observe(obs, q)
+
     def action_masks(self) -> NDArray[np.bool_]:
         """What the shield allows now: bool, of shape (actions,).
 

@@ -1,0 +1,16 @@
+"""The pages of the Python package; every block is executed when they are built."""
+
+import tltl
+
+project = "tltl"
+version = release = tltl.__version__
+extensions = ["myst_nb", "sphinx.ext.autodoc"]
+html_theme = "furo"
+html_title = "tltl for Python"
+exclude_patterns = ["_build"]
+nb_execution_mode = "force"
+nb_execution_raise_on_error = True
+nb_execution_timeout = 120
+myst_enable_extensions = ["colon_fence"]
+autodoc_member_order = "bysource"
+autodoc_typehints = "none"

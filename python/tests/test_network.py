@@ -1,0 +1,84 @@
+"""Network policies as documents, against a forward pass in NumPy."""
+
+from __future__ import annotations
+
+import json
+import pickle
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tltl import NetworkPolicy, Task
+
+
+def document(task: Task, seed: int) -> tuple[dict[str, Any], list[Any]]:
+    """A random network of 4 inputs, 8 and 5 hidden units, 3 actions and a head for each live state."""
+    rng = np.random.default_rng(seed)
+    live = task.num_states - (task.accepting is not None) - (task.trap is not None)
+    widths = [4, 8, 5, 3 * live]
+    layers = [
+        (rng.normal(size=shape).astype(np.float32), rng.normal(size=shape[1]).astype(np.float32))
+        for shape in zip(widths, widths[1:], strict=False)
+    ]
+    shape = {"inputs": 4, "hidden": [8, 5], "heads": live, "actions": 3, "entities": 0, "channels": 0}
+    ends = {"accepting": task.accepting, "trap": task.trap}
+    return {
+        "format": "tltl-network-policy",
+        "version": 1,
+        "task": "walk",
+        "formula": task.text,
+        "actions": ["wait", "left", "right"],
+        "automaton": {"states": task.num_states, "initial": task.initial, **ends},
+        "training": [],
+        "network": {
+            "shape": shape,
+            "layers": [
+                {"weights": w.ravel().tolist(), "bias": bias.tolist()} for w, bias in layers
+            ],
+        },
+    }, layers
+
+
+def test_a_network_is_its_document(tmp_path: Path) -> None:
+    task = Task("F a && F b ensuring !c")
+    told, layers = document(task, 1)
+    policy = NetworkPolicy.from_json(json.dumps(told))
+    assert policy.formula == task.text and "4 inputs" in repr(policy)
+    live = [q for q in range(task.num_states) if q not in (task.accepting, task.trap)]
+    for x in np.random.default_rng(2).normal(size=(50, 4)).astype(np.float32):
+        at = x.astype(np.float64)
+        for i, (w, bias) in enumerate(layers):
+            at = at @ w + bias
+            at = np.maximum(at, 0) if i < 2 else at
+        for head, q in enumerate(live):
+            expected = at[3 * head : 3 * head + 3]
+            assert np.allclose(policy.values(q, x), expected, rtol=1e-4, atol=1e-5)
+            assert policy.act(q, x) == policy.values(q, x).argmax()
+    policy.save(tmp_path / "network.json")
+    for other in (NetworkPolicy.load(tmp_path / "network.json"), pickle.loads(pickle.dumps(policy))):
+        assert other == policy
+    tool = [sys.executable, "-m", "tltl", "policy", str(tmp_path / "network.json")]
+    emitted = subprocess.run(tool, capture_output=True, text=True, check=True).stdout
+    assert policy.emit_rust(tmp_path / "network.rs") == emitted
+    assert (tmp_path / "network.rs").read_text() == emitted
+
+
+def test_what_is_wrong_is_named() -> None:
+    task = Task("F a")
+    told, _ = document(task, 1)
+    policy = NetworkPolicy.from_json(json.dumps(told))
+    x = np.zeros(4, np.float32)
+    with pytest.raises(ValueError, match="5 numbers; the network reads 4"):
+        policy.act(0, np.zeros(5, np.float32))
+    for q in (-1, task.accepting or 1, 99):
+        with pytest.raises(IndexError, match="in which the task goes on"):
+            policy.values(q, x)
+    told["version"] = 9
+    with pytest.raises(ValueError, match="version"):
+        NetworkPolicy.from_json(json.dumps(told))
+    with pytest.raises(ValueError, match="missing field `format`"):
+        NetworkPolicy.from_json("{}")
