@@ -236,3 +236,15 @@ fn factored_tasks_are_learned_directly() {
     let best = optimum.certify(&optimum.q().policy()).unwrap();
     assert!(certificate.satisfied > best.satisfied - 0.01, "{certificate:?}, {best:?}");
 }
+
+/// Of a number that is none the predicate is named, and no part moves.
+#[test]
+fn a_step_that_fails_moves_no_part() {
+    let task =
+        tltl::tltl! { #[factored] |s: &[f64; 3]| F (s[0] > 0) && F (s[1] > 0) && F (s[2] > 0) };
+    let mut q = vec![0; task.len()];
+    let error = task.next(&mut q, &[1.0, f64::NAN, 1.0]).unwrap_err();
+    assert_eq!((&*error.predicate, &q[..]), ("s[1] > 0", &[0, 0, 0][..]));
+    task.next(&mut q, &[1.0, -1.0, 1.0]).unwrap();
+    assert_eq!(q, [1, 0, 1]);
+}

@@ -3,6 +3,7 @@
 
 use std::convert::Infallible;
 
+use tltl::robustness::typed::{Backward, Every, Start, Typed};
 use tltl::robustness::{self, Predicates};
 use tltl::{Acceptor, Boolean, Task, tltl};
 use tltl_compiler::check;
@@ -39,19 +40,37 @@ trait Check {
     fn check<P: Predicates<Row>>(&mut self, text: &str, task: &Task<P>);
 }
 
+/// What is asked of each, and needs its type.
+trait CheckTyped {
+    fn check<P>(&mut self, text: &str, task: &Task<P>)
+    where
+        P: Predicates<Row> + Typed + Sync,
+        P::Formula: Backward<Start> + Backward<Every>;
+}
+
+macro_rules! all_formulas {
+    ($check:expr) => {
+        each_formula! { $check,
+            "a" "!a" "a && !b || c" "F a" "F (a && b)" "a U b" "!a U (b && c)" "a T b" "X a" "X X a"
+            "F (a && F b)" "F (a && X F (b && X F c))" "F a && F b" "F a || X b" "(F a) U b"
+            "(a U b) U c" "a U (b U c)" "(F a) T b" "a T b T c" "F (F a && X b)" "X (a U X b)"
+            "X true" "a || X true" "F X true" "(X a) U (X b)"
+            "F[0,2] a" "F[0,9] a" "F[3,7] a" "G[0,2] a" "G[0,9] a" "G[3,7] a" "X[5] a" "X[5] F a"
+            "a U[0,2] b" "a U[0,9] b" "a U[3,7] b" "a T[2,4] b" "F (a && F[0,5] b)" "F (a && G[0,5] b)"
+            "F (a && X[5] b)" "F (a U[0,5] b)" "F[0,2] G[0,2] a" "G[0,2] F[0,3] a" "G[0,4] (a U b)"
+            "(G[0,3] a) U[0,5] b" "F[0,6] (a && F[0,6] b)" "F[0,4] a && G[0,6] b" "X F[0,6] a"
+            "F a && F b ensuring !c" "F[<=10] a ensuring !b" "(a T[1,2] b) ensuring !c"
+            "F[0,1000] a" "F (a && F[0,1000] b)" "a U[0,1000] b"
+        }
+    };
+}
+
 fn on_all(mut check: impl Check) {
-    each_formula! { check,
-        "a" "!a" "a && !b || c" "F a" "F (a && b)" "a U b" "!a U (b && c)" "a T b" "X a" "X X a"
-        "F (a && F b)" "F (a && X F (b && X F c))" "F a && F b" "F a || X b" "(F a) U b"
-        "(a U b) U c" "a U (b U c)" "(F a) T b" "a T b T c" "F (F a && X b)" "X (a U X b)"
-        "X true" "a || X true" "F X true" "(X a) U (X b)"
-        "F[0,2] a" "F[0,9] a" "F[3,7] a" "G[0,2] a" "G[0,9] a" "G[3,7] a" "X[5] a" "X[5] F a"
-        "a U[0,2] b" "a U[0,9] b" "a U[3,7] b" "a T[2,4] b" "F (a && F[0,5] b)" "F (a && G[0,5] b)"
-        "F (a && X[5] b)" "F (a U[0,5] b)" "F[0,2] G[0,2] a" "G[0,2] F[0,3] a" "G[0,4] (a U b)"
-        "(G[0,3] a) U[0,5] b" "F[0,6] (a && F[0,6] b)" "F[0,4] a && G[0,6] b" "X F[0,6] a"
-        "F a && F b ensuring !c" "F[<=10] a ensuring !b" "(a T[1,2] b) ensuring !c"
-        "F[0,1000] a" "F (a && F[0,1000] b)" "a U[0,1000] b"
-    }
+    all_formulas! { check }
+}
+
+fn on_all_typed(mut check: impl CheckTyped) {
+    all_formulas! { check }
 }
 
 fn spec(text: &str) -> Spec {
@@ -255,6 +274,89 @@ impl Check for OnBatches {
 #[test]
 fn steps_of_all_forms_and_in_batches_are_those_of_the_automaton() {
     on_all(OnBatches(trace(&mut Seeded(9), 200)));
+}
+
+/// Nineteen trajectories of one length, one after the other and side by side.
+struct OnMany(Vec<Vec<Row>>);
+
+impl CheckTyped for OnMany {
+    fn check<P>(&mut self, text: &str, task: &Task<P>)
+    where
+        P: Predicates<Row> + Typed + Sync,
+        P::Formula: Backward<Start> + Backward<Every>,
+    {
+        let (count, length) = (self.0.len(), self.0[0].len());
+        let spec = spec(text);
+        let expected: Vec<f64> =
+            self.0.iter().map(|trace| by_definition(&spec, trace)[0]).collect();
+        let mut one_by_one: Vec<Row> = self.0.concat();
+        let side_by_side = |rows: &[Row]| -> Vec<Row> {
+            (0..count * length).map(|at| rows[at % count * length + at / count]).collect()
+        };
+        let mut found = vec![0.0; count];
+        task.robustness_batch(&one_by_one, &mut found).unwrap();
+        assert_eq!(found, expected, "{text}");
+        for threads in [1, 3, 40] {
+            found.fill(0.0);
+            task.robustness_batch_on(threads, &one_by_one, &mut found).unwrap();
+            assert_eq!(found, expected, "{text}");
+        }
+        found.fill(0.0);
+        task.robustness_batch_by_time(&side_by_side(&one_by_one), &mut found).unwrap();
+        assert_eq!(found, expected, "{text}");
+
+        // A NaN of trajectory 7, and a later one.
+        let places = places(&spec);
+        let Some(&place) = places.first() else { return };
+        let (first, later) = (7 * length + 5, 11 * length + 2);
+        (one_by_one[first][place], one_by_one[later][place]) = (f64::NAN, f64::NAN);
+        let error = task.robustness_batch(&one_by_one, &mut found).unwrap_err();
+        assert_eq!(error.instant, Some(first), "{text}");
+        let error = task.robustness_batch_on(2, &one_by_one, &mut found).unwrap_err();
+        assert_eq!(error.instant, Some(first), "{text}");
+        let by_time = side_by_side(&one_by_one);
+        let error = task.robustness_batch_by_time(&by_time, &mut found).unwrap_err();
+        assert_eq!(error.instant, Some(2 * count + 11), "the earliest instant: {text}");
+    }
+}
+
+#[test]
+fn many_trajectories_at_once_have_the_robustness_of_each() {
+    let mut choices = Seeded(21);
+    on_all_typed(OnMany((0..19).map(|_| trace(&mut choices, 23)).collect()));
+}
+
+/// A long trajectory, with few numbers that are large: what comes late counts.
+struct OnLong(Vec<Row>);
+
+impl CheckTyped for OnLong {
+    fn check<P>(&mut self, text: &str, task: &Task<P>)
+    where
+        P: Predicates<Row> + Typed + Sync,
+        P::Formula: Backward<Start> + Backward<Every>,
+    {
+        let expected = task.robustness(&self.0);
+        for threads in [1, 3, 16] {
+            assert_eq!(task.robustness_on(threads, &self.0), expected, "{text}");
+        }
+        let Some(&place) = places(&spec(text)).first() else { return };
+        let mut broken = self.0.clone();
+        (broken[40_000][place], broken[90_000][place]) = (f64::NAN, f64::NAN);
+        let error = task.robustness_on(3, &broken).unwrap_err();
+        assert_eq!(error.instant, Some(40_000), "{text}");
+    }
+}
+
+#[test]
+fn a_long_trajectory_is_read_in_parts() {
+    let mut choices = Seeded(22);
+    let mut number = |most: u32, t: u32| match choices.choose(20_000) {
+        0 => f64::from(choices.choose(90)) / 10.0,
+        _ => f64::from(choices.choose(most)) / 10.0 - f64::from(t % 7) / 4.0,
+    };
+    on_all_typed(OnLong(
+        (0..100_001).map(|t| [number(9, t), number(6, t), number(3, t)]).collect(),
+    ));
 }
 
 /// Automata of five and of twelve propositions: a table of valuations, and a diagram.

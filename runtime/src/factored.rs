@@ -23,7 +23,7 @@ use crate::automaton::Automaton;
 #[cfg(feature = "alloc")]
 use crate::automaton::TableError;
 use crate::monitor::Acceptor;
-use crate::robustness::{NotANumber, Predicates};
+use crate::robustness::{NotANumber, Predicates, letter, unreadable};
 use crate::shared::Shared;
 use crate::task::{Error, Formula, Reader, Task};
 
@@ -81,6 +81,8 @@ pub struct Factored<P> {
     parts: Shared<[Part]>,
     joint: JointDeadEnds,
     predicates: P,
+    /// Whether the predicates were generated with these parts.
+    is_generated: bool,
 }
 
 /// Name, formula and sizes: predicates are code.
@@ -144,7 +146,8 @@ impl<P> Factored<P> {
             crate::automaton::check_length("predicates", predicates.len(), propositions)?;
             crate::formula::check_operators(formula.operators(), propositions)?;
         }
-        Ok(Self::trusted(name.into(), text.into(), parts, joint, predicates))
+        let made = Self::trusted(name.into(), text.into(), parts, joint, predicates);
+        Ok(Self { is_generated: false, ..made })
     }
 
     /// For generated code, whose parts are right by construction.
@@ -157,7 +160,7 @@ impl<P> Factored<P> {
         predicates: P,
     ) -> Self {
         let formula = Formula::trusted(text, Shared::from_static(&[]));
-        Self { name, formula, parts, joint, predicates }
+        Self { name, formula, parts, joint, predicates, is_generated: true }
     }
 
     /// The task's name; its formula if it has none.
@@ -221,7 +224,8 @@ impl<P> Factored<P> {
     /// Moves every part on `s`: `q[i] = δ_i(q[i], s)`. A state starts as all 0.
     ///
     /// # Errors
-    /// If a predicate that decides a move is not a number; the parts before it have moved.
+    /// If a predicate that decides a move is not a number. Of a compiled task of up to ten predicates no
+    /// part has moved then, of others those before it have.
     ///
     /// # Panics
     /// If `q` does not have one state for each part, or one that is not a state of its part.
@@ -230,10 +234,37 @@ impl<P> Factored<P> {
         P: Predicates<S>,
     {
         assert_eq!(q.len(), self.parts.len(), "one automaton state for each part");
+        if self.is_generated && P::DENSE > 0 {
+            // A predicate that several parts read is evaluated once.
+            let (letter, false) = letter(&self.predicates, s) else {
+                return Err(self.unreadable(s));
+            };
+            for (part, q) in self.parts.iter().zip(q) {
+                let chosen = part.predicates.iter().enumerate();
+                let own = chosen.fold(0, |own, (i, &p)| own | (letter >> p & 1) << i);
+                part.automaton.expect_state(*q);
+                *q = part.automaton.of_letter(*q, own);
+            }
+            return Ok(());
+        }
         for (part, q) in self.readers().zip(q) {
             *q = part.next(*q, s)?;
         }
         Ok(())
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn unreadable<S: ?Sized>(&self, s: &S) -> Error
+    where
+        P: Predicates<S>,
+    {
+        let p = unreadable(&self.predicates, s) as u32;
+        let name = self.parts.iter().find_map(|part| {
+            let i = part.predicates.iter().position(|&of| of == p)?;
+            part.automaton.propositions().get(i).cloned()
+        });
+        Error { predicate: name.unwrap_or(Shared::from_static("")), instant: None }
     }
 
     /// Whether all parts accept.

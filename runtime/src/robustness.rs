@@ -199,7 +199,7 @@ impl<S: ?Sized, F: Fn(&S) -> bool> Predicate<S> for Boolean<F> {
 /// assert_eq!(Above.holds(1, &[0.0, 0.75]), Ok(true));
 /// ```
 pub trait Predicates<S: ?Sized> {
-    /// The number of predicates, if it is known and the automaton they were generated with is a table:
+    /// The number of predicates, if it is known and the automata they were generated with are tables:
     /// then a step reads all of them.
     #[doc(hidden)]
     const DENSE: usize = 0;

@@ -5,6 +5,7 @@
 //! is the caller's, one `u32`, and one task serves any number of trajectories at once.
 
 mod batch;
+mod many;
 mod online;
 mod parametric;
 mod run;

@@ -43,6 +43,7 @@ fn main() {
         offline(&trajectory);
         at_every_instant(&trajectory);
     }
+    many(&samples(1_000_000));
     let trajectory = samples(4_000);
     online(&trajectory);
     steps(&trajectory);
@@ -58,18 +59,29 @@ fn samples(length: usize) -> Vec<Sample> {
     (0..length).map(|_| Sample { x: random() * 2.0 - 0.5, y: random() * 3.0 }).collect()
 }
 
-/// The median nanoseconds a sample of runs that take some tenths of a millisecond each.
-fn nanoseconds<T>(samples: usize, mut run: impl FnMut() -> T) -> f64 {
-    let rounds = (100_000 / samples).max(1);
-    let mut times = Vec::new();
-    let start = Instant::now();
-    while times.len() < 5 || start.elapsed().as_secs_f64() < 0.2 {
+/// The median nanoseconds a sample of two things, which take turns: what else the machine does meets
+/// both.
+fn in_turns<T, U>(
+    samples: usize,
+    mut one: impl FnMut() -> T,
+    mut other: impl FnMut() -> U,
+) -> [f64; 2] {
+    let rounds = (20_000 / samples).max(1);
+    let mut times = [Vec::new(), Vec::new()];
+    let begin = Instant::now();
+    while times[1].len() < 7 || begin.elapsed().as_secs_f64() < 0.3 {
         let start = Instant::now();
-        (0..rounds).for_each(|_| drop(black_box(run())));
-        times.push(start.elapsed().as_secs_f64() * 1e9 / (rounds * samples) as f64);
+        (0..rounds).for_each(|_| drop(black_box(one())));
+        let middle = Instant::now();
+        (0..rounds).for_each(|_| drop(black_box(other())));
+        for (times, time) in times.iter_mut().zip([middle - start, middle.elapsed()]) {
+            times.push(time.as_secs_f64() * 1e9 / (rounds * samples) as f64);
+        }
     }
-    times.sort_by(f64::total_cmp);
-    times[times.len() / 2]
+    times.map(|mut times| {
+        times.sort_by(f64::total_cmp);
+        times[times.len() / 2]
+    })
 }
 
 fn print(name: &str, samples: usize, by_hand: f64, here: f64) {
@@ -82,11 +94,10 @@ fn compare<T: PartialEq + std::fmt::Debug>(
     samples: usize,
     mut by_hand: impl FnMut() -> T,
     mut here: impl FnMut() -> T,
-) -> [f64; 2] {
+) {
     assert_eq!(by_hand(), here(), "{name}");
-    let times = [nanoseconds(samples, by_hand), nanoseconds(samples, here)];
-    print(name, samples, times[0], times[1]);
-    times
+    let [by_hand, here] = in_turns(samples, by_hand, here);
+    print(name, samples, by_hand, here);
 }
 
 fn offline(trajectory: &[Sample]) {
@@ -113,9 +124,12 @@ fn at_every_instant(trajectory: &[Sample]) {
     let [expected, found] = &mut signals;
     macro_rules! signal {
         ($name:literal, $task:ident) => {
-            let by_hand = nanoseconds(n, || by_hand::every::$task(black_box(trajectory), expected));
             let task = $task();
-            let here = nanoseconds(n, || task.robustness_signal(black_box(trajectory), found));
+            let [by_hand, here] = in_turns(
+                n,
+                || by_hand::every::$task(black_box(trajectory), expected),
+                || task.robustness_signal(black_box(trajectory), found),
+            );
             assert_eq!(expected, found, $name);
             print($name, n, by_hand, here);
         };
@@ -125,11 +139,46 @@ fn at_every_instant(trajectory: &[Sample]) {
     signal!("every t: F (x > 0 && F y < 1)", nested);
 }
 
+/// A thousand trajectories of a thousand states, and a long one, by one thread and by several.
+fn many(states: &[Sample]) {
+    const LENGTH: usize = 1000;
+    let (n, task) = (states.len(), both());
+    let count = n / LENGTH;
+    let by_time: Vec<Sample> = (0..n).map(|at| states[at % count * LENGTH + at / count]).collect();
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let mut found = [vec![0.0; count], vec![0.0; count]];
+    let [expected, found] = &mut found;
+    let mut compare_many = |name: &str, here: &dyn Fn(&mut [f64])| {
+        let by_hand = || {
+            let parts = black_box(states).chunks(LENGTH).zip(expected.iter_mut());
+            parts.for_each(|(part, rho)| *rho = by_hand::both(part));
+        };
+        let [by_hand, here] = in_turns(n, by_hand, || here(found));
+        assert_eq!(expected, found, "{name}");
+        print(name, n, by_hand, here);
+    };
+    compare_many("many, one after the other", &|found| {
+        task.robustness_batch(black_box(states), found).unwrap();
+    });
+    compare_many(&format!("the same in {threads} threads"), &|found| {
+        task.robustness_batch_on(threads, black_box(states), found).unwrap();
+    });
+    compare_many("many, instant by instant", &|found| {
+        task.robustness_batch_by_time(black_box(&by_time), found).unwrap();
+    });
+    let task = until();
+    compare(
+        &format!("x > 0 U y < 1 in {threads} threads"),
+        n,
+        || by_hand::until(black_box(states)),
+        || task.robustness_on(threads, black_box(states)).unwrap(),
+    );
+}
+
 /// The time of a state, in which the least of the interval is asked for too; by hand, that is the
 /// greatest so far of x > 0 && y < 1.
 fn online(trajectory: &[Sample]) {
     let n = trajectory.len();
-    let by_hand = nanoseconds(n, || by_hand::so_far(black_box(trajectory)));
     macro_rules! online {
         ($name:literal, $task:ident) => {
             let task = $task();
@@ -142,7 +191,8 @@ fn online(trajectory: &[Sample]) {
                 (online.interval().lower, all)
             };
             assert_eq!(run().0, task.robustness(trajectory).unwrap(), $name);
-            print($name, n, by_hand, nanoseconds(n, run));
+            let [by_hand, here] = in_turns(n, || by_hand::so_far(black_box(trajectory)), run);
+            print($name, n, by_hand, here);
         };
     }
     online!("online: F (x > 0 && y < 1)", both);

@@ -42,6 +42,9 @@ pub(super) struct Implementation<'a> {
     pub(super) dense: usize,
 }
 
+/// The predicates that the runtime evaluates together for a step: as many as a table has at most.
+pub(super) const TOGETHER: usize = 10;
+
 /// The number of predicates, if a step of the automaton reads all of them: it is a table. Otherwise 0.
 pub(super) fn dense(tables: &Tables) -> usize {
     match tables.transitions {

@@ -34,14 +34,14 @@ use crate::compile::{Compiled, Factored, Part};
 use crate::dfa::Dfa;
 pub use crate::emit::declare::sizes;
 use crate::emit::declare::{Parameters, documentation};
-use crate::emit::implementation::{Implementation, Robust, dense, positional};
+use crate::emit::implementation::{Implementation, Robust, TOGETHER, dense, positional};
 use crate::emit::names::{Names, ident};
 pub use crate::emit::names::{Place, module as module_name};
 use crate::emit::predicates::{Reading, Scope};
 use crate::emit::tables as emit;
 use crate::predicate::{Condition, Predicate, PredicateId, State, Task};
 use crate::source::Span;
-use crate::tables::tables;
+use crate::tables::{Tables, tables};
 
 /// Settings that fit the code to its surroundings.
 pub struct Options<'a> {
@@ -317,10 +317,14 @@ impl<'a> Emitter<'a> {
             quote! { NotSearched }
         };
         let count = Literal::usize_unsuffixed(factored.parts.len());
-        let parts = factored.parts.iter().map(|part| self.part(part));
+        let all: Vec<Tables> =
+            factored.parts.iter().map(|part| tables(&part.automata.dfa)).collect();
+        let parts = factored.parts.iter().zip(&all).map(|(part, tables)| self.part(part, tables));
+        let are_tables = all.iter().all(|tables| dense(tables) > 0);
+        let is_dense = are_tables && task.predicates.len() <= TOGETHER;
         Made {
             robust: Robust::interpreted(&task.spec),
-            dense: 0,
+            dense: if is_dense { task.predicates.len() } else { 0 },
             kind: quote! { #runtime::Factored },
             result: quote! {
                 #runtime::Factored::trusted(
@@ -338,10 +342,10 @@ impl<'a> Emitter<'a> {
     }
 
     /// A part of a factored task, as a constant.
-    fn part(&self, part: &Part) -> TokenStream {
+    fn part(&self, part: &Part, tables: &Tables) -> TokenStream {
         let runtime = self.runtime;
         let formula = emit::formula(&part.task.spec, &part.task.text, runtime);
-        let automaton = emit::automaton(&tables(&part.automata.dfa), runtime);
+        let automaton = emit::automaton(tables, runtime);
         let predicates = part.propositions.iter().map(|&p| Literal::u32_unsuffixed(p));
         quote! {
             #runtime::factored::Part {

@@ -26,11 +26,15 @@
 //! compiler gives a type to formulas whose windows have up to 4,096 cells in all.
 
 pub mod forward;
+mod side;
+#[cfg(feature = "std")]
+pub(crate) mod split;
 
 use core::array;
 use core::marker::PhantomData;
 
 use super::{Predicates, Window, max, min};
+pub(crate) use side::by_time;
 
 /// The rows of a block. `F (a && b)`, `a U b` and `F (a && F b)` take 0.52, 0.67 and 0.83 ns a row in
 /// blocks of 4 rows, 0.60, 0.82 and 0.90 in blocks of 8, 0.63, 1.54 and 1.13 in blocks of 16: a larger
@@ -62,7 +66,7 @@ pub trait Typed {
 /// A formula that is read from the last row to the first; `M` is [`Start`] or [`Every`].
 pub trait Backward<M> {
     /// The numbers that are carried from a block to the one before it.
-    type Carry;
+    type Carry: Carried;
     /// These numbers after the last state of a trajectory.
     const END: Self::Carry;
     /// The robustness at each row of a block, in which mode `Start` only the first instant counts.
@@ -489,3 +493,47 @@ fn backward<M, F: Backward<M>, S, P: Predicates<S>>(
     }
     if is_nan == [0; BLOCK] { whole } else { f64::NAN }
 }
+
+/// The numbers that a formula carries from a block to the one before it.
+pub trait Carried {
+    /// How many they are.
+    const COUNT: usize;
+    /// Shows each of them, always in the same order.
+    fn each(&mut self, see: &mut impl FnMut(&mut f64));
+}
+
+impl Carried for () {
+    const COUNT: usize = 0;
+    #[inline]
+    fn each(&mut self, _: &mut impl FnMut(&mut f64)) {}
+}
+
+impl Carried for f64 {
+    const COUNT: usize = 1;
+    #[inline]
+    fn each(&mut self, see: &mut impl FnMut(&mut f64)) {
+        see(self);
+    }
+}
+
+impl<const N: usize> Carried for [f64; N] {
+    const COUNT: usize = N;
+    #[inline]
+    fn each(&mut self, see: &mut impl FnMut(&mut f64)) {
+        self.iter_mut().for_each(see);
+    }
+}
+
+macro_rules! tuples {
+    ($($($name:ident $place:tt),+;)*) => {$(
+        impl<$($name: Carried),+> Carried for ($($name,)+) {
+            const COUNT: usize = 0 $(+ $name::COUNT)+;
+            #[inline]
+            fn each(&mut self, see: &mut impl FnMut(&mut f64)) {
+                $(self.$place.each(see);)+
+            }
+        }
+    )*};
+}
+
+tuples! { A 0, B 1; A 0, B 1, C 2; A 0, B 1, C 2, D 3; }
