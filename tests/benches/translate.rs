@@ -2,20 +2,24 @@
 //! what others measured, and how it grows. Then from automaton to text, in each form that lists all
 //! edges, the edges asserted.
 //!
-//! `cargo bench -p tltl-tests --bench translate`. Times are the least of some repetitions on this
+//! `cargo bench -p tltl-tests --bench translate`; with `TLTLC=target/release/tltlc` (a path from
+//! `tests`, or absolute) before it, the times of whole runs of the tool too. Times are the least of some repetitions on this
 //! machine. The figures for Spot are *from elsewhere*: its finite-trace translation, in process, on
 //! an idle machine with two cores; they are anchors, not measurements of this bench.
 
-use std::fmt::Write as _;
+use std::ffi::OsStr;
+use std::fmt::{Display, Write as _};
 use std::hint::black_box;
+use std::process::{Command, Stdio};
 use std::time::Instant;
 
 use tltl_compiler::check;
 use tltl_compiler::compile;
+use tltl_compiler::dfa::Dfa;
 use tltl_compiler::minimize::minimize;
 use tltl_compiler::source::Source;
 use tltl_compiler::translate::{Budget, translate};
-use tltlc::emit::{dot, hoa, json, mermaid};
+use tltlc::emit::{dot, hoa, json, mermaid, rust};
 
 struct Case {
     family: &'static str,
@@ -60,43 +64,127 @@ fn main() {
     written();
 }
 
-/// The time that it takes to write an automaton, beside that of making it, in milliseconds.
+/// The formulas of the table of forms: a family, its size, and the edges of the automaton; `None`
+/// where they are too many to be written.
+fn forms_of() -> Vec<(&'static str, usize, String, Option<usize>)> {
+    let goals = |n, goal: &dyn Fn(&String) -> String| {
+        names("a", n).iter().map(goal).collect::<Vec<_>>().join(" && ")
+    };
+    let eventually = |a: &String| format!("F {a}");
+    let until = names("a", 15).into_iter().reduce(|until, a| format!("({until} U {a})"));
+    vec![
+        ("unordered goals", 10, goals(10, &eventually), Some(3_usize.pow(10))),
+        ("unordered goals", 12, goals(12, &eventually), Some(3_usize.pow(12))),
+        (
+            "reach-avoid",
+            12,
+            goals(12, &|a| format!("(!h U {a})")),
+            Some(3_usize.pow(12) + (1 << 12)),
+        ),
+        ("nested U", 14, until.unwrap_or_default(), None),
+        ("F[0,n] a", 10_000, "F[0,10000] a".to_owned(), Some(20_004)),
+        ("a U[0,n] b", 1_000, "a U[0,1000] b".to_owned(), Some(3_004)),
+    ]
+}
+
+/// A form as the tool calls it, and the automaton in it; `None` if it is too large for the form.
+type Form = (&'static str, for<'a> fn(&'a Source, &'a Dfa) -> Option<Box<dyn Display + 'a>>);
+
+/// The forms that list all edges. Rust is within the limits of the macros.
+const FORMS: [Form; 5] = [
+    ("json", |_, dfa| Some(Box::new(json::automaton("", dfa).ok()?))),
+    ("hoa", |_, dfa| Some(Box::new(hoa::automaton("", dfa).ok()?))),
+    ("dot", |_, dfa| Some(Box::new(dot::automaton("", dfa).ok()?))),
+    ("mermaid", |_, dfa| Some(Box::new(mermaid::automaton("", dfa).ok()?))),
+    ("rust", |source, _| {
+        let compiled = compile::formula(source, Budget::EMITTED).ok()?;
+        Some(Box::new(rust::file(&compiled)))
+    }),
+];
+
+/// The CPU time that it takes to write an automaton, or to say that it is too large, in
+/// milliseconds of this process, and that of `tltlc automaton` from the text of the formula to that of the
+/// automaton, over one of `F a`, if `TLTLC` names that program. Rust includes making the automaton.
 fn written() {
-    println!("\n{:<22}{:>5}{:>9}", "family", "n", "edges");
-    let is_large = |case: &Case| ["unordered goals", "reach-avoid"].contains(&case.family);
-    for case in cases().into_iter().filter(|case| is_large(case) && case.n <= 12) {
-        let source = Source::new("formula", case.formula.as_str());
-        let dfa = compile::formula(&source, Budget::SHOWN)
-            .expect("it is a formula")
-            .automata
-            .remove(0)
-            .dfa;
-        let size = dfa.size();
-        let edges = size.edges + size.self_loops;
-        print!("{:<22}{:>5}{edges:>9}", case.family, case.n);
-        for form in ["json", "hoa", "dot", "mermaid"] {
-            let made = || {
-                let text = match form {
-                    "json" => json::automaton("", &dfa),
-                    "hoa" => hoa::automaton("", &dfa),
-                    "dot" => dot::automaton("", &dfa),
-                    _ => mermaid::automaton("", &dfa),
-                };
-                text.expect("it is small enough")
-            };
-            let lines = made().to_string().lines().count();
-            assert!((edges..edges + 2 * dfa.len()).contains(&lines), "{form} has {lines} lines");
-            let (mut least, mut bytes) = (f64::INFINITY, Bytes::default());
-            for _ in 0..5 {
-                bytes.0 = 0;
-                let start = Instant::now();
-                write!(bytes, "{}", made()).expect("nothing fails");
-                least = least.min(start.elapsed().as_secs_f64() * 1e3);
+    let program = std::env::var_os("TLTLC");
+    println!(
+        "\n{:<17}{:>6}{:>8}{:>9}  {:>27}",
+        "family", "n", "edges", "make, ms", "form: ms here / of tltlc, MB"
+    );
+    for (family, n, formula, edges) in forms_of() {
+        let source = Source::new("formula", formula.as_str());
+        let (dfa, making) = spent(|| {
+            compile::formula(&source, Budget::SHOWN).expect("it is small").automata.remove(0).dfa
+        });
+        let count = edges.map_or("-".to_owned(), |edges| edges.to_string());
+        print!("{family:<17}{n:>6}{count:>8}{making:>9.1}");
+        for (form, made) in FORMS {
+            let (bytes, here) = spent(|| {
+                let mut bytes = Bytes::default();
+                let text = made(&source, &dfa);
+                text.map(|text| write!(bytes, "{text}").map(|()| bytes).expect("nothing fails"))
+            });
+            if let (Some(text), Some(edges), true) = (made(&source, &dfa), edges, form != "rust") {
+                let lines = text.to_string().lines().count();
+                assert!(
+                    (edges..edges + 2 * dfa.len() + 9).contains(&lines),
+                    "{form}: {lines} lines"
+                );
             }
-            print!("{form:>9} {least:.1} ms, {:.1} MB", bytes.0 as f64 / 1e6);
+            let as_expected = form == "rust" || bytes.is_some() == edges.is_some();
+            assert!(as_expected, "{family} as {form}");
+            print!("  {form}: {here:.1}");
+            if let Some(program) = &program {
+                let empty = process(program, form, "F a");
+                print!(" / {:.0}", process(program, form, &formula) - empty);
+            }
+            match bytes {
+                Some(Bytes(bytes)) => print!(", {:.1}", bytes as f64 / 1e6),
+                None => print!(", refused"),
+            }
         }
         println!();
     }
+}
+
+/// What `work` gives, and its CPU milliseconds: the mean of as many times as fill a fifth of a
+/// second, for the system counts in steps of some milliseconds; by the clock where it does not say.
+fn spent<T>(work: impl Fn() -> T) -> (T, f64) {
+    let start = Instant::now();
+    let now = || {
+        let spent = std::fs::read_to_string("/proc/self/schedstat").unwrap_or_default();
+        let spent = spent.split(' ').next().and_then(|field| field.parse::<f64>().ok());
+        spent.map_or_else(|| start.elapsed().as_secs_f64() * 1e3, |nanoseconds| nanoseconds / 1e6)
+    };
+    let (before, mut times) = (now(), 0.0);
+    loop {
+        let result = black_box(work());
+        times += 1.0;
+        if now() - before > 200.0 {
+            return (result, (now() - before) / times);
+        }
+    }
+}
+
+/// The CPU milliseconds of a run of the tool, the mean of twenty: those that the system counts are
+/// ten each.
+fn process(program: &OsStr, form: &str, formula: &str) -> f64 {
+    let ticks = || {
+        let status = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
+        let fields = status.rsplit(')').next().unwrap_or_default().split_whitespace();
+        fields.skip(13).take(2).filter_map(|field| field.parse::<f64>().ok()).sum::<f64>()
+    };
+    let (start, runs) = (ticks(), 20);
+    for _ in 0..runs {
+        let arguments = ["automaton", "--formula", formula, "--format", form];
+        let run = Command::new(program)
+            .args(arguments)
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .status();
+        run.expect("TLTLC is a program");
+    }
+    (ticks() - start) * 10.0 / f64::from(runs)
 }
 
 /// How much was written.

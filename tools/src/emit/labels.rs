@@ -21,7 +21,7 @@ use super::sum::{Notation, Sum};
 /// unordered goals have half as many, which are 50 MB of JSON.
 pub const MOST_PRODUCTS: usize = 1 << 20;
 
-/// The most edges that are counted to say how many there are: a third of a second.
+/// The most edges that are counted to say how many there are: about a second.
 const MOST_COUNTED: usize = 1 << 26;
 
 /// The bytes that are put together before they are written.
