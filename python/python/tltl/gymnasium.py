@@ -270,9 +270,14 @@ def flat(
         for end, hot in ((box.low, 0), (box.high, 1))
     )
 
+    size, is_box = box.shape[0], isinstance(base, spaces.Box)
+
     def joined(obs: Any, q: int) -> Any:
-        flat: Any = spaces.flatten(base, obs)
-        return np.concatenate([flat, states[q]], dtype=dtype)
+        whole = np.empty(len(low), dtype)
+        flattened: Any = np.ravel(obs) if is_box else spaces.flatten(base, obs)
+        whole[:size] = flattened
+        whole[size:] = states[q]
+        return whole
 
     return joined, spaces.Box(low, high, dtype=dtype.type)
 
