@@ -61,4 +61,4 @@ environment benches 'gymnasium>=1.1'
 (cd "$place/benches" && bin/python "$OLDPWD/benches/bench.py")
 
 step "done"
-"$place/sb3/bin/pip" list | grep -iE 'torch|baselines|gymnasium|numpy'
+env -u PIP_QUIET "$place/sb3/bin/pip" list | grep -iE 'torch|baselines|gymnasium|numpy'
