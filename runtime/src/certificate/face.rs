@@ -8,7 +8,7 @@ use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::fmt;
 
-use super::{Certificate, NOTHING, Start, Within};
+use super::{Certificate, NOTHING, Report, Start, Within};
 
 /// How many digits behind the point of a probability are shown: a millionth of all episodes is less
 /// than anybody runs, and regrets below it are shown as powers of ten.
@@ -40,19 +40,27 @@ impl Face {
     #[inline]
     pub(super) fn of(certificate: &Certificate) -> Self {
         let Certificate { satisfied, steps, optimal_satisfied, optimal_steps, .. } = *certificate;
+        let Certificate { satisfied_error, steps_error, .. } = *certificate;
         let mut face = Self::new(&["", "this policy", "best possible", "regret"]);
-        face.compare("P(satisfied)".to_string(), satisfied, optimal_satisfied);
+        face.compare("P(satisfied)".to_string(), satisfied, optimal_satisfied, satisfied_error);
         if let Some(Within { steps, satisfied, optimal_satisfied }) = certificate.within {
-            face.compare(satisfied_in(steps), satisfied, optimal_satisfied);
+            face.compare(satisfied_in(steps), satisfied, optimal_satisfied, None);
         }
         // Where P is smaller than possible, fewer steps are no merit.
         let comparable = certificate.regret_satisfied <= NOTHING;
         let regret = certificate.regret_steps.filter(|_| comparable);
         let regret = regret.map(|part| format!("{} %", small(part, 100.0, 2)));
-        face.row(STEPS, [duration(steps), duration(optimal_steps), or_none(regret)]);
+        let [own, best] = [steps, optimal_steps].map(|steps| duration(steps, steps_error));
+        face.row(STEPS, [own, best, or_none(regret)]);
+        let within = |error: f64| format!("{:.0e}", 1.5 * error).replace("0e0", "0");
+        let errors = match (satisfied_error.map(within), steps_error.map(within)) {
+            (Some(p), Some(steps)) => format!(": P to within {p}, steps to within {steps}"),
+            (Some(p), None) => format!(": P to within {p}"),
+            (None, _) => String::new(),
+        };
         face.below = format!(
-            "Computed from the model, mean over the starts. {:.2} % of the actions are best for the \
-             reward.",
+            "Computed from the model, mean over the starts{errors}.\n{:.2} % of the actions are best for \
+             the reward.",
             100.0 * certificate.fraction_optimal
         );
         face
@@ -65,9 +73,9 @@ impl Face {
 
     /// A row of two probabilities and their difference.
     #[inline]
-    fn compare(&mut self, label: String, own: f64, best: f64) {
+    fn compare(&mut self, label: String, own: f64, best: f64, error: Option<f64>) {
         let regret = small(best - own, 1.0, DIGITS);
-        self.row(&label, [probability(own), probability(best), regret]);
+        self.row(&label, [probability(own, error), probability(best, error), regret]);
     }
 }
 
@@ -91,7 +99,8 @@ impl fmt::Display for Face {
 
 /// The worst of the starts, which are sorted so, if there are any that lose something.
 #[inline]
-pub(super) fn starts(starts: &[Start], f: &mut fmt::Formatter<'_>) -> fmt::Result {
+pub(super) fn starts(report: &Report, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    let Report { certificate: Certificate { satisfied_error, steps_error, .. }, starts } = report;
     let loses = |start: &&Start| {
         let (satisfied, steps) = start.losses();
         satisfied > NOTHING || steps > LEAST_STEPS
@@ -103,9 +112,10 @@ pub(super) fn starts(starts: &[Start], f: &mut fmt::Formatter<'_>) -> fmt::Resul
     let best = "best possible";
     let mut face = Face::new(&["worst starts", "P(satisfied)", best, STEPS, best]);
     for start in starts.iter().filter(loses).take(LISTED) {
-        let (own, optimal) = (probability(start.satisfied), probability(start.optimal_satisfied));
-        let steps = [start.steps, start.optimal_steps].map(duration);
-        let [steps, fewest] = steps;
+        let [own, optimal] =
+            [start.satisfied, start.optimal_satisfied].map(|p| probability(p, *satisfied_error));
+        let [steps, fewest] =
+            [start.steps, start.optimal_steps].map(|steps| duration(steps, *steps_error));
         face.row(&format!("state {}", start.state), [own, optimal, steps, fewest]);
     }
     face.below = format!("{worse} of {} starts lose something.", starts.len());
@@ -122,13 +132,23 @@ pub(crate) fn satisfied_in(steps: u64) -> String {
 }
 
 #[inline]
-fn probability(p: f64) -> String {
-    format!("{p:.DIGITS$}")
+fn probability(p: f64, error: Option<f64>) -> String {
+    format!("{p:.0$}", supported(DIGITS, error))
 }
 
 #[inline]
-fn duration(steps: Option<f64>) -> String {
-    or_none(steps.map(|steps| format!("{steps:.STEP_DIGITS$}")))
+fn duration(steps: Option<f64>, error: Option<f64>) -> String {
+    or_none(steps.map(|steps| format!("{steps:.0$}", supported(STEP_DIGITS, error))))
+}
+
+/// How many digits behind the point a number has that may be off by `error`, `most` at most.
+#[inline]
+fn supported(most: usize, error: Option<f64>) -> usize {
+    let (error, mut unit, mut digits) = (error.unwrap_or(0.0), 1.0, 0);
+    while digits < most && error <= 0.05 * unit {
+        (unit, digits) = (0.1 * unit, digits + 1);
+    }
+    digits
 }
 
 /// A dash where there is no number.

@@ -5,16 +5,6 @@
 
 use alloc::vec::Vec;
 
-/// Which of several policies is asked for.
-#[allow(dead_code, reason = "shields are certified by it")]
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Objective {
-    /// The one of the smallest value.
-    Smallest,
-    /// The one of the largest value.
-    Largest,
-}
-
 /// For each pair (q, s) a set of actions, as bits.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Actions {
@@ -34,6 +24,15 @@ impl Actions {
     pub(crate) fn insert(&mut self, pair: usize, a: usize) {
         let at = pair * self.actions + a;
         self.bits[at / 64] |= 1 << (at % 64);
+    }
+
+    /// Takes action `a` from the set of `pair`; whether it was there.
+    #[inline]
+    pub(crate) fn remove(&mut self, pair: usize, a: usize) -> bool {
+        let at = pair * self.actions + a;
+        let was = self.contains(pair, a);
+        self.bits[at / 64] &= !(1 << (at % 64));
+        was
     }
 
     /// Whether action `a` is in the set of `pair`, which is `q * states + s`.

@@ -6,7 +6,9 @@
 use alloc::vec::Vec;
 
 use super::Problem;
+use super::bounded::Bounded;
 use crate::policy::Policy;
+use crate::reward::End;
 
 /// A number for each automaton state q and world state s, s having been read.
 ///
@@ -28,12 +30,21 @@ pub struct Values {
     problem: Problem,
     /// Indexed `q * states + s`.
     values: Vec<f64>,
+    error: f64,
 }
 
 impl Values {
     #[inline]
-    pub(super) fn new(problem: &Problem, values: Vec<f64>) -> Self {
-        Self { problem: problem.clone(), values }
+    pub(super) fn new(problem: &Problem, bounded: Bounded) -> Self {
+        let Bounded { values, error, .. } = bounded;
+        Self { problem: problem.clone(), values, error }
+    }
+
+    /// The same with 1 at an end.
+    #[inline]
+    pub(super) fn with_end(mut self, end: End) -> Self {
+        self.problem.set_end(end, &mut self.values, 1.0);
+        self
     }
 
     /// The number at (q, s).
@@ -70,8 +81,34 @@ impl Values {
     #[must_use]
     #[inline]
     pub fn mean(&self) -> f64 {
-        let starts = self.problem.dynamics.starts();
-        self.problem.start_pairs().map(|(s, pair)| starts[s] * self.values[pair]).sum()
+        self.problem.mean(|pair| self.values[pair])
+    }
+
+    /// How far any of the numbers may be from the true one: a bound that holds, whatever the world is.
+    ///
+    /// ```
+    /// use tltl::model;
+    /// use tltl::prelude::*;
+    ///
+    /// // Of two ways of a long walk, one is lost one time in three.
+    /// let walk = model::from_fn(41, 2, |s, a| match (s, a) {
+    ///     (0 | 40, _) => vec![(s, 1.0)],
+    ///     (_, 0) => vec![(s - 1, 0.5), (s + 1, 0.5)],
+    ///     (_, _) => vec![(s - 1, 0.25), (s + 1, 0.75)],
+    /// });
+    /// let task = Labelled::of_model(&walk, &tltl! { |s: &usize| ({ *s } != 0) U ({ *s } == 40) })?;
+    /// let problem = Problem::new(&Dynamics::new(&walk)?, &task)?;
+    /// let satisfied = problem.largest_satisfied();
+    /// // The ruin of a gambler: 1 - 3^-k, over 1 - 3^-40.
+    /// let exact = (1.0 - 3.0_f64.powi(-2)) / (1.0 - 3.0_f64.powi(-40));
+    /// assert!((satisfied.at(0, 2) - exact).abs() <= satisfied.error() + 1e-15);
+    /// assert!(satisfied.error() < 1e-12);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    #[must_use]
+    #[inline]
+    pub const fn error(&self) -> f64 {
+        self.error
     }
 }
 
@@ -98,12 +135,26 @@ pub struct Evaluation {
     satisfied: Values,
     /// NaN where the task is never satisfied.
     steps: Vec<f64>,
+    /// Of steps times P: relative, and absolute beside.
+    error: (f64, f64),
 }
 
 impl Evaluation {
     #[inline]
-    pub(super) const fn new(policy: Policy, satisfied: Values, steps: Vec<f64>) -> Self {
-        Self { policy, satisfied, steps }
+    pub(super) const fn new(
+        policy: Policy,
+        satisfied: Values,
+        steps: Vec<f64>,
+        error: (f64, f64),
+    ) -> Self {
+        Self { policy, satisfied, steps, error }
+    }
+
+    /// The same where `satisfied` stands for other numbers too, from which it is no further than `error`.
+    #[inline]
+    pub(super) fn standing_within(mut self, error: f64) -> Self {
+        self.satisfied.error = self.satisfied.error.max(error);
+        self
     }
 
     /// The policy.
@@ -151,15 +202,27 @@ impl Evaluation {
     #[inline]
     pub(super) fn means(&self) -> (f64, f64) {
         let problem = &self.satisfied.problem;
-        let (mut satisfied, mut weighted) = (0.0, 0.0);
-        for (s, pair) in problem.start_pairs() {
-            let p = problem.dynamics.starts()[s] * self.satisfied.values[pair];
-            if p > 0.0 {
-                satisfied += p;
-                weighted += p * self.steps[pair];
-            }
-        }
+        let p = |pair: usize| self.satisfied.values[pair];
+        let weighted = |pair| if p(pair) > 0.0 { p(pair) * self.steps[pair] } else { 0.0 };
+        let (satisfied, weighted) = (problem.mean(p), problem.mean(weighted));
         (satisfied, if satisfied > 0.0 { weighted / satisfied } else { f64::INFINITY })
+    }
+
+    /// How far [`Self::mean_steps`] may be from the true mean: a bound that holds. Where success is about
+    /// as improbable as the error of its probability it is infinite.
+    #[must_use]
+    #[inline]
+    pub fn steps_error(&self) -> f64 {
+        let (satisfied, steps) = self.means();
+        let (relative, absolute) = self.error;
+        let error = self.satisfied.error;
+        if satisfied <= 0.0 && error == 0.0 {
+            return 0.0;
+        } else if error >= satisfied || !relative.is_finite() || !absolute.is_finite() {
+            return f64::INFINITY;
+        }
+        let weighted = relative * satisfied * steps + (1.0 + relative) * absolute;
+        (weighted + steps * error) / (satisfied - error)
     }
 
     /// P(satisfied) and E\[steps\] from the pair with a number.
@@ -170,6 +233,18 @@ impl Evaluation {
 }
 
 impl Problem {
+    /// The mean over the starts, `s_0` read: exact where all are worth the same, for it is divided by
+    /// what the weights sum to.
+    #[inline]
+    fn mean(&self, of: impl Fn(usize) -> f64) -> f64 {
+        let (mut sum, mut weights) = (0.0, 0.0);
+        for (s, pair) in self.start_pairs() {
+            let weight = self.dynamics.starts()[s];
+            (sum, weights) = (sum + weight * of(pair), weights + weight);
+        }
+        sum / weights
+    }
+
     /// The states in which an episode can start, with their pairs once they are read.
     #[inline]
     pub(super) fn start_pairs(&self) -> impl Iterator<Item = (usize, usize)> {

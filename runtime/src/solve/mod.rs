@@ -1,30 +1,36 @@
 //! Exact solutions for finite models: what is optimal, and what a given policy is worth.
 //!
 //! A [`Problem`] is a world's [`Dynamics`] under a [`Labelled`] task; its [`Optimum`] is what policies
-//! are judged against. Automaton states are solved
-//! one strongly connected component after the other, those that the others lead to first; within
-//! a component, pairs (q, s) are swept Gauss-Seidel fashion, over-relaxed, along the flow of the
-//! optimal policy and in a window that moves away from the exits; the stop is that of plain sweeps.
-//! Measured with 8 automaton states: 0.3 ms on the paper's grid; on 1000 × 1000 cells 20 s for Q*,
-//! and as much for E\[steps\], in 1.2 times the memory of the table.
+//! are judged against. Automaton states are solved one strongly connected component (`graph`) after the
+//! other, those that the others lead to first. In each, what the graph decides is found (`sets`) by searches:
+//! where success is impossible, and where it is sure. For the pairs between, policies are
+//! improved (`improve`), their linear systems (`chain`) solved, small ones by elimination (`eliminate`), and
+//! the error of what results is bounded (`bounds`), whatever computed it.
 //!
 //! - *Flat* values bootstrap at q' ([`Problem::optimal_q`], the augmented MDP); *sub-policy* values
 //!   at a fixed q ([`Problem::sub_policy_q`], the paper's Eq. 3A6). They are different.
 //! - P(satisfied) and E\[steps\] are undiscounted and without horizon. Steps count from the first
 //!   state, which is read and costs nothing, to acceptance; where P < 1 they are conditional on
 //!   success. The smallest possible steps are those among the policies with the largest possible
-//!   P. Weak point: in a world that mixes slowly, an undiscounted sweep gains little; components
-//!   of up to 1024 pairs are then solved by elimination, larger ones are swept on.
+//!   P.
+//! - Every number comes with a [bound on its error](Values::error) that holds in exact arithmetic. Where a
+//!   world is hardly ever left (once in 10^9 steps, on ways that lead back and forth) it may be wide,
+//!   and then says so.
 
 mod actions;
-mod block;
+mod bounded;
+mod bounds;
+mod chain;
+mod component;
+mod eliminate;
 mod evaluation;
 mod finish;
 mod graph;
+mod improve;
 mod optimum;
 mod report;
 mod rule;
-mod settle;
+mod sets;
 
 use alloc::sync::Arc;
 use alloc::vec::Vec;
@@ -36,15 +42,12 @@ use crate::model::Dynamics;
 use crate::policy::Policy;
 use crate::q::QTable;
 use crate::reward::{End, Rewards};
-pub(crate) use actions::{Actions, Objective};
-use block::Block;
+pub(crate) use actions::Actions;
+use bounded::Bounded;
 pub use evaluation::{Evaluation, Values};
 pub use optimum::Optimum;
-use rule::{Backup, Rule};
-
-/// The change at which sweeps stop, relative to values where they exceed 1. In worlds that are left
-/// slowly the error is larger than the last change: 5e-9 on a grid of 100 × 100 with traps.
-const TOLERANCE: f64 = 1e-11;
+pub(crate) use rule::Objective;
+use rule::{Choice, Rule};
 
 /// A finite world under a task: the augmented MDP that is solved. Cheap to clone: clones share the
 /// tables.
@@ -127,7 +130,7 @@ impl Problem {
         Optimum::new(self.clone(), rewards)
     }
 
-    /// The optimal flat action values Q* of the augmented MDP, to about 1e-10.
+    /// The optimal flat action values Q* of the augmented MDP; [`Optimum::q_error`] bounds their error.
     ///
     /// ```
     /// use tltl::model;
@@ -149,11 +152,24 @@ impl Problem {
     #[track_caller]
     #[inline]
     pub fn optimal_q(&self, rewards: &Rewards) -> QTable {
-        self.optimal_q_of(&self.task.payment(rewards), rewards.gamma(), None)
+        self.bounded_q(rewards).0
     }
 
-    /// The same for any payment; `start` saves sweeps if it is near the result. (Whatever it is, the
-    /// result is the same: the sweeps are a contraction.)
+    /// The same with a bound on the error.
+    #[track_caller]
+    #[inline]
+    fn bounded_q(&self, rewards: &Rewards) -> (QTable, f64) {
+        let (payment, gamma) = (self.task.payment(rewards), rewards.gamma());
+        let Bounded { values, error, .. } =
+            self.discounted((&payment, gamma, false), None, &Rule::LARGEST);
+        // A sum of products more.
+        let largest = values.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+        let rounding = (self.dynamics.actions() as f64 + 16.0) * f64::EPSILON * largest;
+        (self.action_values(&self.arrivals(&payment, gamma, &values)), error + rounding)
+    }
+
+    /// The same for any payment; `start` saves rounds if it is near the result, which is the same
+    /// whatever it is, up to its error.
     #[inline]
     pub(crate) fn optimal_q_of(
         &self,
@@ -161,14 +177,16 @@ impl Problem {
         gamma: f64,
         start: Option<&QTable>,
     ) -> QTable {
-        let values = self.discounted(payment, gamma, start, &Rule::Largest);
+        let Bounded { values, .. } =
+            self.discounted((payment, gamma, false), start, &Rule::LARGEST);
         self.action_values(&self.arrivals(payment, gamma, &values))
     }
 
     /// The flat action values Q^π of a policy of this problem, for any payment.
     #[inline]
     pub(crate) fn policy_q(&self, payment: &Payment, gamma: f64, policy: &Policy) -> QTable {
-        let values = self.discounted(payment, gamma, None, &Rule::Follow(policy.table()));
+        let rule = Rule::follow(policy.table());
+        let Bounded { values, .. } = self.discounted((payment, gamma, false), None, &rule);
         self.action_values(&self.arrivals(payment, gamma, &values))
     }
 
@@ -198,10 +216,7 @@ impl Problem {
     #[inline]
     pub fn sub_policy_q(&self, rewards: &Rewards) -> QTable {
         let (payment, gamma) = (self.task.payment(rewards), rewards.gamma());
-        let mut values = alloc::vec![0.0; self.task.pairs()];
-        for q in self.task.live() {
-            Block::fixed(self, q, &payment, gamma).sweep(&mut values, true, &Rule::Largest);
-        }
+        let Bounded { values, .. } = self.discounted((&payment, gamma, true), None, &Rule::LARGEST);
         let states = self.task.states();
         self.action_values(&|q, at| {
             if at >= states {
@@ -212,7 +227,7 @@ impl Problem {
     }
 
     /// The policy of the largest possible P(satisfied), and among those of the smallest possible
-    /// E\[steps\] (actions within 1e-9 of the largest P count as reaching it).
+    /// E\[steps\] (actions that lose at most 1e-9 of P when they lead elsewhere count as reaching it).
     ///
     /// ```
     /// use tltl::model;
@@ -235,21 +250,29 @@ impl Problem {
     #[inline]
     pub fn best(&self) -> Evaluation {
         let accept = self.acceptance();
-        let satisfied = self.reach(&accept);
-        let safe = self.safe(&accept, &satisfied);
-        let weighted = self.fewest_steps(&satisfied, &safe);
-        let policy = Policy::from_table(&self.task, self.fewest(&weighted, &safe));
-        self.evaluation(policy, satisfied, &weighted)
+        let largest = self.probability(&accept, &Rule::LARGEST);
+        let safe = self.safe(&accept, &largest.values);
+        let fewest = Rule::best(Objective::Smallest, Choice::Of(&safe));
+        let weighted = self.costs(&largest.values, &fewest);
+        let policy = Policy::from_table(&self.task, weighted.policy.clone());
+        if largest.doubt == 0.0 {
+            return self.evaluation(policy, largest, weighted);
+        }
+        // Actions that are tied up to 1e-9 are not quite as good together.
+        let rule = Rule::follow(policy.table());
+        let own = self.probability(&accept, &rule);
+        let weighted = self.costs(&own.values, &rule);
+        let less = |(largest, own): (&f64, &f64)| (largest - own).abs();
+        let less = largest.values.iter().zip(&own.values).map(less).fold(0.0, f64::max);
+        self.evaluation(policy, own, weighted).standing_within(largest.error + less)
     }
 
-    /// The largest possible P(satisfied), to about 1e-10 (5e-9 in a world that is left slowly): 1 at the
-    /// accepting state, 0 at the trap.
+    /// The largest possible P(satisfied): 1 at the accepting state, 0 at the trap.
     #[must_use]
     #[inline]
     pub fn largest_satisfied(&self) -> Values {
-        let mut satisfied = self.reach(&self.acceptance());
-        self.set_end(End::Accepted, &mut satisfied, 1.0);
-        Values::new(self, satisfied)
+        let largest = self.probability(&self.acceptance(), &Rule::LARGEST);
+        Values::new(self, largest).with_end(End::Accepted)
     }
 
     /// P(satisfied) and E\[steps\] of a policy, whatever it does: where it never succeeds, P is 0.
@@ -273,15 +296,10 @@ impl Problem {
     #[inline]
     pub fn evaluate(&self, policy: &Policy) -> Result<Evaluation, Mismatch> {
         policy.must_be_for(&self.task)?;
-        let actions = policy.table();
-        let (mut satisfied, mut weighted) = (self.zeros(), self.zeros());
-        let (accept, nothing, none) = (self.acceptance(), self.nothing(), self.zeros());
-        for members in self.components.iter() {
-            let block = Block::following(self, members, &accept, actions);
-            block.solve(&mut satisfied, &none, actions);
-            block.paying(&nothing).solve(&mut weighted, &satisfied, actions);
-        }
-        Ok(self.evaluation(policy.clone(), satisfied, &weighted))
+        let rule = Rule::follow(policy.table());
+        let satisfied = self.probability(&self.acceptance(), &rule);
+        let weighted = self.costs(&satisfied.values, &rule);
+        Ok(self.evaluation(policy.clone(), satisfied, weighted))
     }
 
     /// P(satisfied within so many steps) of a policy: 1 at the accepting state. Each step is one
@@ -306,7 +324,7 @@ impl Problem {
     #[inline]
     pub fn satisfied_within(&self, policy: &Policy, steps: u64) -> Result<Values, Mismatch> {
         policy.must_be_for(&self.task)?;
-        Ok(self.within(steps, &Rule::Follow(policy.table())))
+        Ok(self.within(steps, &Rule::follow(policy.table())))
     }
 
     /// The largest possible P(satisfied within so many steps): that of the best policy which knows how
@@ -331,7 +349,7 @@ impl Problem {
     #[must_use]
     #[inline]
     pub fn largest_satisfied_within(&self, steps: u64) -> Values {
-        self.within(steps, &Rule::Largest)
+        self.within(steps, &Rule::LARGEST)
     }
 
     /// Finite-horizon dynamic programming; it stops where a further step changes nothing.
@@ -342,9 +360,9 @@ impl Problem {
         for _ in 0..steps {
             let mut change = false;
             let arrival = self.arrivals(&accept, 1.0, &values);
-            self.gathered(&arrival, &mut |q, s, backup| {
+            self.backups(&arrival, &mut |q, s, backup| {
                 let pair = self.task.pair(q, s);
-                next[pair] = rule.value(pair, backup);
+                next[pair] = rule.value(pair, backup.iter().copied());
                 change |= next[pair] > values[pair];
             });
             drop(arrival);
@@ -353,8 +371,7 @@ impl Problem {
                 break;
             }
         }
-        self.set_end(End::Accepted, &mut values, 1.0);
-        Values::new(self, values)
+        Values::new(self, Bounded::exact(values)).with_end(End::Accepted)
     }
 
     /// P(the trap is ever entered) under a policy; 1 at the trap. Where a policy may also go on for
@@ -365,9 +382,7 @@ impl Problem {
     #[inline]
     pub fn lost(&self, policy: &Policy) -> Result<Values, Mismatch> {
         policy.must_be_for(&self.task)?;
-        let mut lost = self.lost_by(&self.entering(End::Lost), &Rule::Follow(policy.table()));
-        self.set_end(End::Lost, &mut lost, 1.0);
-        Ok(Values::new(self, lost))
+        Ok(self.lost_by(&Rule::follow(policy.table())))
     }
 
     /// The smallest possible P(the trap is ever entered); 1 at the trap. A policy that reaches it may
@@ -392,33 +407,20 @@ impl Problem {
     #[must_use]
     #[inline]
     pub fn smallest_lost(&self) -> Values {
-        let mut lost = self.lost_by(&self.entering(End::Lost), &Rule::Least);
-        self.set_end(End::Lost, &mut lost, 1.0);
-        Values::new(self, lost)
+        self.lost_by(&Rule::best(Objective::Smallest, Choice::All))
     }
 
     /// The smallest or the largest P(the trap is ever entered) among the policies that use allowed
     /// actions only; 1 at the trap. Every live pair has an allowed action.
     #[inline]
     pub(crate) fn lost_within(&self, allowed: &Actions, objective: Objective) -> Values {
-        let rule = match objective {
-            Objective::Smallest => Rule::LeastOf(allowed),
-            Objective::Largest => Rule::LargestOf(allowed),
-        };
-        let mut lost = self.lost_by(&self.entering(End::Lost), &rule);
-        self.set_end(End::Lost, &mut lost, 1.0);
-        Values::new(self, lost)
+        self.lost_by(&Rule::best(objective, Choice::Of(allowed)))
     }
 
-    /// Sweeps from 0, which is below: the least fixed point, for being lost needs an entry into the
-    /// trap, and a cycle that never enters it must not count.
     #[inline]
-    fn lost_by(&self, trapped: &Payment, rule: &Rule<'_>) -> Vec<f64> {
-        let mut values = self.zeros();
-        for members in self.components.iter() {
-            Block::new(self, members, trapped, 1.0).sweep(&mut values, true, rule);
-        }
-        values
+    fn lost_by(&self, rule: &Rule<'_>) -> Values {
+        let lost = self.probability(&self.entering(End::Lost), rule);
+        Values::new(self, lost).with_end(End::Lost)
     }
 
     #[inline]
@@ -448,92 +450,34 @@ impl Problem {
         self.task.payment_by(&pays)
     }
 
-    #[inline]
-    fn nothing(&self) -> Payment {
-        self.task.payment_by(&|_, _| 0.0)
-    }
-
     /// 0 at every pair: at terminal ones, that is their value.
     #[inline]
     fn zeros(&self) -> Vec<f64> {
         alloc::vec![0.0; self.task.pairs()]
     }
 
-    /// Values by sweeps, from `start` or from estimates.
-    #[inline]
-    fn discounted(
-        &self,
-        payment: &Payment,
-        gamma: f64,
-        start: Option<&QTable>,
-        rule: &Rule<'_>,
-    ) -> Vec<f64> {
-        let mut values = self.zeros();
-        for members in self.components.iter() {
-            let block = Block::new(self, members, payment, gamma).settled(&mut values, rule);
-            if let Some(table) = start {
-                block.start(&mut values, table);
-            }
-            block.sweep(&mut values, true, rule);
-        }
-        values
-    }
-
-    /// The largest possible P(satisfied).
-    #[inline]
-    fn reach(&self, accept: &Payment) -> Vec<f64> {
-        let mut values = self.zeros();
-        for members in self.components.iter() {
-            let block = Block::new(self, members, accept, 1.0);
-            if !block.succeeds(&mut values) {
-                // From 0, which is below: of several fixed points the least is P(satisfied).
-                block.sweep(&mut values, false, &Rule::Largest);
-            }
-        }
-        values
-    }
-
-    /// Least Σ steps · 1(success) with the actions that are `safe`: divided by P(success) it is
-    /// E\[steps\] given success. Pairs from which success is impossible take no part, for there every
-    /// number of steps would do.
-    #[inline]
-    fn fewest_steps(&self, satisfied: &[f64], safe: &Actions) -> Vec<f64> {
-        let (mut values, nothing) = (self.zeros(), self.nothing());
-        let rule = &Rule::LeastCost { costs: satisfied, safe };
-        for members in self.components.iter() {
-            let block = Block::new(self, members, &nothing, 1.0);
-            let block = block.only(|pair| satisfied[pair] > 0.0).settled(&mut values, rule);
-            block.sweep(&mut values, false, rule);
-        }
-        values
-    }
-
-    /// For each pair the safe action of the least cost.
-    #[inline]
-    fn fewest(&self, cost: &[f64], safe: &Actions) -> Vec<u32> {
-        let mut policy = alloc::vec![0; self.task.pairs()];
-        self.backups(&self.arrivals(&self.nothing(), 1.0, cost), &mut |q, s, actions| {
-            let pair = self.task.pair(q, s);
-            let allowed = (0..actions.len()).filter(|&a| safe.contains(pair, a));
-            let best = allowed.reduce(|best, a| if actions[a] < actions[best] { a } else { best });
-            policy[pair] = best.unwrap_or(0) as u32;
-        });
-        policy
-    }
-
-    /// The actions within 1e-9 of the largest P: ties are common, and rounding must not break them
-    /// before the steps do.
+    /// The actions that lose at most 1e-9 of the largest P each time that they lead elsewhere: ties are
+    /// common, and rounding must not break them before the steps do.
     #[inline]
     fn safe(&self, accept: &Payment, satisfied: &[f64]) -> Actions {
         let mut safe = Actions::none(self.task.pairs(), self.dynamics.actions());
-        self.backups(&self.arrivals(accept, 1.0, satisfied), &mut |q, s, actions| {
-            let pair = self.task.pair(q, s);
-            for (a, &p) in actions.iter().enumerate() {
-                if p >= satisfied[pair] - 1e-9 {
-                    safe.insert(pair, a);
+        let arrival = self.arrivals(accept, 1.0, satisfied);
+        for q in self.task.live() {
+            let all: Vec<f64> = (0..self.dynamics.arrivals()).map(|at| arrival(q, at)).collect();
+            for s in 0..self.task.states() {
+                let (pair, stays) = (self.task.pair(q, s), self.task.next(q, s) == q);
+                for a in 0..self.dynamics.actions() {
+                    let (mut loss, mut moving) = (0.0, 0.0);
+                    for (at, p) in self.dynamics.row(s, a).filter(|&(at, _)| at != s || !stays) {
+                        loss += p * (satisfied[pair] - all[at]);
+                        moving += p;
+                    }
+                    if loss <= 1e-9 * moving {
+                        safe.insert(pair, a);
+                    }
                 }
             }
-        });
+        }
         safe
     }
 
@@ -559,38 +503,25 @@ impl Problem {
         move |q, at| self.worth(payment, discount, values, q, at)
     }
 
-    /// What a backup of every live pair sees. What arriving is worth is gathered once for each q, so
-    /// that a pair reads its successors from one row.
-    #[inline]
-    fn gathered(
-        &self,
-        arrival: &dyn Fn(u32, usize) -> f64,
-        visit: &mut dyn FnMut(u32, usize, &Backup<'_>),
-    ) {
-        let mut arrivals = Vec::new();
-        for q in self.task.live() {
-            let all: Vec<f64> = (0..self.dynamics.arrivals()).map(|at| arrival(q, at)).collect();
-            for s in 0..self.dynamics.states() {
-                arrivals.clear();
-                arrivals.extend(self.dynamics.successors(s).iter().map(|&to| all[to as usize]));
-                let matrix = self.dynamics.matrix(s);
-                visit(q, s, &Backup { matrix, arrivals: &arrivals });
-            }
-        }
-    }
-
-    /// One backup of every action at every live pair: `visit(q, s, values)`.
+    /// One backup of every action at every live pair: `visit(q, s, values)`. What arriving is worth is
+    /// gathered once for each q, so that a pair reads its successors from one row.
     #[inline]
     fn backups(
         &self,
         arrival: &dyn Fn(u32, usize) -> f64,
         visit: &mut dyn FnMut(u32, usize, &[f64]),
     ) {
-        let mut actions = alloc::vec![0.0; self.dynamics.actions()];
-        self.gathered(arrival, &mut |q, s, backup| {
-            actions.iter_mut().zip(backup.values()).for_each(|(value, of)| *value = of);
-            visit(q, s, &actions);
-        });
+        let (mut arrivals, mut values) = (Vec::new(), alloc::vec![0.0; self.dynamics.actions()]);
+        for q in self.task.live() {
+            let all: Vec<f64> = (0..self.dynamics.arrivals()).map(|at| arrival(q, at)).collect();
+            for s in 0..self.dynamics.states() {
+                arrivals.clear();
+                arrivals.extend(self.dynamics.successors(s).iter().map(|&to| all[to as usize]));
+                let rows = self.dynamics.matrix(s).chunks_exact(arrivals.len());
+                values.iter_mut().zip(rows).for_each(|(value, row)| *value = mean(row, &arrivals));
+                visit(q, s, &values);
+            }
+        }
     }
 
     /// Q(s, q, a) = E\[what arriving is worth\].
@@ -603,12 +534,14 @@ impl Problem {
 
     /// `satisfied` times the steps to satisfaction is `weighted`.
     #[inline]
-    fn evaluation(&self, policy: Policy, mut satisfied: Vec<f64>, weighted: &[f64]) -> Evaluation {
+    fn evaluation(&self, policy: Policy, satisfied: Bounded, weighted: Bounded) -> Evaluation {
         let steps = |(&w, &p): (&f64, &f64)| if p > 0.0 { w / p } else { f64::NAN };
-        let mut steps: Vec<f64> = weighted.iter().zip(&satisfied).map(steps).collect();
-        self.set_end(End::Accepted, &mut satisfied, 1.0);
+        let mut steps: Vec<f64> =
+            weighted.values.iter().zip(&satisfied.values).map(steps).collect();
         self.set_end(End::Accepted, &mut steps, 0.0);
-        Evaluation::new(policy, Values::new(self, satisfied), steps)
+        let doubt = satisfied.error * satisfied.doubt;
+        let satisfied = Values::new(self, satisfied).with_end(End::Accepted);
+        Evaluation::new(policy, satisfied, steps, (weighted.error, doubt))
     }
 
     /// Sets the values at an end.
@@ -620,4 +553,10 @@ impl Problem {
             }
         }
     }
+}
+
+/// Σ p · value.
+#[inline]
+fn mean(row: &[f64], values: &[f64]) -> f64 {
+    row.iter().zip(values).map(|(p, value)| p * value).sum()
 }

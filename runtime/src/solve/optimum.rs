@@ -13,8 +13,8 @@ use crate::policy::Policy;
 use crate::q::QTable;
 use crate::reward::Rewards;
 
-/// By how much an action may be worse than the best and still counts as optimal: values are exact to
-/// 1e-10, and learned policies break ties by rounding.
+/// By how much an action may be worse than the best and still counts as optimal: learned policies break
+/// ties by rounding.
 const TOLERANCE: f64 = 1e-6;
 
 /// The optimum of a [`Problem`]: the optimal values for some rewards, and the policy that satisfies
@@ -38,13 +38,15 @@ const TOLERANCE: f64 = 1e-6;
 pub struct Optimum {
     problem: Problem,
     q: QTable,
+    q_error: f64,
     best: Evaluation,
 }
 
 impl Optimum {
     #[inline]
     pub(super) fn new(problem: Problem, rewards: &Rewards) -> Self {
-        Self { q: problem.optimal_q(rewards), best: problem.best(), problem }
+        let (q, q_error) = problem.bounded_q(rewards);
+        Self { q, q_error, best: problem.best(), problem }
     }
 
     /// The optimum of the same problem for other rewards. What the task itself wants is not solved
@@ -67,7 +69,8 @@ impl Optimum {
     #[inline]
     pub fn with_rewards(&self, rewards: &Rewards) -> Self {
         let (problem, best) = (self.problem.clone(), self.best.clone());
-        Self { q: problem.optimal_q(rewards), best, problem }
+        let (q, q_error) = problem.bounded_q(rewards);
+        Self { q, q_error, best, problem }
     }
 
     /// The problem.
@@ -82,6 +85,28 @@ impl Optimum {
     #[inline]
     pub const fn q(&self) -> &QTable {
         &self.q
+    }
+
+    /// How far any of the [action values](Self::q) may be from the true one: a bound that holds.
+    ///
+    /// ```
+    /// use tltl::model;
+    /// use tltl::prelude::*;
+    ///
+    /// // A step to the goal succeeds one time in four, and else stays.
+    /// let try_hard = model::from_fn(2, 1, |s, _| if s == 0 { [(1, 0.25), (0, 0.75)] } else { [(1, 1.0), (0, 0.0)] });
+    /// let task = Labelled::of_model(&try_hard, &tltl! { |s: &usize| F ({ *s } == 1) })?;
+    /// let rewards = Rewards::acceptance().with_gamma(0.5)?;
+    /// let optimum = Problem::new(&Dynamics::new(&try_hard)?, &task)?.optimum(&rewards);
+    /// // V = 0.25 + 0.75 · 0.5 V.
+    /// assert!((optimum.q().max(0, 0) - 0.4).abs() <= optimum.q_error() + 1e-16);
+    /// assert!(optimum.q_error() < 1e-14);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    #[must_use]
+    #[inline]
+    pub const fn q_error(&self) -> f64 {
+        self.q_error
     }
 
     /// The best policy for the task itself: see [`Problem::best`].
@@ -115,6 +140,8 @@ impl Optimum {
             regret_steps: finite(steps).and(finite(ratio)),
             worst_regret_satisfied: self.worst_regret(own),
             fraction_optimal: self.fraction_optimal(own.policy())?,
+            satisfied_error: Some(own.satisfied().error().max(self.best.satisfied().error())),
+            steps_error: finite(own.steps_error().max(self.best.steps_error())),
             within: None,
         })
     }

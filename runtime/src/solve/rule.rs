@@ -1,119 +1,89 @@
-//! What a pair is worth, given what arriving at its successors is worth.
-//!
-//! Five problems are solved by the same sweeps: optimal values, the least chance of being lost, the
-//! values and the costs of a given policy, and the least costs among actions that are allowed. They
-//! differ in how a pair's value follows from those of its actions, and that is a [`Rule`]. A rule is
-//! data and not a closure: closures made eight copies of the sweeps and three of the search.
+//! What is asked of a problem: the best or the worst of some actions, or what a policy comes to.
 
 use super::Actions;
-use super::settle::{Guess, Lookahead};
+
+/// Which of several policies is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Objective {
+    /// The one of the smallest value.
+    Smallest,
+    /// The one of the largest value.
+    Largest,
+}
+
+/// Which actions may be taken.
+#[derive(Clone, Copy)]
+pub(super) enum Choice<'a> {
+    All,
+    Of(&'a Actions),
+    Policy(&'a [u32]),
+}
 
 /// How the value of a pair follows from those of its actions.
 ///
-/// Costs are undiscounted and weighted by success: where a policy succeeds with probability P, each
-/// step costs P, so that the sum divided by P is E\[steps\] given success.
-pub(super) enum Rule<'a> {
-    /// The largest.
-    Largest,
-    /// The least.
-    Least,
-    /// The largest of the actions that are allowed.
-    LargestOf(&'a Actions),
-    /// The least of the actions that are allowed.
-    LeastOf(&'a Actions),
-    /// That of a policy's action.
-    Follow(&'a [u32]),
-    /// The pair's cost, and what the action of a policy costs from there on.
-    Cost { costs: &'a [f64], policy: &'a [u32] },
-    /// The pair's cost, and the least that a safe action costs from there on.
-    LeastCost { costs: &'a [f64], safe: &'a Actions },
+/// With `costs`, each step costs what they say of the pair, undiscounted: where a policy succeeds with
+/// probability P and each step costs P, the sum divided by P is E\[steps\] given success.
+#[derive(Clone, Copy)]
+pub(super) struct Rule<'a> {
+    pub(super) objective: Objective,
+    pub(super) choice: Choice<'a>,
+    /// By pair, positive where asked for.
+    pub(super) costs: Option<&'a [f64]>,
 }
 
-impl Rule<'_> {
-    /// The value of `pair`.
+impl<'a> Rule<'a> {
+    /// The largest value of all actions.
+    pub(super) const LARGEST: Self = Self::best(Objective::Largest, Choice::All);
+
     #[inline]
-    pub(super) fn value(&self, pair: usize, backup: &Backup<'_>) -> f64 {
-        match *self {
-            Self::Largest => backup.max_where(|_| true),
-            Self::Least => backup.min_where(|_| true),
-            Self::LargestOf(allowed) => backup.max_where(|a| allowed.contains(pair, a)),
-            Self::LeastOf(allowed) => backup.min_where(|a| allowed.contains(pair, a)),
-            Self::Follow(policy) => backup.of(policy[pair]),
-            Self::Cost { costs, policy } => costs[pair] + backup.of(policy[pair]),
-            Self::LeastCost { costs, safe } => {
-                costs[pair] + backup.min_where(|a| safe.contains(pair, a))
-            }
+    pub(super) const fn best(objective: Objective, choice: Choice<'a>) -> Self {
+        Self { objective, choice, costs: None }
+    }
+
+    /// The value of a policy.
+    #[inline]
+    pub(super) const fn follow(policy: &'a [u32]) -> Self {
+        Self::best(Objective::Largest, Choice::Policy(policy))
+    }
+
+    #[inline]
+    pub(super) const fn costing(self, costs: &'a [f64]) -> Self {
+        Self { costs: Some(costs), ..self }
+    }
+
+    /// Whether an action may be taken.
+    #[inline]
+    pub(super) fn allows(&self, pair: usize, a: usize) -> bool {
+        match self.choice {
+            Choice::All => true,
+            Choice::Of(allowed) => allowed.contains(pair, a),
+            Choice::Policy(policy) => policy[pair] as usize == a,
         }
     }
 
-    /// A first value of `pair`. Costs are not discounted.
+    /// Whether there is nothing to choose.
     #[inline]
-    pub(super) fn guess(&self, pair: usize, known: &Lookahead<'_>, discount: f64) -> Guess {
-        match *self {
-            Self::Largest | Self::LargestOf(_) => known.best(discount),
-            Self::Least | Self::LeastOf(_) => known.least(0.0, |_| true),
-            Self::Follow(policy) => known.discounted(policy[pair] as usize, discount),
-            Self::Cost { costs, policy } => known.cost(policy[pair] as usize, costs[pair]),
-            Self::LeastCost { costs, safe } => known.least(costs[pair], |a| safe.contains(pair, a)),
+    pub(super) const fn is_policy(&self) -> bool {
+        matches!(self.choice, Choice::Policy(_))
+    }
+
+    /// 1 if the largest value is asked for, −1 if the smallest is.
+    #[inline]
+    pub(super) const fn sign(&self) -> f64 {
+        match self.objective {
+            Objective::Largest => 1.0,
+            Objective::Smallest => -1.0,
         }
     }
 
-    /// How late a pair of this value is settled.
-    ///
-    /// The largest values come first, for what leads to them is worth less; so do the least costs. A
-    /// cost is divided by the weight of its pair, or pairs that seldom succeed would seem near.
+    /// The value of a pair of these action values.
     #[inline]
-    pub(super) fn key(&self, pair: usize, value: f64) -> f64 {
-        match *self {
-            Self::Largest | Self::LargestOf(_) | Self::Follow(_) => -value,
-            Self::Least | Self::LeastOf(_) => value,
-            Self::Cost { costs, .. } | Self::LeastCost { costs, .. } => value / costs[pair],
+    pub(super) fn value(&self, pair: usize, mut values: impl Iterator<Item = f64>) -> f64 {
+        if let Choice::Policy(policy) = self.choice {
+            return values.nth(policy[pair] as usize).unwrap_or(f64::NAN);
         }
+        let allowed = values.enumerate().filter(|&(a, _)| self.allows(pair, a));
+        let best = allowed.map(|(_, value)| self.sign() * value).fold(f64::NEG_INFINITY, f64::max);
+        self.sign() * best
     }
-}
-
-/// What a backup sees: the probabilities of one state's successors, and what arriving is worth.
-///
-/// `matrix` has a row for each action, each with a probability for each successor; `arrivals` has
-/// what arriving at each successor is worth, payment included, in the same order.
-pub(super) struct Backup<'a> {
-    pub(super) matrix: &'a [f64],
-    pub(super) arrivals: &'a [f64],
-}
-
-impl Backup<'_> {
-    /// The values of the actions.
-    #[inline]
-    pub(super) fn values(&self) -> impl Iterator<Item = f64> {
-        self.matrix.chunks_exact(self.arrivals.len()).map(|row| mean(row, self.arrivals))
-    }
-
-    /// The value of one action.
-    #[inline]
-    fn of(&self, action: u32) -> f64 {
-        let n = self.arrivals.len();
-        mean(&self.matrix[action as usize * n..][..n], self.arrivals)
-    }
-
-    /// The largest value of the actions that are `allowed`.
-    #[inline]
-    fn max_where(&self, allowed: impl Fn(usize) -> bool) -> f64 {
-        let values = self.values().enumerate().filter(|&(a, _)| allowed(a));
-        values.fold(f64::NEG_INFINITY, |best, (_, value)| if value > best { value } else { best })
-    }
-
-    /// The least value of the actions that are `allowed`.
-    ///
-    /// Infinite where none is: such a pair is never chosen.
-    #[inline]
-    fn min_where(&self, allowed: impl Fn(usize) -> bool) -> f64 {
-        let values = self.values().enumerate().filter(|&(a, _)| allowed(a));
-        values.fold(f64::INFINITY, |best, (_, value)| if value < best { value } else { best })
-    }
-}
-
-/// Σ p · arrival.
-#[inline]
-fn mean(row: &[f64], arrivals: &[f64]) -> f64 {
-    row.iter().zip(arrivals).map(|(p, value)| p * value).sum()
 }

@@ -1,0 +1,140 @@
+//! Values of all pairs with a bound on their error, one component after the other.
+
+use alloc::vec::Vec;
+
+use super::component::Component;
+use super::improve::{Solution, outwards as policy};
+use super::sets::{outwards, sets};
+use super::{Problem, Rule};
+use crate::augmented::{LabelTable, Payment};
+use crate::q::QTable;
+
+/// A number for each pair, and how far they may be from the true ones.
+pub(super) struct Bounded {
+    pub(super) values: Vec<f64>,
+    /// Absolute; relative for costs.
+    pub(super) error: f64,
+    /// The actions by which the values come about; 0 where there is nothing to choose.
+    pub(super) policy: Vec<u32>,
+    /// For probabilities, the most steps that the policy can be expected to make where success is
+    /// neither sure nor impossible.
+    pub(super) doubt: f64,
+}
+
+impl Bounded {
+    /// Values without an error but rounding.
+    #[inline]
+    pub(super) fn exact(values: Vec<f64>) -> Self {
+        Self { values, error: 0.0, policy: Vec::new(), doubt: 0.0 }
+    }
+}
+
+/// Collects the values of components.
+struct Collector<'a> {
+    problem: &'a Problem,
+    bounded: Bounded,
+    /// By automaton state.
+    errors: Vec<f64>,
+}
+
+impl Collector<'_> {
+    #[inline]
+    fn put(&mut self, solution: &Solution<'_>) {
+        let unknowns = solution.component.unknowns().iter();
+        for ((&code, &x), &a) in unknowns.zip(&solution.x).zip(&solution.policy) {
+            let pair = solution.component.pair(code);
+            (self.bounded.values[pair], self.bounded.policy[pair]) = (x, a);
+        }
+    }
+
+    /// The error of a component adds to the largest of those that it leads to.
+    #[inline]
+    fn add_error(&mut self, members: &[u32], own: f64) {
+        let LabelTable { classes, next, .. } = self.problem.task.tables();
+        let row = |&q: &u32| &next[q as usize * classes..][..*classes];
+        let behind = members.iter().flat_map(row).map(|&to| self.errors[to as usize]);
+        let error = own + behind.fold(0.0, f64::max);
+        members.iter().for_each(|&q| self.errors[q as usize] = error);
+        self.bounded.error = self.bounded.error.max(error);
+    }
+}
+
+impl Problem {
+    #[inline]
+    fn collector(&self) -> Collector<'_> {
+        let values = alloc::vec![0.0; self.task.pairs()];
+        let policy = alloc::vec![0; self.task.pairs()];
+        let errors = alloc::vec![0.0; self.task.automaton_states() as usize];
+        let bounded = Bounded { values, error: 0.0, policy, doubt: 0.0 };
+        Collector { problem: self, bounded, errors }
+    }
+
+    /// Discounted values; `start` saves rounds if it is near the result. If `fixed`, the automaton stays
+    /// where it is.
+    #[inline]
+    pub(super) fn discounted(
+        &self,
+        (payment, gamma, fixed): (&Payment, f64, bool),
+        start: Option<&QTable>,
+        rule: &Rule<'_>,
+    ) -> Bounded {
+        let mut all = self.collector();
+        for members in self.components.iter() {
+            let known = &all.bounded.values;
+            let mut component = Component::new(self, members, (payment, gamma, fixed), known);
+            component.choose(outwards(&component, rule), known);
+            let first = policy(&component, rule);
+            let values = start.map(|table| component.starting(|q, s| table.max(q, s)));
+            let solution = Solution::new(component, rule, first, values);
+            all.put(&solution);
+            all.add_error(members, solution.discounted_error());
+        }
+        all.bounded
+    }
+
+    /// The probabilities of being paid 1, which comes once.
+    #[inline]
+    pub(super) fn probability(&self, payment: &Payment, rule: &Rule<'_>) -> Bounded {
+        let mut all = self.collector();
+        for members in self.components.iter() {
+            let known = &all.bounded.values;
+            let mut component = Component::new(self, members, (payment, 1.0, false), known);
+            let sets = sets(&component, rule);
+            for &code in &sets.one {
+                all.bounded.values[component.pair(code)] = 1.0;
+            }
+            component.choose(sets.between, &all.bounded.values);
+            let first = policy(&component, rule);
+            let mut solution = Solution::new(component, rule, first, None);
+            let (error, doubt) = solution.probability_error();
+            all.put(&solution);
+            all.bounded.doubt += doubt;
+            all.add_error(members, error);
+        }
+        all.bounded
+    }
+
+    /// What a policy of allowed actions costs until it leaves for good, where `costs` are positive: the
+    /// least, with a relative error.
+    #[inline]
+    pub(super) fn costs(&self, costs: &[f64], rule: &Rule<'_>) -> Bounded {
+        let (mut all, nothing) = (self.collector(), self.task.payment_by(&|_, _| 0.0));
+        let accept = self.acceptance();
+        for members in self.components.iter() {
+            // The exits by which success is possible.
+            let mut good = Component::new(self, members, (&accept, 1.0, false), costs);
+            let mut unknowns = outwards(&good, rule);
+            unknowns.retain(|&code| costs[good.pair(code)] > 0.0);
+            good.choose(unknowns.clone(), &self.zeros());
+            let first = policy(&good, rule);
+            let known = &all.bounded.values;
+            let mut component = Component::new(self, members, (&nothing, 1.0, false), known);
+            component.choose(unknowns, known);
+            let rule = rule.costing(costs);
+            let solution = Solution::new(component, &rule, first, None);
+            all.put(&solution);
+            all.add_error(members, solution.relative_error(costs));
+        }
+        all.bounded
+    }
+}

@@ -1,0 +1,299 @@
+//! The values of a component: policy iteration with inexact evaluations.
+//!
+//! Each round looks at every action of every unknown once, takes those that are better, and corrects the
+//! values of the policy that results by a [linear system](super::chain) (Howard 1960; Puterman and
+//! Brumelle 1979: a Newton method, so that systems solved to two digits lose hardly a round). Residuals are
+//! sums of p · (value there − value here), so a pair that hardly ever moves loses no digit to rounding.
+//!
+//! Undiscounted, a policy must leave in the end. The first one follows the search from the exits; a
+//! later one that has a trap takes its former actions back there.
+
+use alloc::vec::Vec;
+
+use super::Rule;
+use super::chain::{Chain, Factors};
+use super::component::{Component, NONE};
+use super::eliminate::{SMALL, eliminate};
+use super::rule::Choice;
+
+/// By how much an action must be better to be taken, relative to the values: ties are common, and rounding
+/// must not decide them again and again.
+const TIE: f64 = 1e-12;
+
+/// The residual, relative to the values, below which there is nothing to correct but rounding.
+const DONE: f64 = 2e-15;
+
+/// How far a system is solved while the policy changes, where values slope; else; and in the end.
+const LOOSE: f64 = 1e-4;
+const TIGHT: f64 = 1e-10;
+const FULL: f64 = 1e-13;
+
+/// Sweeps between two systems: what becomes better beside one unknown makes the next one better.
+const SWEEPS: usize = 6;
+
+/// The rounds at most: policies improve each time, and few worlds take twenty.
+const ROUNDS: usize = 1000;
+
+/// Values and policy of the unknowns of a component.
+pub(super) struct Solution<'a> {
+    pub(super) component: Component<'a>,
+    pub(super) rule: &'a Rule<'a>,
+    pub(super) x: Vec<f64>,
+    /// The action of each unknown.
+    pub(super) policy: Vec<u32>,
+    arrivals: Vec<f64>,
+    /// By unknown: what the policy's action comes to, less the value.
+    pub(super) residual: Vec<f64>,
+    /// The largest value; costs are compared with their own.
+    scale: f64,
+}
+
+impl<'a> Solution<'a> {
+    /// The solution; `start` are first values, if there are any.
+    #[inline]
+    pub(super) fn new(
+        component: Component<'a>,
+        rule: &'a Rule<'a>,
+        policy: Vec<u32>,
+        start: Option<Vec<f64>>,
+    ) -> Self {
+        let n = component.unknowns().len();
+        let first = start.is_none();
+        let x = start.unwrap_or_else(|| alloc::vec![0.0; n]);
+        let (arrivals, residual) = (Vec::new(), alloc::vec![0.0; n]);
+        let mut solution = Self { component, rule, x, policy, arrivals, residual, scale: 0.0 };
+        solution.solve(first);
+        solution
+    }
+
+    #[inline]
+    fn solve(&mut self, first: bool) {
+        if !first {
+            self.sweep(TIE);
+        }
+        let mut solved = (self.x.clone(), self.policy.clone());
+        let (mut chain, mut changed, mut before) = (None, true, f64::INFINITY);
+        for round in 0..ROUNDS {
+            let chain = match &mut chain {
+                Some(chain) if !changed => chain,
+                chain => chain.insert(self.chain(&solved.1)),
+            };
+            self.look();
+            let size = self.size(chain);
+            let small = self.x.len() <= SMALL;
+            if !changed && (small || size <= DONE || size > 0.5 * before) {
+                break;
+            }
+            let loose = if self.slopes() { LOOSE } else { TIGHT };
+            let full = (0.1 * DONE / size).max(FULL);
+            let last = !changed || self.rule.is_policy();
+            let reduction = if last { full } else { loose };
+            let converged = small && self.eliminate()
+                || chain.correct(&self.residual, &mut self.x, reduction)
+                || self.correct_otherwise(reduction)
+                || self.eliminate();
+            if !converged && changed && round > 0 {
+                (self.x, self.policy) = solved;
+                break;
+            }
+            before = if changed && converged { f64::INFINITY } else { size };
+            changed = false;
+            if converged {
+                solved.0.copy_from_slice(&self.x);
+                solved.1.copy_from_slice(&self.policy);
+                let mut taken = self.sweep((loose * size.min(1.0)).max(TIE));
+                for _ in 1..if self.slopes() { SWEEPS } else { 1 } {
+                    if taken == 0 {
+                        break;
+                    }
+                    changed = true;
+                    taken = self.sweep(TIE);
+                }
+                changed |= taken > 0;
+                if changed && self.rule.costs.is_some() {
+                    self.sort(&mut solved);
+                }
+            }
+        }
+    }
+
+    /// Corrects the values with the other factors; whether that was enough. Their residuals may be small
+    /// where the true ones are not, so these decide.
+    #[inline]
+    fn correct_otherwise(&mut self, reduction: f64) -> bool {
+        let chain = Chain::new(&self.component, &self.policy, Factors::SumPreserving);
+        self.look();
+        let (x, before) = (self.x.clone(), self.size(&chain));
+        let converged = chain.correct(&self.residual, &mut self.x, reduction);
+        self.look();
+        if self.size(&chain) < before {
+            return converged;
+        }
+        self.x = x;
+        false
+    }
+
+    /// Finds the values by elimination, unless it is too much work.
+    #[inline]
+    fn eliminate(&mut self) -> bool {
+        let found = eliminate(&self.component, &self.policy, |code| self.cost(code));
+        found.map(|x| self.x = x).is_some()
+    }
+
+    /// Whether values change along the ways: where each step costs something, or is discounted. Where they
+    /// do not, an error makes hills that are none, and a policy may stay on one for ever.
+    #[inline]
+    fn slopes(&self) -> bool {
+        self.rule.costs.is_some() || self.component.discount() < 1.0
+    }
+
+    /// The system of the policy. Undiscounted, what would be trapped takes its former action back.
+    #[inline]
+    fn chain(&mut self, former: &[u32]) -> Chain {
+        let chain = Chain::new(&self.component, &self.policy, Factors::Plain);
+        let trapped = chain.trapped(&self.component, &self.policy);
+        if trapped.is_empty() || self.component.discount() < 1.0 {
+            return chain;
+        }
+        trapped.iter().for_each(|&i| self.policy[i] = former[i]);
+        Chain::new(&self.component, &self.policy, Factors::Plain)
+    }
+
+    /// Numbers the unknowns by their values, in the direction in which the policy goes.
+    #[inline]
+    fn sort(&mut self, solved: &mut (Vec<f64>, Vec<u32>)) {
+        let sign = -self.rule.sign();
+        let mut order: Vec<u32> = (0..self.x.len() as u32).collect();
+        order.sort_by(|&i, &j| (sign * self.x[i as usize]).total_cmp(&(sign * self.x[j as usize])));
+        self.component.renumber(&order);
+        let new = |old: &Vec<f64>| order.iter().map(|&i| old[i as usize]).collect();
+        (self.x, solved.0) = (new(&self.x), new(&solved.0));
+        let new = |old: &Vec<u32>| order.iter().map(|&i| old[i as usize]).collect();
+        (self.policy, solved.1) = (new(&self.policy), new(&solved.1));
+    }
+
+    /// The largest residual by what moves at all, relative to the values.
+    #[inline]
+    fn size(&self, chain: &Chain) -> f64 {
+        let all = self.residual.iter().zip(&self.x).enumerate();
+        let relative = all.map(|(i, (r, x))| r.abs() / (chain.moving(i) * self.unit(*x)));
+        relative.fold(0.0, f64::max)
+    }
+
+    /// What residuals at a value are compared with.
+    #[inline]
+    fn unit(&self, x: f64) -> f64 {
+        let unit = if self.rule.costs.is_some() { x.abs() } else { self.scale };
+        unit.max(f64::MIN_POSITIVE)
+    }
+
+    #[inline]
+    fn rescale(&mut self) {
+        self.scale = self.x.iter().fold(0.0, |scale, x| scale.max(x.abs()));
+    }
+
+    /// Computes the residuals.
+    #[inline]
+    fn look(&mut self) {
+        let mut arrivals = core::mem::take(&mut self.arrivals);
+        self.component.arrivals(&self.x, &mut arrivals);
+        self.rescale();
+        for (i, &code) in self.component.unknowns().iter().enumerate() {
+            let (outcomes, x) = (self.component.outcomes(code), self.x[i]);
+            let part = self.component.part(code, &arrivals);
+            let row = outcomes.successors.iter().zip(outcomes.row(self.policy[i] as usize));
+            let own: f64 = row.map(|(&at, p)| p * (part[at as usize] - x)).sum();
+            self.residual[i] = own + self.cost(code);
+        }
+        self.arrivals = arrivals;
+    }
+
+    #[inline]
+    fn cost(&self, code: u32) -> f64 {
+        self.rule.costs.map_or(0.0, |costs| costs[self.component.pair(code)])
+    }
+
+    /// Takes actions that are better by more than `tie` and their values, one unknown after the other, so
+    /// that what is found near the exits is used further out; how many it took.
+    #[inline]
+    fn sweep(&mut self, tie: f64) -> usize {
+        if self.rule.is_policy() {
+            return 0;
+        }
+        let mut arrivals = core::mem::take(&mut self.arrivals);
+        self.component.arrivals(&self.x, &mut arrivals);
+        self.rescale();
+        let slopes = self.slopes();
+        let (mut gathered, mut taken, sign) = (Vec::new(), 0, self.rule.sign());
+        for (i, &code) in self.component.unknowns().iter().enumerate() {
+            let (outcomes, x) = (self.component.outcomes(code), self.x[i]);
+            let part = self.component.part(code, &arrivals);
+            gathered.clear();
+            gathered.extend(outcomes.successors.iter().map(|&at| part[at as usize] - x));
+            let pair = self.component.pair(code);
+            let own = sum(outcomes.row(self.policy[i] as usize), &gathered);
+            let (mut best, mut most) = (self.policy[i], own);
+            let tie = tie * self.unit(x);
+            // An action that seldom moves is as good as what it comes to when it does.
+            let moving = |a| {
+                outcomes.of(a).filter(|&(_, to, _)| to != i as u32).map(|(p, ..)| p).sum::<f64>()
+            };
+            for (a, row) in outcomes.matrix.chunks_exact(gathered.len()).enumerate() {
+                let gain = sum(row, &gathered);
+                let better = sign * (gain - own);
+                if better > 0.0
+                    && sign * gain > sign * most
+                    && (better > tie || better > tie * moving(a))
+                    && self.rule.allows(pair, a)
+                {
+                    (best, most) = (a as u32, gain);
+                }
+            }
+            taken += usize::from(best != self.policy[i]);
+            self.policy[i] = best;
+            if !slopes {
+                continue;
+            }
+            let value = x + most + self.cost(code);
+            self.x[i] = value;
+            for arrival in self.component.entries(code) {
+                arrivals[arrival] = self.component.entering(arrival, value);
+            }
+        }
+        self.arrivals = arrivals;
+        taken
+    }
+}
+
+/// The action that most probably leads to unknowns that are nearer to an exit, or to one that is worth
+/// something.
+#[inline]
+pub(super) fn outwards(component: &Component<'_>, rule: &Rule<'_>) -> Vec<u32> {
+    (0..component.unknowns().len()).map(|i| nearer(component, rule, i)).collect()
+}
+
+#[inline]
+fn nearer(component: &Component<'_>, rule: &Rule<'_>, i: usize) -> u32 {
+    let code = component.unknowns()[i];
+    if let Choice::Policy(policy) = rule.choice {
+        return policy[component.pair(code)];
+    }
+    let good = |&(_, target, worth): &(f64, u32, f64)| {
+        if target == NONE { worth > 0.0 } else { (target as usize) < i }
+    };
+    let outcomes = component.outcomes(code);
+    let (mut best, mut most) = (0, f64::NEG_INFINITY);
+    for a in component.allowed(rule, code) {
+        let nearer: f64 = outcomes.of(a).filter(good).map(|(p, ..)| p).sum();
+        if nearer > most {
+            (best, most) = (a as u32, nearer);
+        }
+    }
+    best
+}
+
+/// Σ p · value.
+#[inline]
+pub(super) fn sum(row: &[f64], values: &[f64]) -> f64 {
+    row.iter().zip(values).map(|(p, value)| p * value).sum()
+}
