@@ -85,6 +85,19 @@ impl Certificate {
         self.worth.fraction_optimal
     }
 
+    /// How far P(satisfied), of the policy and the largest possible, may be from the true numbers: a
+    /// bound that holds. `None` of a document of an earlier version.
+    #[getter]
+    fn satisfied_error(&self) -> Option<f64> {
+        self.worth.satisfied_error
+    }
+
+    /// The same of the expected steps; `None` too where there is no bound.
+    #[getter]
+    fn steps_error(&self) -> Option<f64> {
+        self.worth.steps_error
+    }
+
     /// The number of steps after which an episode is cut, if there is one.
     #[getter]
     fn within(&self) -> Option<u64> {

@@ -94,6 +94,8 @@ def test_solutions_are_those_of_value_iteration(name: str) -> None:
     unwrapped: Any = env.unwrapped
     assert worth.optimal_satisfied_within == pytest.approx(unwrapped.initial_state_distrib @ cut)
     assert abs(worth.regret_satisfied) < 1e-9 and abs(worth.regret_steps or 0.0) < 1e-9
+    assert worth.satisfied_error is not None and worth.satisfied_error < 1e-7
+    assert worth.steps_error is not None and worth.steps_error < 1e-5 * (worth.steps or 1.0)
 
 
 @pytest.mark.parametrize(("name", "steps"), [("lake", 300_000), ("large lake", 600_000),

@@ -125,7 +125,7 @@ impl Problem {
             let mut good = Component::new(self, members, (&accept, 1.0, false), costs);
             let mut unknowns = outwards(&good, rule);
             unknowns.retain(|&code| costs[good.pair(code)] > 0.0);
-            good.choose(unknowns.clone(), &self.zeros());
+            good.choose(unknowns.clone(), costs);
             let first = policy(&good, rule);
             let known = &all.bounded.values;
             let mut component = Component::new(self, members, (&nothing, 1.0, false), known);
