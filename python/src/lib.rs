@@ -23,6 +23,7 @@ mod array;
 mod batch;
 mod certificate;
 mod composition;
+mod document;
 mod error;
 mod file;
 mod labelled;

@@ -10,6 +10,7 @@ use tltl::network::policy::NetworkPolicy as Network;
 use tltlc::emit;
 
 use super::array::shaped;
+use super::document;
 use super::error::wrong;
 
 /// A policy that is a network: features of a state in, for each automaton state in which the task
@@ -22,7 +23,7 @@ pub struct NetworkPolicy(Network);
 
 impl NetworkPolicy {
     fn read(text: &str) -> PyResult<Self> {
-        serde_json::from_str(text).map(Self).map_err(|error| wrong(error.to_string()))
+        document::parsed(serde_json::from_str(text)).map(Self)
     }
 
     /// A state in which the task goes on, and inputs as many as the network reads.
@@ -53,30 +54,25 @@ impl NetworkPolicy {
 
     /// The document of the policy, which `tltlc policy` reads too.
     fn to_json(&self) -> PyResult<String> {
-        serde_json::to_string(&self.0).map_err(|error| wrong(error.to_string()))
+        document::parsed(serde_json::to_string(&self.0))
     }
 
     /// Writes the document to a file, which is replaced as a whole.
     fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
-        let text = self.to_json()?;
-        Ok(py.detach(|| tltl::file::replace(&path, text.as_bytes()))?)
+        document::save(py, &path, &self.to_json()?)
     }
 
     /// The policy that `save` wrote.
     #[staticmethod]
     fn load(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        Self::read(&py.detach(|| std::fs::read_to_string(path))?)
+        Self::read(&document::load(py, path)?)
     }
 
     /// The policy as Rust source that needs no standard library and nothing of this package; with a
     /// `path` it is written there too.
     #[pyo3(signature = (path=None))]
     fn emit_rust(&self, py: Python<'_>, path: Option<PathBuf>) -> PyResult<String> {
-        let source = emit::policy::rust(&self.to_json()?).map_err(wrong)?;
-        if let Some(path) = path {
-            py.detach(|| tltl::file::replace(&path, source.as_bytes()))?;
-        }
-        Ok(source)
+        document::emitted(py, emit::policy::rust(&self.to_json()?).map_err(wrong)?, path)
     }
 
     /// The values of the actions at `q`, of float32 inputs of shape (inputs,): float32, of shape

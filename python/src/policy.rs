@@ -11,6 +11,7 @@ use tltlc::emit;
 
 use super::array::{Array, frozen, shaped};
 use super::certificate::Certificate;
+use super::document;
 use super::error::wrong;
 use super::labelled::{labelled, task_of};
 use super::model::FiniteModel;
@@ -89,7 +90,7 @@ impl Policy {
     }
 
     fn read(text: &str) -> PyResult<Self> {
-        serde_json::from_str(text).map(Self).map_err(|error| wrong(error.to_string()))
+        document::parsed(serde_json::from_str(text)).map(Self)
     }
 }
 
@@ -105,15 +106,14 @@ impl Policy {
 
     /// The document of the policy, which `tltlc policy` reads too.
     fn to_json(&self) -> PyResult<String> {
-        serde_json::to_string(&self.0).map_err(|error| wrong(error.to_string()))
+        document::parsed(serde_json::to_string(&self.0))
     }
 
     /// Writes the document to a file, which is replaced as a whole.
     ///
     /// Raises `OSError` if it cannot be written.
     fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
-        let text = self.to_json()?;
-        Ok(py.detach(|| tltl::file::replace(&path, text.as_bytes()))?)
+        document::save(py, &path, &self.to_json()?)
     }
 
     /// The policy that `save` wrote.
@@ -121,18 +121,14 @@ impl Policy {
     /// Raises `ValueError` if the file holds no policy, and `OSError` if it cannot be read.
     #[staticmethod]
     fn load(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        Self::read(&py.detach(|| std::fs::read_to_string(path))?)
+        Self::read(&document::load(py, path)?)
     }
 
     /// The policy as Rust source that needs no standard library and nothing of this package; with a
     /// `path` it is written there too.
     #[pyo3(signature = (path=None))]
     fn emit_rust(&self, py: Python<'_>, path: Option<PathBuf>) -> PyResult<String> {
-        let source = emit::policy::source(&self.0);
-        if let Some(path) = path {
-            py.detach(|| tltl::file::replace(&path, source.as_bytes()))?;
-        }
-        Ok(source)
+        document::emitted(py, emit::policy::source(&self.0), path)
     }
 
     /// The action in state `s` of the world at state `q` of the automaton.

@@ -2,7 +2,7 @@
 //!
 //! Each round looks at every action of every unknown once, takes those that are better, and corrects the
 //! values of the policy that results by a [linear system](super::chain) (Howard 1960; Puterman and
-//! Brumelle 1979: a Newton method, so that systems solved to two digits lose hardly a round). Residuals are
+//! Brumelle 1979: a Newton method, so that systems solved to four digits lose hardly a round). Residuals are
 //! sums of p · (value there − value here), so a pair that hardly ever moves loses no digit to rounding.
 //!
 //! Undiscounted, a policy must leave in the end. The first one follows the search from the exits; a
@@ -43,7 +43,7 @@ pub(super) struct Solution<'a> {
     pub(super) policy: Vec<u32>,
     arrivals: Vec<f64>,
     /// By unknown: what the policy's action comes to, less the value.
-    pub(super) residual: Vec<f64>,
+    residual: Vec<f64>,
     /// The largest value; costs are compared with their own.
     scale: f64,
 }
@@ -66,6 +66,8 @@ impl<'a> Solution<'a> {
         solution
     }
 
+    /// Improves the policy and its values in turn, until neither gets better. A policy whose system cannot be
+    /// solved is given up for the one before it.
     #[inline]
     fn solve(&mut self, first: bool) {
         if !first {
@@ -101,20 +103,21 @@ impl<'a> Solution<'a> {
             if converged {
                 solved.0.copy_from_slice(&self.x);
                 solved.1.copy_from_slice(&self.policy);
-                let mut taken = self.sweep((loose * size.min(1.0)).max(TIE));
-                for _ in 1..if self.slopes() { SWEEPS } else { 1 } {
-                    if taken == 0 {
-                        break;
-                    }
-                    changed = true;
-                    taken = self.sweep(TIE);
-                }
-                changed |= taken > 0;
+                changed = self.improve((loose * size.min(1.0)).max(TIE));
                 if changed && self.rule.costs.is_some() {
                     self.sort(&mut solved);
                 }
             }
         }
+    }
+
+    /// Sweeps while there are better actions, a few times; whether there was one.
+    #[inline]
+    fn improve(&mut self, tie: f64) -> bool {
+        let changed = self.sweep(tie) > 0;
+        let more = if changed && self.slopes() { SWEEPS - 1 } else { 0 };
+        let _ = (0..more).find(|_| self.sweep(TIE) == 0);
+        changed
     }
 
     /// Corrects the values with the other factors; whether that was enough. Their residuals may be small

@@ -151,6 +151,11 @@ pub(super) fn shown(text: &str) -> Cow<'_, str> {
     Cow::Owned(text.split('\n').map(visible).collect::<Vec<_>>().join("\n"))
 }
 
+/// Why a file cannot be read. What is no file's name may be a formula that was meant.
 fn unreadable(path: &Path, error: &std::io::Error) -> String {
-    format!("cannot read {}: {error}", path.display())
+    let shown = path.display().to_string();
+    let formula =
+        error.kind() == std::io::ErrorKind::NotFound && shown.contains(['&', '|', '!', '(']);
+    let hint = if formula { "; to check a formula, use `tltlc explain`" } else { "" };
+    format!("cannot read {shown}: {error}{hint}")
 }

@@ -55,8 +55,10 @@ impl<'a> Delimited<'a> {
         let (rows, line) = (&self.rows, self.rows.line);
         let name = rows.lines.name;
         if rows.fields.len() != width {
-            let what = format!("{name}:{line}: {} fields, but the header has", rows.fields.len());
-            let commas = rows.delimiter == b',' && rows.fields.len() == 2 * width;
+            let found = rows.fields.len();
+            let fields = if found == 1 { "field" } else { "fields" };
+            let what = format!("{name}:{line}: {found} {fields}, but the header has");
+            let commas = rows.delimiter == b',' && found == 2 * width;
             let hint = if commas { ": write a decimal point, not a comma" } else { "" };
             return Err(format!("{what} {width}{hint}"));
         }
