@@ -19,11 +19,18 @@ fn agree(automaton: &Automaton, choices: &mut impl Choices) -> Result<(), TestCa
 
     let before: Vec<u32> = (0..300).map(|row| row % automaton.states()).collect();
     let expected: Vec<u32> = before.iter().zip(&letters).map(|(&q, &bits)| next(q, bits)).collect();
-    let (mut by_bits, mut by_labels) = (before.clone(), before);
+    let (mut by_bits, mut by_labels) = (before.clone(), before.clone());
     automaton.step_batch(&mut by_bits, &letters[..]);
     automaton.step_batch(&mut by_labels, &labels[..]);
     prop_assert_eq!(&by_bits, &expected);
     prop_assert_eq!(&by_labels, &expected);
+    if let Some(bytes) = automaton.by_bytes() {
+        let (mut by_bits, mut by_labels) = (before.clone(), before);
+        bytes.step_batch(&mut by_bits, &letters[..]);
+        bytes.step_batch(&mut by_labels, &labels[..]);
+        prop_assert_eq!(&by_bits, &expected);
+        prop_assert_eq!(&by_labels, &expected);
+    }
 
     let follow = |q: &mut u32, &bits: &u64| {
         *q = next(*q, bits);
@@ -67,7 +74,7 @@ fn diagrams() {
     for formula in [order, &wide.join(" T ")] {
         let automaton = automaton(formula);
         let is_diagram = matches!(automaton.tables().transitions, Transitions::Diagram { .. });
-        assert!(is_diagram, "{formula}");
+        assert!(is_diagram && automaton.by_bytes().is_some(), "{formula}");
         (0..40).for_each(|seed| agree(&automaton, &mut random::Seeded(seed)).unwrap());
     }
 }

@@ -15,12 +15,14 @@ use tltlc::emit::rust;
 
 const BARE_METAL: &str = "thumbv7em-none-eabihf";
 
-/// Bounds of every kind, and eight predicates.
+/// Bounds of every kind, eight predicates, and a diagram of twelve.
 const SIGNAL: &str = "state Signal { x: f64, y: f64 }
     task in_time = F (x > 0 && y < 1 U[0,100] x > 1) && F[0,50] y > 2
     task held = F (G[0,10] x > 0)
     task after = F (x > 1 && X[3] y > 1) && X[7] F y > 1
-    task ordered = x > 0 T y > 0 T x > 1 T y > 1 T x > 2 T y > 2 T x > 3 T y > 3";
+    task ordered = x > 0 T y > 0 T x > 1 T y > 1 T x > 2 T y > 2 T x > 3 T y > 3
+    task diagram = x > 0 T y > 0 T x > 1 T y > 1 T x > 2 T y > 2 T x > 3 T y > 3 T x > 4 T y > 4
+        T x > 5 T y > 5";
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
@@ -137,9 +139,9 @@ impl Object {
 fn monitors_that_only_step_have_no_panic() {
     let source = source(
         "run! { a: grid::visit_all, Cell; b: signal::in_time, Signal; c: signal::held, Signal;
-            d: signal::after, Signal; e: signal::ordered, Signal; }
+            d: signal::after, Signal; e: signal::ordered, Signal; k: signal::diagram, Signal; }
         online! { f: grid::visit_all, Cell; g: signal::in_time, Signal; h: signal::held, Signal;
-            i: signal::after, Signal; j: signal::ordered, Signal; }",
+            i: signal::after, Signal; j: signal::ordered, Signal; l: signal::diagram, Signal; }",
     );
     for (name, target) in [("here", None), ("bare", Some(BARE_METAL))] {
         let Some(object) = shown(name, &source, target) else { continue };

@@ -12,21 +12,8 @@ use tltl_compiler::translate::Budget;
 use tltlc::online::Online;
 use tltlc::semantics;
 
-use crate::random::{Choices, Seeded};
-
-type Row = [f64; 3];
-
-fn a(s: &Row) -> f64 {
-    s[0]
-}
-
-fn b(s: &Row) -> f64 {
-    s[1]
-}
-
-fn c(s: &Row) -> f64 {
-    s[2]
-}
+use crate::random::Seeded;
+use crate::straight::{Row, a, b, c, trace};
 
 /// A formula, its propositions, and the traces to try.
 struct Case<'a> {
@@ -105,12 +92,9 @@ impl<'a> Case<'a> {
     }
 }
 
-/// Numbers that repeat, with both zeros and both infinities among them.
 fn traces(seed: u64, lengths: impl Iterator<Item = usize>) -> Vec<Vec<Row>> {
-    let numbers = [f64::NEG_INFINITY, -3.0, -1.5, -0.0, 0.0, 0.5, 1.0, 2.25, f64::INFINITY];
     let mut choices = Seeded(seed);
-    let mut number = || numbers[choices.choose(numbers.len() as u32) as usize];
-    lengths.map(|length| (0..length).map(|_| [(); 3].map(|()| number())).collect()).collect()
+    lengths.map(|length| trace(&mut choices, length)).collect()
 }
 
 macro_rules! each_formula {

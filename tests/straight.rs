@@ -13,18 +13,18 @@ use tltlc::semantics;
 
 use crate::random::{Choices, Seeded};
 
-type Row = [f64; 3];
+pub(crate) type Row = [f64; 3];
 type Wide = [f64; 12];
 
-fn a(s: &Row) -> f64 {
+pub(crate) fn a(s: &Row) -> f64 {
     s[0]
 }
 
-fn b(s: &Row) -> f64 {
+pub(crate) fn b(s: &Row) -> f64 {
     s[1]
 }
 
-fn c(s: &Row) -> f64 {
+pub(crate) fn c(s: &Row) -> f64 {
     s[2]
 }
 
@@ -85,7 +85,7 @@ fn places(spec: &Spec) -> Vec<usize> {
 }
 
 /// Numbers that repeat, with both zeros and both infinities among them.
-fn trace(choices: &mut Seeded, length: usize) -> Vec<Row> {
+pub(crate) fn trace(choices: &mut Seeded, length: usize) -> Vec<Row> {
     let numbers = [f64::NEG_INFINITY, -3.0, -1.5, -0.0, 0.0, 0.5, 1.0, 2.25, f64::INFINITY];
     let mut number = || numbers[choices.choose(numbers.len() as u32) as usize];
     (0..length).map(|_| [(); 3].map(|()| number())).collect()
@@ -339,16 +339,28 @@ impl CheckTyped for OnLong {
         for threads in [1, 3, 16] {
             assert_eq!(task.robustness_on(threads, &self.0), expected, "{text}");
         }
+        let before: Vec<u32> = (0..task.states()).cycle().take(self.0.len()).collect();
+        let mut after = before.clone();
+        task.step_batch(&mut after, &self.0).unwrap();
+        for threads in [1, 3, 16] {
+            let mut q = before.clone();
+            task.step_batch_on(threads, &mut q, &self.0).unwrap();
+            assert!(q == after, "{text}");
+        }
         let Some(&place) = places(&spec(text)).first() else { return };
         let mut broken = self.0.clone();
         (broken[40_000][place], broken[90_000][place]) = (f64::NAN, f64::NAN);
         let error = task.robustness_on(3, &broken).unwrap_err();
         assert_eq!(error.instant, Some(40_000), "{text}");
+        let mut q = before;
+        let error = task.step_batch_on(3, &mut q, &broken).unwrap_err();
+        assert_eq!(error.instant, Some(40_000), "{text}");
+        assert!(q[..40_000] == after[..40_000], "{text}");
     }
 }
 
 #[test]
-fn a_long_trajectory_is_read_in_parts() {
+fn long_trajectories_and_batches_are_read_in_parts() {
     let mut choices = Seeded(22);
     let mut number = |most: u32, t: u32| match choices.choose(20_000) {
         0 => f64::from(choices.choose(90)) / 10.0,
@@ -392,6 +404,33 @@ fn automata_of_many_propositions_step_alike() {
     }
     check(&five(), &rows);
     check(&twelve(), &rows);
+}
+
+/// Comparisons with numbers and between fields, where a difference is tiny, infinite or rounded.
+#[test]
+fn a_comparison_holds_as_its_robustness_says() {
+    type Pair = [f64; 2];
+    tltl! {
+        state s: Pair;
+        task compared = F (s[0] < 0.1) || F (s[0] <= 0.1) || F (s[0] > 0.1) || F (s[0] >= 0.1)
+            || F (s[0] == 0.1) || F (s[0] < s[1]) || F (s[0] <= s[1]) || F (0 < s[0]) || F (s[0] <= 0);
+    }
+    let task = compared();
+    let names: Vec<&str> = task.automaton().propositions().iter().map(|name| &**name).collect();
+    let least = f64::MIN_POSITIVE * f64::EPSILON;
+    let near = [0.1_f64, f64::MIN_POSITIVE, f64::MAX].map(|x| [x.next_down(), x, x.next_up()]);
+    let numbers = near.into_iter().flatten().chain([0.0, least, f64::NAN]);
+    let numbers: Vec<f64> = numbers.flat_map(|x| [x, -x]).collect();
+    for s in numbers.iter().flat_map(|&x| numbers.iter().map(move |&y| [x, y])) {
+        for (i, name) in names.iter().enumerate() {
+            let holds = compared {}.holds(i, &s).ok();
+            let expected = task.predicate_robustness(i, &s).ok().map(|rho| match rho {
+                0.0 => name.contains('='),
+                _ => rho > 0.0,
+            });
+            assert_eq!(holds, expected, "{name} at {s:?}");
+        }
+    }
 }
 
 #[test]

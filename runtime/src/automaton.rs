@@ -11,11 +11,15 @@
 
 mod batch;
 #[cfg(feature = "alloc")]
+mod bytes;
+#[cfg(feature = "alloc")]
 mod check;
 
 use core::fmt;
 
 pub use batch::Letters;
+#[cfg(feature = "alloc")]
+pub use bytes::ByBytes;
 #[cfg(feature = "alloc")]
 pub use check::TableError;
 #[cfg(feature = "alloc")]
@@ -255,6 +259,12 @@ const SMALL: usize = 16;
 /// The bits of four times a state.
 const PLACE: u32 = 4 * SMALL as u32 - 4;
 
+/// The state after `q`.
+#[inline(always)]
+const fn shifted(shifts: &[u64; SMALL], q: u32, letter: usize) -> u32 {
+    shifts[letter % SMALL].rotate_right(4 * q + 2) as u32 % SMALL as u32
+}
+
 #[cold]
 #[inline(never)]
 fn no_state(q: u32) -> ! {
@@ -398,22 +408,33 @@ impl Automaton {
         q: u32,
         mut holds: impl FnMut(usize) -> Result<bool, E>,
     ) -> Result<u32, E> {
+        self.expect_state(q);
+        self.follow(q, &mut holds)
+    }
+
+    /// The same from `q` that is a state. It never panics.
+    #[inline(always)]
+    pub(crate) fn follow<E>(
+        &self,
+        q: u32,
+        mut holds: impl FnMut(usize) -> Result<bool, E>,
+    ) -> Result<u32, E> {
         match &self.tables.transitions {
-            Transitions::Table { class, width, next } => {
-                let mut valuation = 0;
+            Transitions::Table { .. } => {
+                let mut letter = 0;
                 for i in 0..self.tables.propositions.len() {
-                    valuation |= usize::from(holds(i)?) << i;
+                    letter |= usize::from(holds(i)?) << i;
                 }
-                Ok(next[q as usize * *width as usize + usize::from(class[valuation])])
+                Ok(self.of_letter(q, letter))
             }
             Transitions::Diagram { nodes, roots } => {
-                let nodes: &[[u32; 3]] = nodes;
-                let mut at = roots[q as usize];
-                while at < Transitions::LEAF {
-                    let [proposition, low, high] = nodes[at as usize];
+                let leaf = Transitions::LEAF | q;
+                let mut at = roots.get(q as usize).copied().unwrap_or(leaf);
+                // What is no node is a state.
+                while let Some(&[proposition, low, high]) = nodes.get(at as usize) {
                     at = if holds(proposition as usize)? { high } else { low };
                 }
-                Ok(at - Transitions::LEAF)
+                Ok(at & !Transitions::LEAF)
             }
         }
     }
@@ -463,10 +484,7 @@ impl Automaton {
     #[inline(always)]
     pub(crate) fn of_letter(&self, q: u32, letter: usize) -> u32 {
         match &self.shifts {
-            // The first rotation does not wait for `q`.
-            Some(shifts) => {
-                shifts[letter % SMALL].rotate_right(2).wrapping_shr(4 * q) as u32 % SMALL as u32
-            }
+            Some(shifts) => shifted(shifts, q, letter),
             None => self.look_up(q, letter),
         }
     }

@@ -182,8 +182,27 @@ impl Rewards {
     #[inline]
     pub fn pay_all(&self, ends: &Ends, arrivals: &Arrivals<'_>, out: &mut [f64]) {
         arrivals.check(out.len());
-        for (i, paid) in out.iter_mut().enumerate() {
-            *paid = self.pay(ends, &arrivals.get(i));
+        let states = ends.of.len();
+        let pairs = states * states;
+        if self.needs_robustness() || 2 * pairs > out.len() {
+            for (i, paid) in out.iter_mut().enumerate() {
+                *paid = self.pay(ends, &arrivals.get(i));
+            }
+            return;
+        }
+        // Of many moves each kind is paid once, and what remains is to look it up.
+        let kinds = [false, true].into_iter().flat_map(|terminated| {
+            (0..pairs).map(move |pair| {
+                let (q, to) = ((pair / states) as u32, (pair % states) as u32);
+                Arrival { terminated, ..Arrival::at(q, to) }
+            })
+        });
+        let paid: Vec<f64> = kinds.map(|kind| self.pay_for_move(ends, &kind)).collect();
+        for (i, out) in out.iter_mut().enumerate() {
+            let Arrival { q, to, reward, terminated, .. } = arrivals.get(i);
+            assert!(q.max(to) < ends.states(), "there is no state {}", q.max(to));
+            let kind = usize::from(terminated) * pairs + q as usize * states + to as usize;
+            *out = paid[kind] + self.environment * reward;
         }
     }
 

@@ -162,6 +162,8 @@ impl<P> Task<P> {
     where
         P: Predicates<S>,
     {
+        let count = self.automaton.propositions().len();
+        assert!(i < count, "there is no predicate {i}");
         self.reader().number(i, self.predicates.robustness(i, s))
     }
 
@@ -349,11 +351,9 @@ impl<P: Copy> Reader<'_, P> {
         P: Predicates<S>,
     {
         if self.is_generated && P::DENSE > 0 {
-            return match robustness::letter(&self.predicates, s) {
-                (letter, false) => {
-                    self.automaton.expect_state(q);
-                    Ok(self.automaton.of_letter(q, letter))
-                }
+            self.automaton.expect_state(q);
+            return match robustness::one_letter(&self.predicates, s) {
+                (letter, false) => Ok(self.automaton.of_letter(q, letter)),
                 _ => Err(self.unreadable(s)),
             };
         }

@@ -6,43 +6,17 @@
 
 use std::hint::black_box;
 
-use tltl::{Acceptor, Task, tltl};
+use tltl::{Acceptor, Task};
 
-#[derive(Clone, Copy)]
-struct Sample {
-    x: f64,
-    y: f64,
-}
-
-type Eight = [f64; 8];
-
-tltl! {
-    state s: Sample;
-    task both = F (s.x > 0 && s.y < 1);
-    task until = s.x > 0 U s.y < 1;
-    task nested = F (s.x > 0 && F s.y < 1);
-    task soon = F[0,1000] s.x > 0;
-    task until_soon = s.x > 0 U[0,100] s.y < 1;
-    task thrice = F (s.x > 0.999 && X (s.y > 2.999 && X s.x > 0.999));
-}
-tltl! {
-    state s: Eight;
-    task chain = s[0] > 1.9 T s[1] > 1.9 T s[2] > 1.9 T s[3] > 1.9 T s[4] > 1.9 T s[5] > 1.9
-        T s[6] > 1.9 T s[7] > 1.9;
-}
+mod signals;
+use signals::*;
 
 fn main() {
     let mut arguments = std::env::args().skip(1).filter(|argument| !argument.starts_with("--"));
     let what = arguments.next();
     let count = arguments.next().map_or(1000, |count| count.parse().expect("a number of samples"));
-    let mut seed = 1_u64;
-    let mut random = || {
-        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-        (seed >> 11) as f64 / (1_u64 << 53) as f64
-    };
     // As many samples are made whatever the count, so that making them does not count.
-    let samples: Vec<Sample> =
-        (0..200_000).map(|_| Sample { x: random() * 2.0 - 0.5, y: random() * 3.0 }).collect();
+    let samples = samples(200_000);
     let wide = wide(&samples);
     let (samples, wide) = (&samples[..count], &wide[..count]);
     let is_chosen = |name: &str| what.as_deref().is_none_or(|what| what == name);

@@ -8,31 +8,10 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use tltl::{Acceptor, tltl};
+use tltl::Acceptor;
 
-#[derive(Clone, Copy)]
-struct Sample {
-    x: f64,
-    y: f64,
-}
-
-type Eight = [f64; 8];
-
-tltl! {
-    state s: Sample;
-    task both = F (s.x > 0 && s.y < 1);
-    task until = s.x > 0 U s.y < 1;
-    task nested = F (s.x > 0 && F s.y < 1);
-    task soon = F[0,1000] s.x > 0;
-    task always_soon = F (s.y < 1 && F[0,1000] s.x > 0);
-    task until_soon = s.x > 0 U[0,100] s.y < 1;
-    task thrice = F (s.x > 0.999 && X (s.y > 2.999 && X s.x > 0.999));
-}
-tltl! {
-    state s: Eight;
-    task chain = s[0] > 1.9 T s[1] > 1.9 T s[2] > 1.9 T s[3] > 1.9 T s[4] > 1.9 T s[5] > 1.9
-        T s[6] > 1.9 T s[7] > 1.9;
-}
+mod signals;
+use signals::*;
 
 const NONE: f64 = f64::NEG_INFINITY;
 
@@ -47,16 +26,6 @@ fn main() {
     let trajectory = samples(4_000);
     online(&trajectory);
     steps(&trajectory);
-}
-
-/// Samples of a fixed generator: x from -0.5 to 1.5, y from 0 to 3.
-fn samples(length: usize) -> Vec<Sample> {
-    let mut seed = 1_u64;
-    let mut random = || {
-        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-        (seed >> 11) as f64 / (1_u64 << 53) as f64
-    };
-    (0..length).map(|_| Sample { x: random() * 2.0 - 0.5, y: random() * 3.0 }).collect()
 }
 
 /// The median nanoseconds a sample of two things, which take turns: what else the machine does meets
@@ -173,6 +142,46 @@ fn many(states: &[Sample]) {
         || by_hand::until(black_box(states)),
         || task.robustness_on(threads, black_box(states)).unwrap(),
     );
+    in_threads(threads, states);
+}
+
+/// What threads gain: the left column is one thread here.
+fn in_threads(threads: usize, states: &[Sample]) {
+    println!("{:<34}{:>9}{:>10}{:>10}{:>8}", "", "", "1 thread", threads, "gain");
+    let gain = |name: &str, [one, several]: [f64; 2]| {
+        println!("{name:<34}{:>9}{one:>10.2}{several:>10.2}{:>8.2}", states.len(), one / several);
+    };
+    let (n, both, until, thrice) = (states.len(), both(), until(), thrice());
+    let mut found = [vec![0.0; 1000], vec![0.0; 1000]];
+    let [expected, found] = &mut found;
+    let times = in_turns(
+        n,
+        || both.robustness_batch(black_box(states), expected).unwrap(),
+        || both.robustness_batch_on(threads, black_box(states), found).unwrap(),
+    );
+    assert_eq!(expected, found);
+    gain("many: F (x > 0 && y < 1)", times);
+    let whole = until.robustness(states).unwrap();
+    assert_eq!(until.robustness_on(threads, states).unwrap(), whole);
+    let times = in_turns(
+        n,
+        || until.robustness(black_box(states)).unwrap(),
+        || until.robustness_on(threads, black_box(states)).unwrap(),
+    );
+    gain("one long: x > 0 U y < 1", times);
+    let mut q = [vec![0; n], vec![0; n]];
+    let [expected, found] = &mut q;
+    let times = in_turns(
+        n,
+        || thrice.step_batch(expected, black_box(states)).unwrap(),
+        || thrice.step_batch_on(threads, found, black_box(states)).unwrap(),
+    );
+    expected.fill(0);
+    found.fill(0);
+    thrice.step_batch(expected, states).unwrap();
+    thrice.step_batch_on(threads, found, states).unwrap();
+    assert!(expected == found);
+    gain("step of many, 2 predicates", times);
 }
 
 /// The time of a state, in which the least of the interval is asked for too; by hand, that is the

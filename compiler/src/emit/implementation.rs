@@ -40,6 +40,8 @@ pub(super) struct Implementation<'a> {
     pub(super) robust: Robust,
     /// The number of predicates, if a step reads all of them; otherwise 0.
     pub(super) dense: usize,
+    /// Whether they all compare floats, as an expression, if a step reads all of them.
+    pub(super) floats: Option<TokenStream>,
 }
 
 /// The predicates that the runtime evaluates together for a step: as many as a table has at most.
@@ -89,6 +91,14 @@ impl Implementation<'_> {
             let count = Literal::usize_unsuffixed(self.dense);
             quote! { const DENSE: ::core::primitive::usize = #count; }
         });
+        let floats = self.floats.as_ref().map(|floats| {
+            quote! {
+                #[inline]
+                fn floats() -> ::core::primitive::bool {
+                    #floats
+                }
+            }
+        });
         let (method, formula) = match &self.robust {
             Robust::Typed(formula) => (self.straight(), self.formula(formula)),
             Robust::Interpreted(cells) => (self.scratch(*cells), TokenStream::new()),
@@ -97,11 +107,12 @@ impl Implementation<'_> {
             #lints
             impl #generics #runtime::robustness::Predicates<#state> for #name {
                 #dense
+                #floats
                 #[inline]
                 fn robustness(&self, #i: ::core::primitive::usize, #s: &#state) -> ::core::primitive::f64 {
                     match #i {
                         #robustness
-                        _ => #runtime::private::no_predicate(#i),
+                        _ => ::core::primitive::f64::NAN,
                     }
                 }
                 #[inline]
@@ -112,7 +123,7 @@ impl Implementation<'_> {
                 ) -> ::core::result::Result<::core::primitive::bool, #runtime::robustness::NotANumber> {
                     match #i {
                         #holds
-                        _ => #runtime::private::no_predicate(#i),
+                        _ => ::core::result::Result::Err(#runtime::robustness::NotANumber),
                     }
                 }
                 #method
@@ -208,6 +219,7 @@ pub(super) fn positional(
         holds: arms("holds"),
         robust,
         dense,
+        floats: None,
     }
     .tokens()
 }

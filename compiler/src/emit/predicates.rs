@@ -114,6 +114,75 @@ impl<'a> Scope<'a> {
     }
 }
 
+/// What a predicate compares.
+pub(super) enum Compared {
+    /// Floats, if these places of the state are, whose types only rustc knows.
+    Floats(Vec<TermId>),
+    /// Something else as well.
+    Others,
+}
+
+impl Scope<'_> {
+    /// What the comparisons of a predicate compare.
+    pub(super) fn compared(&self, id: ConditionId) -> Compared {
+        let (mut conditions, mut terms, mut places) = (vec![id], Vec::new(), Vec::new());
+        while let Some(id) = conditions.pop() {
+            match *self.module.arena.condition(id) {
+                Condition::Not(a) => conditions.push(a),
+                Condition::And(a, b) | Condition::Or(a, b) => conditions.extend([a, b]),
+                Condition::Compare(_, a, b) => terms.extend([a, b]),
+                Condition::Is(predicate) => {
+                    conditions.push(self.module.predicates[predicate.0 as usize].condition);
+                }
+                Condition::Apply { meaning, .. } => conditions.push(meaning),
+                _ => return Compared::Others,
+            }
+        }
+        while let Some(id) = terms.pop() {
+            let term = self.module.arena.term(id);
+            match term {
+                Term::Number(_)
+                | Term::Place { scalar: Scalar::Number(Numeric::F64 | Numeric::F32), .. }
+                | Term::Parameter {
+                    ty: ParameterType::Scalar(Scalar::Number(Numeric::F64 | Numeric::F32)),
+                    ..
+                } => {}
+                Term::Negate(_) | Term::Calculate(..) | Term::Call(..) => {
+                    terms.extend(term.operands());
+                }
+                Term::Host { text, bindings, .. } if bindings.is_empty() && self.is_place(text) => {
+                    places.push(id);
+                }
+                _ => return Compared::Others,
+            }
+        }
+        places.sort_unstable();
+        places.dedup();
+        Compared::Floats(places)
+    }
+
+    /// Whether Rust of the author's is a field or an element of the state and nothing more.
+    fn is_place(&self, text: &str) -> bool {
+        let State::Host { name, .. } = &self.module.state else { return false };
+        let is_step = |c: char| c.is_alphanumeric() || "_.[]".contains(c);
+        text.strip_prefix(&**name).is_some_and(|steps| steps.starts_with(['.', '[']))
+            && text.chars().all(is_step)
+    }
+
+    /// Whether these places are floats, as an expression.
+    pub(super) fn are_floats(&self, places: &[TermId], state: &TokenStream) -> TokenStream {
+        let (runtime, argument) = (&self.runtime, self.argument());
+        let asked = places.iter().map(|&id| match self.module.arena.term(id) {
+            Term::Host { span, .. } => {
+                let place = self.rust(*span);
+                quote! { #runtime::private::is_float(|#argument: &#state| #place) }
+            }
+            _ => quote! { true },
+        });
+        quote! { true #(&& #asked)* }
+    }
+}
+
 /// The conditions that a condition is made of, other predicates left out.
 fn operands(condition: &Condition) -> impl Iterator<Item = ConditionId> {
     let (first, second) = match *condition {
@@ -316,6 +385,8 @@ impl Writer<'_> {
         if arena.is_value(a) || arena.is_value(b) {
             return self.value_comparison(comparison, a, b);
         }
+        let is_finite = |id| matches!(arena.term(id), Term::Number(Number(x)) if x.is_finite());
+        let finite = (is_finite(a) || is_finite(b)).then(|| quote! { finite:: });
         let ((a, deep_a), (b, deep_b)) = (self.term(a), self.term(b));
         let depth = deep_a.max(deep_b) + 1;
         let runtime = &self.scope.runtime;
@@ -329,12 +400,12 @@ impl Writer<'_> {
             }
         } else {
             match comparison {
-                Comparison::Less => quote! { #private::less(#a, #b)? },
-                Comparison::AtMost => quote! { #private::at_most(#a, #b)? },
-                Comparison::Greater => quote! { #private::less(#b, #a)? },
-                Comparison::AtLeast => quote! { #private::at_most(#b, #a)? },
-                Comparison::Equal => quote! { #private::equal(#a, #b)? },
-                Comparison::Unequal => quote! { !#private::equal(#a, #b)? },
+                Comparison::Less => quote! { #private::#finite less(#a, #b)? },
+                Comparison::AtMost => quote! { #private::#finite at_most(#a, #b)? },
+                Comparison::Greater => quote! { #private::#finite less(#b, #a)? },
+                Comparison::AtLeast => quote! { #private::#finite at_most(#b, #a)? },
+                Comparison::Equal => quote! { #private::#finite equal(#a, #b)? },
+                Comparison::Unequal => quote! { !#private::#finite equal(#a, #b)? },
             }
         };
         let code = if self.reading == Reading::Robustness {

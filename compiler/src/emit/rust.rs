@@ -37,7 +37,7 @@ use crate::emit::declare::{Parameters, documentation};
 use crate::emit::implementation::{Implementation, Robust, TOGETHER, dense, positional};
 use crate::emit::names::{Names, ident};
 pub use crate::emit::names::{Place, module as module_name};
-use crate::emit::predicates::{Reading, Scope};
+use crate::emit::predicates::{Compared, Reading, Scope};
 use crate::emit::tables as emit;
 use crate::predicate::{Condition, Predicate, PredicateId, State, Task};
 use crate::source::Span;
@@ -404,21 +404,39 @@ impl<'a> Emitter<'a> {
             });
             quote! { #(#arms,)* }
         };
+        let state = self.state();
+        let floats = (dense > 0).then(|| self.floats(task, &state)).flatten();
         Implementation {
             runtime: self.runtime,
             names: &self.scope.names,
             lints: self.options.place.lints(),
             generics: TokenStream::new(),
             types: &[],
-            state: self.state(),
+            state,
             argument: self.scope.argument(),
             name: quote! { #function },
             robustness: of(Reading::Robustness),
             holds: of(Reading::Truth),
             robust,
             dense,
+            floats,
         }
         .tokens()
+    }
+
+    /// Whether all predicates of a task compare floats, as an expression; `None` if one does not.
+    fn floats(&self, task: &Task, state: &TokenStream) -> Option<TokenStream> {
+        let mut places = Vec::new();
+        for predicate in &task.predicates {
+            let condition = self.compiled.module.predicates[predicate.0 as usize].condition;
+            match self.scope.compared(condition) {
+                Compared::Floats(of_one) => places.extend(of_one),
+                Compared::Others => return None,
+            }
+        }
+        places.sort_unstable();
+        places.dedup();
+        Some(self.scope.are_floats(&places, state))
     }
 
     /// The assertions that the parameters of a task are within the arrays that they index, and the

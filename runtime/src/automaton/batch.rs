@@ -3,7 +3,7 @@
 //! The form of the transition function and that of the letters are looked at once a call and not
 //! once a move, so what remains of a move is one or two look-ups.
 
-use super::{Automaton, Transitions};
+use super::{Automaton, Transitions, shifted};
 
 /// Letters, one for each row: which propositions hold there.
 ///
@@ -47,7 +47,7 @@ impl<'a> From<&'a [bool]> for Letters<'a> {
 impl Letters<'_> {
     #[track_caller]
     #[inline]
-    fn expect(self, rows: usize, propositions: usize) {
+    pub(super) fn expect(self, rows: usize, propositions: usize) {
         match self {
             Self::Bits(bits) => {
                 assert!(propositions <= 64, "bits tell at most 64 propositions");
@@ -106,26 +106,35 @@ impl Automaton {
         states.last().copied().unwrap_or(q)
     }
 
+    /// Moves states of a table, each on the letter that is kept in its bits from `place` on.
+    #[inline(always)]
+    pub(crate) fn move_by_kept(&self, q: &mut [u32], place: u32) {
+        let of = |q: u32| (q & ((1 << place) - 1), (q >> place) as usize);
+        match self.shifts {
+            Some(shifts) => q.iter_mut().for_each(|kept| {
+                let (q, letter) = of(*kept);
+                *kept = shifted(&shifts, q, letter);
+            }),
+            None => q.iter_mut().for_each(|kept| {
+                let (q, letter) = of(*kept);
+                *kept = self.look_up(q, letter);
+            }),
+        }
+    }
+
     #[track_caller]
     #[inline]
     fn walk(&self, rows: usize, letters: Letters<'_>, walk: impl Walk) {
         let count = self.propositions().len();
         letters.expect(rows, count);
+        walk.expect(self);
         match (&self.tables.transitions, letters) {
-            (Transitions::Table { class, width, next }, letters) => {
-                let (class, next): (&[u16], &[u32]) = (class, next);
-                let next = |q: u32, letter: usize| {
-                    next[q as usize * *width as usize + usize::from(class[letter])]
-                };
-                match letters {
-                    Letters::Bits(bits) => {
-                        let mask = class.len() - 1;
-                        walk.walk(|q, row| next(q, bits[row] as usize & mask));
-                    }
-                    Letters::Labels(labels) => {
-                        walk.walk(|q, row| next(q, letter(&labels[row * count..][..count])));
-                    }
-                }
+            (Transitions::Table { class, .. }, Letters::Bits(bits)) => {
+                let mask = class.len() - 1;
+                self.walk_letters(|row| bits[row] as usize & mask, walk);
+            }
+            (Transitions::Table { .. }, Letters::Labels(labels)) => {
+                self.walk_letters(|row| packed(labels, row * count, count), walk);
             }
             (Transitions::Diagram { nodes, roots }, Letters::Bits(bits)) => {
                 let (nodes, roots): (&[[u32; 3]], &[u32]) = (nodes, roots);
@@ -140,28 +149,51 @@ impl Automaton {
             }
         }
     }
+
+    /// The same through a table, which has a letter for each row. What its form is, is asked once.
+    #[inline]
+    fn walk_letters(&self, letter: impl Fn(usize) -> usize, walk: impl Walk) {
+        match self.shifts {
+            Some(shifts) => walk.walk(|q, row| shifted(&shifts, q, letter(row))),
+            None => walk.walk(|q, row| self.look_up(q, letter(row))),
+        }
+    }
 }
 
-/// The letter of a row of labels.
-#[inline]
-fn letter(labels: &[bool]) -> usize {
-    labels.iter().rev().fold(0, |letter, &holds| letter << 1 | usize::from(holds))
+/// The truth values from place `first` on as bits, `count` of them, the first as the lowest. Eight are
+/// read at once where there are so many, and gathered by one multiplication.
+#[inline(always)]
+pub(super) fn packed(labels: &[bool], first: usize, count: usize) -> usize {
+    let mut letter = 0;
+    for at in (0..count).step_by(8) {
+        let labels = &labels[first + at..];
+        let bits = match labels.first_chunk::<8>() {
+            Some(eight) => {
+                let eight = u64::from_le_bytes(eight.map(u8::from));
+                eight.wrapping_mul(0x0102_0408_1020_4080) >> 56
+            }
+            None => labels.iter().rev().fold(0, |bits, &holds| bits << 1 | u64::from(holds)),
+        };
+        letter |= (bits as usize) << at;
+    }
+    letter & ((1 << count) - 1)
 }
 
 /// The state that a reference of a diagram leads to. To compute the next reference's place costs
 /// less than to branch on what nobody can predict.
 #[inline]
 fn descend(nodes: &[[u32; 3]], mut at: u32, holds: impl Fn(usize) -> bool) -> u32 {
-    while at < Transitions::LEAF {
-        let node = &nodes[at as usize];
+    while let Some(node) = nodes.get(at as usize) {
         at = node[1 + usize::from(holds(node[0] as usize))];
     }
-    at - Transitions::LEAF
+    at & !Transitions::LEAF
 }
 
 /// A use of the transition function, which is given as the state after `q` has read the letter of a
 /// row. A trait, for a closure cannot take a closure of any type.
 trait Walk {
+    /// Panics if it does not begin at states of the automaton.
+    fn expect(&self, automaton: &Automaton);
     fn walk(self, next: impl Fn(u32, usize) -> u32);
 }
 
@@ -169,6 +201,11 @@ trait Walk {
 struct Each<'a>(&'a mut [u32]);
 
 impl Walk for Each<'_> {
+    #[inline]
+    fn expect(&self, automaton: &Automaton) {
+        automaton.expect_states(self.0);
+    }
+
     #[inline]
     fn walk(self, next: impl Fn(u32, usize) -> u32) {
         self.0.iter_mut().enumerate().for_each(|(row, q)| *q = next(*q, row));
@@ -182,6 +219,11 @@ struct Along<'a> {
 }
 
 impl Walk for Along<'_> {
+    #[inline]
+    fn expect(&self, automaton: &Automaton) {
+        automaton.expect_state(self.q);
+    }
+
     #[inline]
     fn walk(self, next: impl Fn(u32, usize) -> u32) {
         let mut q = self.q;

@@ -3,10 +3,10 @@
 use super::{Error, Task};
 use crate::robustness::Predicates;
 #[cfg(feature = "std")]
-use crate::robustness::typed::split::{MOST_CARRIED, transfer};
-use crate::robustness::typed::{Backward, Start, Typed, by_time};
+use crate::robustness::typed::Carried;
 #[cfg(feature = "std")]
-use crate::robustness::typed::{Carried, Every};
+use crate::robustness::typed::split::{MOST_CARRIED, transfer};
+use crate::robustness::typed::{Backward, Every, Start, Typed, by_time};
 
 impl<P> Task<P> {
     /// The robustness of many trajectories of one length, which lie one after the other: trajectory i
@@ -33,13 +33,19 @@ impl<P> Task<P> {
         P: Predicates<S>,
     {
         let length = length(states, robustness);
-        for (i, rho) in robustness.iter_mut().enumerate() {
+        let mut found = Ok(());
+        // Backward through all of them, as through each: the next states are then those before in memory.
+        for (i, rho) in robustness.iter_mut().enumerate().rev() {
             let first = i * length;
-            let found = self.robustness(&states[first..][..length]);
-            *rho = found
-                .map_err(|error| Error { instant: error.instant.map(|t| first + t), ..error })?;
+            match self.robustness(&states[first..][..length]) {
+                Ok(of_one) => *rho = of_one,
+                Err(error) => {
+                    let instant = error.instant.map(|t| first + t);
+                    found = Err(Error { instant, ..error });
+                }
+            }
         }
-        Ok(())
+        found
     }
 
     /// The same where the states of one instant lie side by side: state t of trajectory i is
@@ -69,7 +75,7 @@ impl<P> Task<P> {
     ) -> Result<(), Error>
     where
         P: Predicates<S> + Typed,
-        P::Formula: Backward<Start>,
+        P::Formula: Backward<Start> + Backward<Every>,
     {
         assert!(self.is_generated, "the predicates were generated with another formula");
         length(states, robustness);
@@ -163,13 +169,13 @@ impl<P> Task<P> {
 
 /// What a thread has found; a panic of a predicate goes on here.
 #[cfg(feature = "std")]
-fn joined<T>(thread: std::thread::ScopedJoinHandle<'_, T>) -> T {
+pub(super) fn joined<T>(thread: std::thread::ScopedJoinHandle<'_, T>) -> T {
     thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
 }
 
 /// A part for a thread has at least so many states: to start a thread takes some 20 µs.
 #[cfg(feature = "std")]
-const LEAST: usize = 1 << 15;
+pub(super) const LEAST: usize = 1 << 15;
 
 /// The length of the trajectories.
 #[track_caller]

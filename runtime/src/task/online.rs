@@ -3,7 +3,7 @@
 use core::array;
 use core::fmt;
 
-use super::{Error, Run, Task};
+use super::{Error, Run, Task, not_a_number};
 use crate::robustness::Predicates;
 use crate::robustness::typed::forward::{Forward, Once};
 use crate::robustness::typed::{BLOCK, Block, Typed};
@@ -120,8 +120,8 @@ where
         if P::DENSE == 0 {
             // The automaton has not looked at all predicates.
             for i in 0..task.automaton.propositions().len() {
-                if let Err(error) = task.predicate_robustness(i, s) {
-                    return Err(at_instant(error, at));
+                if task.predicates.robustness(i, s).is_nan() {
+                    return Err(at_instant(not_a_number(&task.automaton, i), at));
                 }
             }
         }

@@ -2,16 +2,15 @@
 
 use core::fmt;
 
-use super::{Error, Reader, Task};
+use super::{Error, Task, not_a_number};
 use crate::automaton::Automaton;
 use crate::monitor::Acceptor;
-use crate::robustness::{self, Predicates};
+use crate::robustness::{self, NotANumber, Predicates};
 
 /// The run of a task's automaton on one trajectory: a state `q` that is never anything else.
 ///
 /// [`Task::next`] takes the state from its caller and has to look whether it is one. Here it is known
-/// to be, so for a compiled task of up to ten predicates whose automaton is a table a step has no panic
-/// in it, and a binary that only steps links none.
+/// to be, so a step of a compiled task has no panic in it, and a binary that only steps links none.
 ///
 /// ```
 /// use tltl::tltl;
@@ -83,13 +82,14 @@ impl<P> Run<'_, P> {
     {
         // `Task::run` has asserted that predicates and automaton belong together.
         if P::DENSE > 0 {
-            return match robustness::letter(&self.task.predicates, s) {
+            return match robustness::one_letter(&self.task.predicates, s) {
                 (letter, false) => Ok(self.task.automaton.move_on(self.place, letter)),
                 _ => Err(self.task.reader().unreadable(s)),
             };
         }
-        let reader = Reader { is_generated: true, ..self.task.reader() };
-        Ok(self.task.automaton.place(reader.next(self.state(), s)?))
+        let (predicates, automaton) = (&self.task.predicates, &self.task.automaton);
+        let holds = |i| predicates.holds(i, s).map_err(|NotANumber| not_a_number(automaton, i));
+        Ok(automaton.place(automaton.follow(self.state(), holds)?))
     }
 
     /// Moves to a place that [`next`](Self::next) gave.
