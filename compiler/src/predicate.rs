@@ -233,9 +233,10 @@ pub struct Enum {
 /// assert!(matches!(&arm.fields[0].ty, Type::Array(_, 6)) && arm.fields[0].unit.is_some());
 /// # Ok::<(), tltl_compiler::error::Errors>(())
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub enum State {
     /// Nothing is declared: propositions are free.
+    #[default]
     Free,
     /// A struct that the source declares.
     Declared(Struct),
@@ -774,7 +775,7 @@ pub struct Options {
 /// A checked source: everything that it means.
 ///
 /// Invariant: all ids in it are indices of its own vectors and of `arena`.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Module {
     /// The author's docs of the whole source.
     pub docs: Vec<String>,

@@ -152,10 +152,15 @@ pub(crate) fn preformatted(text: &str) -> String {
 #[pyclass(frozen, eq, get_all, module = "tltl")]
 #[derive(Clone, PartialEq)]
 pub struct Mistake {
+    /// The automaton state.
     q: u32,
+    /// The state of the world.
     state: usize,
+    /// What the policy does.
     action: usize,
+    /// The best action.
     best: usize,
+    /// What its value falls short of that of the best action.
     loss: f64,
 }
 

@@ -152,7 +152,7 @@ impl Composition {
         });
         let optimum = Arc::new(optimum.map_err(|error| wrong(error.to_string()))?);
         let horizon = model.horizon.or(self.horizon);
-        Ok(Solution { optimum, rewards: self.rewards, horizon, task: None })
+        Ok(Solution::composed(optimum, self.rewards, horizon))
     }
 
     fn __str__(&self) -> String {

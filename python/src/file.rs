@@ -34,9 +34,13 @@ impl<'py> FromPyObject<'_, 'py> for Argument {
 #[pyclass(frozen, eq, get_all, module = "tltl")]
 #[derive(Clone, PartialEq, Eq)]
 pub struct Parameter {
+    /// Its name.
     name: String,
+    /// Its type, as text.
     r#type: String,
+    /// Its unit, if the file gives one.
     unit: Option<String>,
+    /// The names of the values of an enumeration; else empty.
     values: Vec<String>,
 }
 
@@ -74,6 +78,7 @@ impl TaskFile {
         Ok(Self { inner, budget })
     }
 
+    /// What the author should look at.
     #[getter]
     fn warnings<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, pyo3::types::PyTuple>> {
         diagnostics(py, self.inner.source(), &self.inner.warnings())
@@ -95,6 +100,15 @@ impl TaskFile {
         Ok(tasks)
     }
 
+    /// The task of this name with these values for its parameters; without a name the only task.
+    ///
+    /// A parameter is a number, a truth value, or the name of a value of its enumeration. Raises
+    /// `ValueError` if the file has no such task, or it takes other arguments.
+    ///
+    /// >>> from tltl import TaskFile
+    /// >>> file = TaskFile.from_text("state S { x: f64 } task far(d: f64) = F x > d")
+    /// >>> file.task("far", d=2.5).satisfied([[1.0], [3.0]])
+    /// True
     #[pyo3(signature = (name=None, /, **arguments))]
     fn task(&self, name: Option<&str>, arguments: Option<&Bound<'_, PyDict>>) -> PyResult<Task> {
         let mut values = Vec::new();

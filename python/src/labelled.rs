@@ -57,7 +57,11 @@ impl FiniteModel {
 
 /// The robustness of the propositions in each state: of an array of shape (states, propositions), or
 /// by asking a function for each of them.
-fn rows(states: &States<'_>, task: &Task, labels: &Bound<'_, PyAny>) -> PyResult<Vec<Vec<f64>>> {
+pub(crate) fn rows(
+    states: &States<'_>,
+    task: &Task,
+    labels: &Bound<'_, PyAny>,
+) -> PyResult<Vec<Vec<f64>>> {
     if !labels.is_callable() {
         let (count, width) = (states.arguments.len(), task.names().len());
         let all = task.rows_of(labels, count)?;
@@ -76,13 +80,23 @@ pub(crate) fn labelled(
     labels: &Bound<'_, PyAny>,
     rewards: Option<&Rewards>,
 ) -> PyResult<Labelled> {
-    let rows = rows(states, task, labels)?;
+    of_rows(labels.py(), states, task, rows(states, task, labels)?, rewards)
+}
+
+/// The same of the robustness of the propositions in each state.
+pub(crate) fn of_rows(
+    py: Python<'_>,
+    states: &States<'_>,
+    task: &Task,
+    rows: Vec<Vec<f64>>,
+    rewards: Option<&Rewards>,
+) -> PyResult<Labelled> {
     let (formula, automaton) = (task.inner.formula().clone(), task.automaton().clone());
     let monitor = tltl::Task::new(task.inner.name().to_owned(), formula, automaton, Row);
     let monitor = monitor.map_err(|error| wrong(error.to_string()))?;
     let actions = (0..states.actions).map(|a| a.to_string());
     let needs_robustness = rewards.is_some_and(Rewards::needs_robustness);
-    labels.py().detach(|| {
+    py.detach(|| {
         let labelled = Labelled::new(rows.clone(), actions, &monitor);
         let labelled = match needs_robustness {
             true => labelled.and_then(|labelled| labelled.with_robustness(rows, &monitor)),

@@ -143,11 +143,13 @@ impl Learner {
         self.given.clone_ref(py)
     }
 
+    /// The task that it learns.
     #[getter]
     fn task(&self) -> Task {
         self.task.clone()
     }
 
+    /// How it learns.
     #[getter]
     fn settings(&self) -> Settings {
         Settings(*self.inner.settings())

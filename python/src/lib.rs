@@ -5,7 +5,7 @@
 //! | `array` | every NumPy array that enters, whatever its type and strides |
 //! | `states` | recorded states, as arrays or mappings, into the columns that a task reads |
 //! | `labels` | what holds in a state, as mappings, names or arrays |
-//! | `task`, `batch`, `monitor`, `file` | tasks |
+//! | `task`, `batch`, `monitor`, `file`, `product` | tasks |
 //! | `rewards` | what moves pay |
 //! | `model`, `labelled` | finite worlds, and tasks on their states |
 //! | `solution`, `certificate`, `shield` | what is optimal, what policies are worth, what is allowed |
@@ -33,6 +33,7 @@ mod model;
 mod monitor;
 mod network;
 mod policy;
+mod product;
 mod rewards;
 mod settings;
 mod shield;
@@ -70,6 +71,8 @@ mod _core {
     #[pymodule_export]
     use super::policy::Policy;
     #[pymodule_export]
+    use super::product::{Product, product};
+    #[pymodule_export]
     use super::rewards::Rewards;
     #[pymodule_export]
     use super::settings::{Schedule, Settings};
@@ -78,7 +81,7 @@ mod _core {
     #[pymodule_export]
     use super::solution::{Solution, solve};
     #[pymodule_export]
-    use super::task::{Task, restore};
+    use super::task::{Task, restore, restore_product};
     #[pymodule_export]
     use super::values::{Budget, Edge, Input, Run};
 

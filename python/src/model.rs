@@ -123,6 +123,7 @@ impl Model for Source {
 pub struct FiniteModel {
     pub(crate) source: Source,
     pub(crate) dynamics: Dynamics,
+    /// The steps after which an episode is cut, if it is.
     #[pyo3(get)]
     pub(crate) horizon: Option<u64>,
     origin: Vec<i32>,
@@ -333,14 +334,48 @@ impl FiniteModel {
         py.import("tltl._model")?.getattr("of_env")?.call((env,), Some(&named))
     }
 
+    /// The number of states, terminal copies included.
     #[getter]
     fn num_states(&self) -> usize {
         self.dynamics.states()
     }
 
+    /// The number of actions.
     #[getter]
     fn num_actions(&self) -> usize {
         self.dynamics.actions()
+    }
+
+    /// As its outcomes: what was seen is kept as frequencies.
+    fn __reduce__<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let (states, actions) = (self.source.states(), self.source.actions());
+        let (mut first, mut to, mut probability, mut ends) = (vec![0], vec![], vec![], vec![]);
+        for (s, a) in (0..states).flat_map(|s| (0..actions).map(move |a| (s, a))) {
+            self.source.transitions(s, a, |next, p| {
+                to.push(next);
+                probability.push(p);
+                ends.push(false);
+            });
+            self.source.endings(s, a, |next, p| {
+                to.push(next);
+                probability.push(p);
+                ends.push(true);
+            });
+            first.push(to.len());
+        }
+        let named = PyDict::new(py);
+        named.set_item("actions", actions)?;
+        named.set_item("ends", ends)?;
+        named.set_item("starts", (0..states).map(|s| self.source.start(s)).collect::<Vec<_>>())?;
+        named.set_item("horizon", self.horizon)?;
+        named.set_item("origin", &self.origin)?;
+        named.set_item("event", &self.event)?;
+        let make = py.import("tltl")?.getattr("FiniteModel")?.getattr("from_arrays")?;
+        let make = py.import("functools")?.getattr("partial")?.call((make,), Some(&named))?;
+        Ok((make, (first, to, probability).into_pyobject(py)?))
     }
 
     /// The state of the tables that each state is: int32, of shape (states,).

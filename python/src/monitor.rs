@@ -21,21 +21,25 @@ impl Monitor {
 
 #[pymethods]
 impl Monitor {
+    /// The task that is monitored.
     #[getter]
     fn task(&self) -> Task {
         self.task.clone()
     }
 
+    /// The automaton state now.
     #[getter]
     fn state(&self) -> u32 {
         self.state
     }
 
+    /// Whether the task is satisfied.
     #[getter]
     fn satisfied(&self) -> bool {
         self.task.inner.is_accepting(self.state)
     }
 
+    /// Whether the task is lost.
     #[getter]
     fn lost(&self) -> bool {
         self.task.inner.is_trap(self.state)

@@ -66,31 +66,37 @@ impl Rewards {
         rewards.with_environment(environment).map(Self).map_err(out_of_range)
     }
 
+    /// What is paid for: `shaped`, `acceptance`, `progress`, `robustness` or `literal`.
     #[getter]
     fn mode(&self) -> &'static str {
         MODES.iter().find(|(_, mode)| *mode == self.0.mode()).map_or("", |(name, _)| name)
     }
 
+    /// The discount factor.
     #[getter]
     fn gamma(&self) -> f64 {
         self.0.gamma()
     }
 
+    /// The most that `robustness` pays for a step.
     #[getter]
     fn bound(&self) -> f64 {
         self.0.bound()
     }
 
+    /// What being lost costs.
     #[getter]
     fn trap_penalty(&self) -> f64 {
         self.0.trap_penalty()
     }
 
+    /// What each step costs.
     #[getter]
     fn step_penalty(&self) -> f64 {
         self.0.step_penalty()
     }
 
+    /// The weight of the environment's own reward.
     #[getter]
     fn environment(&self) -> f64 {
         self.0.environment()

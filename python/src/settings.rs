@@ -133,21 +133,25 @@ impl Settings {
         Self(learn::Settings::paper())
     }
 
+    /// What is paid, and the discount factor.
     #[getter]
     fn rewards(&self) -> Rewards {
         Rewards(self.0.rewards())
     }
 
+    /// The learning rate, by the visits of a pair and action.
     #[getter]
     fn alpha(&self) -> Schedule {
         Schedule(self.0.alpha())
     }
 
+    /// The probability of a random action, by steps.
     #[getter]
     fn epsilon(&self) -> Schedule {
         Schedule(self.0.epsilon())
     }
 
+    /// `random`, or `coverage`: what was tried least.
     #[getter]
     fn exploration(&self) -> &'static str {
         match self.0.exploration() {
@@ -156,21 +160,25 @@ impl Settings {
         }
     }
 
+    /// The steps after which an episode is cut.
     #[getter]
     fn horizon(&self) -> u64 {
         self.0.horizon()
     }
 
+    /// Whether each step updates all automaton states.
     #[getter]
     fn counterfactual(&self) -> bool {
         self.0.updates() == Updates::Counterfactual
     }
 
+    /// The action values at the start.
     #[getter]
     fn initial(&self) -> f64 {
         self.0.initial()
     }
 
+    /// Whether transitions are counted, so that the policy solves what was seen.
     #[getter]
     fn remember(&self) -> bool {
         self.0.memory() == Memory::Experience

@@ -1,16 +1,15 @@
 //! `tltl.Shield`: which actions are allowed.
 
-use std::sync::Arc;
-
 use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
 use tltl::q::QTable;
 use tltl::shield;
-use tltl::solve::Optimum;
 
 use super::array::{frozen, shaped};
 use super::certificate::Certificate;
 use super::error::wrong;
 use super::policy::{Policy, pair, policy_of};
+use super::solution::Solution;
 use super::task::Task;
 
 /// Which actions are allowed at each automaton state and state: at least one. `Solution.shield` makes
@@ -27,17 +26,17 @@ use super::task::Task;
 #[pyclass(frozen, module = "tltl")]
 pub struct Shield {
     inner: shield::Shield,
-    optimum: Arc<Optimum>,
-    task: Option<Task>,
+    solution: Py<Solution>,
+    around: &'static str,
 }
 
 impl Shield {
     pub(crate) const fn new(
         inner: shield::Shield,
-        optimum: Arc<Optimum>,
-        task: Option<Task>,
+        solution: Py<Solution>,
+        around: &'static str,
     ) -> Self {
-        Self { inner, optimum, task }
+        Self { inner, solution, around }
     }
 }
 
@@ -46,7 +45,7 @@ impl Shield {
     /// The task that it is for; `None` for a composition.
     #[getter]
     fn task(&self) -> Option<Task> {
-        self.task.clone()
+        self.solution.get().task().cloned()
     }
 
     /// What is promised: by how much P(lost) of any policy of allowed actions may exceed the smallest.
@@ -83,7 +82,7 @@ impl Shield {
     fn policy(&self, py: Python<'_>, policy: &Bound<'_, PyAny>) -> PyResult<Policy> {
         let table = self.table(policy)?;
         let shielded = py.detach(|| {
-            let worth = self.optimum.certify_shield(&self.inner, &table)?;
+            let worth = self.solution.get().optimum.certify_shield(&self.inner, &table)?;
             Ok(self.inner.policy(&table)?.shielded(worth))
         });
         let shielded = shielded.map_err(|error: tltl::Mismatch| wrong(error.to_string()))?;
@@ -94,7 +93,7 @@ impl Shield {
     /// `Solution.certify`, and what the actions that it allows can come to.
     fn certify(&self, py: Python<'_>, policy: &Bound<'_, PyAny>) -> PyResult<Shielded> {
         let table = self.table(policy)?;
-        let worth = py.detach(|| self.optimum.certify_shield(&self.inner, &table));
+        let worth = py.detach(|| self.solution.get().optimum.certify_shield(&self.inner, &table));
         worth.map(Shielded).map_err(|error| wrong(error.to_string()))
     }
 
@@ -105,6 +104,19 @@ impl Shield {
 
     fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
         slf
+    }
+
+    /// By the solution, which is solved again.
+    fn __reduce__<'py>(
+        slf: &Bound<'py, Self>,
+    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let (py, shield) = (slf.py(), slf.get());
+        let named = PyDict::new(py);
+        named.set_item("epsilon", shield.inner.epsilon())?;
+        named.set_item("around", shield.around)?;
+        let make = py.import("tltl")?.getattr("Solution")?.getattr("shield")?;
+        let make = py.import("functools")?.getattr("partial")?.call((make,), Some(&named))?;
+        Ok((make, PyTuple::new(py, [&shield.solution])?))
     }
 
     fn __repr__(&self) -> String {

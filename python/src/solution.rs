@@ -2,16 +2,17 @@
 
 use std::sync::Arc;
 
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
+use pyo3::types::{PyDict, PyTuple};
 use tltl::policy;
 use tltl::reward;
 use tltl::solve::{Optimum, Problem, Report};
 
-use super::array::frozen;
+use super::array::{frozen, shaped};
 use super::certificate::{Certificate, Mistake};
 use super::error::wrong;
-use super::labelled::{labelled, task_of};
+use super::labelled::{of_rows, rows, task_of};
 use super::model::FiniteModel;
 use super::policy::{Policy, policy_of};
 use super::rewards::Rewards;
@@ -32,32 +33,56 @@ pub(crate) fn solve(
     labels: &Bound<'_, PyAny>,
     rewards: Option<Rewards>,
 ) -> PyResult<Solution> {
-    let (task, model) = (task_of(task)?, model.get());
+    let (task, given, model) = (task_of(task)?, model, model.get());
     let rewards = rewards.map_or_else(reward::Rewards::acceptance, |rewards| rewards.0);
     if rewards.needs_robustness() {
         return Err(wrong("rewards: models are not solved for the mode `robustness`"));
     }
-    let labelled = labelled(&model.named(py)?, &task, labels, None)?;
+    let states = model.named(py)?;
+    let rows = rows(&states, &task, labels)?;
+    let labelled = of_rows(py, &states, &task, rows.clone(), None)?;
     let optimum = py.detach(|| {
         let problem = Problem::new(&model.dynamics, &labelled);
         problem.map(|problem| problem.optimum(&rewards))
     });
     let optimum = optimum.map_err(|error| wrong(error.to_string()))?;
     let optimum = Arc::new(optimum);
-    Ok(Solution { optimum, rewards, horizon: model.horizon, task: Some(task) })
+    let asked = Some(Asked { model: given.clone().unbind(), task, rows });
+    Ok(Solution { optimum, rewards, horizon: model.horizon, asked })
 }
 
-/// A task that is solved in a model.
+/// What was solved.
+struct Asked {
+    model: Py<FiniteModel>,
+    task: Task,
+    /// The robustness of the propositions in each state.
+    rows: Vec<Vec<f64>>,
+}
+
+/// A task that is solved in a model. It is pickled as what was asked, and solved again.
 #[pyclass(frozen, module = "tltl")]
 pub struct Solution {
     pub(crate) optimum: Arc<Optimum>,
     pub(crate) rewards: reward::Rewards,
     pub(crate) horizon: Option<u64>,
     /// Nothing for a composition, whose automaton is that of its raw pairs.
-    pub(crate) task: Option<Task>,
+    asked: Option<Asked>,
 }
 
 impl Solution {
+    /// That of a composition.
+    pub(crate) const fn composed(
+        optimum: Arc<Optimum>,
+        rewards: reward::Rewards,
+        horizon: Option<u64>,
+    ) -> Self {
+        Self { optimum, rewards, horizon, asked: None }
+    }
+
+    pub(crate) fn task(&self) -> Option<&Task> {
+        self.asked.as_ref().map(|asked| &asked.task)
+    }
+
     /// A number for each automaton state and state.
     fn shape(&self) -> [usize; 2] {
         let task = self.optimum.problem().task();
@@ -163,17 +188,33 @@ impl Solution {
     ///
     /// Raises `ValueError` if `epsilon` is not in [0, 1].
     #[pyo3(signature = (*, epsilon=0.0, around="safest"))]
-    fn shield(&self, py: Python<'_>, epsilon: f64, around: &str) -> PyResult<Shield> {
-        let problem = self.optimum.problem();
-        let shield = py.detach(|| match around {
-            "safest" => Some(tltl::shield::Shield::safest(problem, epsilon)),
-            "best" => Some(tltl::shield::Shield::keeping_best(problem, epsilon)),
-            _ => None,
-        });
-        let shield =
-            shield.ok_or_else(|| wrong(format!("around is `{around}`, not `safest` or `best`")))?;
+    fn shield(slf: &Bound<'_, Self>, epsilon: f64, around: &str) -> PyResult<Shield> {
+        let (name, around): (_, fn(&Problem, f64) -> _) = match around {
+            "safest" => ("safest", tltl::shield::Shield::safest),
+            "best" => ("best", tltl::shield::Shield::keeping_best),
+            _ => return Err(wrong(format!("around is `{around}`, not `safest` or `best`"))),
+        };
+        let problem = slf.get().optimum.problem();
+        let shield = slf.py().detach(|| around(problem, epsilon));
         let shield = shield.map_err(|error| wrong(error.to_string()))?;
-        Ok(Shield::new(shield, self.optimum.clone(), self.task.clone()))
+        Ok(Shield::new(shield, slf.clone().unbind(), name))
+    }
+
+    fn __reduce__<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let Some(Asked { model, task, rows }) = &self.asked else {
+            return Err(PyTypeError::new_err(
+                "the solution of a composition is not pickled: pickle the skills, and compose again",
+            ));
+        };
+        let named = PyDict::new(py);
+        named.set_item("rewards", Rewards(self.rewards))?;
+        let solve = py.import("tltl")?.getattr("solve")?;
+        let solve = py.import("functools")?.getattr("partial")?.call((solve,), Some(&named))?;
+        let rows = shaped(py, rows.concat(), &[rows.len(), task.names().len()])?;
+        Ok((solve, (model, task.clone(), rows).into_pyobject(py)?))
     }
 
     fn __repr__(&self) -> String {

@@ -16,7 +16,8 @@ use tltl_compiler::source::Source;
 use tltlc::diff::{Side, of_definitions};
 use tltlc::emit;
 use tltlc::explain;
-use tltlc::task::{self, Bound as Made, TaskFile, Value, Verdict};
+use tltlc::product::Operator;
+use tltlc::task::{self, Bound as Made, NotBare, RawProduct, TaskFile, Value, Verdict};
 
 use super::array::{frozen, shaped};
 use super::batch::Letters;
@@ -51,11 +52,29 @@ pub struct Task {
     /// Where it ends, which rewards ask at every step.
     pub(crate) ends: Arc<Ends>,
     budget: Budget,
+    /// The tasks that it is the raw product of, if it is one.
+    factors: Option<Arc<(Operator, Vec<Self>)>>,
 }
 
 impl Task {
     fn of(inner: task::Task, budget: Budget) -> Self {
-        Self { ends: Arc::new(Ends::of(&inner)), inner, budget }
+        Self { ends: Arc::new(Ends::of(&inner)), inner, budget, factors: None }
+    }
+
+    /// The raw product of tasks, and for each of its states those of the tasks.
+    pub(crate) fn product(
+        py: Python<'_>,
+        operator: Operator,
+        operands: Vec<Self>,
+    ) -> PyResult<(Self, Vec<Vec<u32>>)> {
+        let Some(first) = operands.first() else { return Err(wrong("tasks: none are given")) };
+        let (budget, limits) = (first.budget.clone(), first.budget.limits());
+        let inner: Vec<&task::Task> = operands.iter().map(|operand| &operand.inner).collect();
+        let whole = py.detach(|| RawProduct::new(operator, &inner, limits));
+        let whole = whole.map_err(|error| wrong(error.to_string()))?;
+        let RawProduct { task, components } = whole.map_err(|error| mistaken(py, &error))?;
+        let factors = Some(Arc::new((operator, operands)));
+        Ok((Self { factors, ..Self::of(task, budget) }, components))
     }
 
     /// The task of `file` with this name and these arguments.
@@ -82,10 +101,6 @@ impl Task {
         self.inner.entry().file().source()
     }
 
-    fn is_formula(&self) -> bool {
-        self.inner.entry().name().is_none()
-    }
-
     fn dfa(&self) -> &Dfa {
         self.inner.dfa()
     }
@@ -98,11 +113,38 @@ impl Task {
         self.automaton().propositions()
     }
 
+    /// The arguments of `product` that make a product again.
+    pub(crate) fn factors<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        let Some(factors) = &self.factors else { return Ok(PyTuple::empty(py)) };
+        let (operator, operands) = &**factors;
+        let mut arguments = vec![super::product::name(*operator).into_pyobject(py)?.into_any()];
+        for operand in operands {
+            arguments.push(operand.clone().into_pyobject(py)?.into_any());
+        }
+        PyTuple::new(py, arguments)
+    }
+
+    pub(crate) fn described(&self) -> &str {
+        self.text()
+    }
+
     fn title(&self) -> String {
         let task = self.inner.entry().task();
         task.name
             .as_ref()
             .map_or_else(|| task.text.clone(), |name| format!("{name} = {}", task.text))
+    }
+
+    /// The task, if its automaton is the one that was numbered so.
+    fn expect(self, fingerprint: &str) -> PyResult<Self> {
+        if self.fingerprint() == fingerprint {
+            return Ok(self);
+        }
+        Err(wrong(format!(
+            "`{}` has another numbered automaton in this version: what was learned with it does not \
+             fit",
+            self.text()
+        )))
     }
 
     /// A state of the automaton, checked.
@@ -131,14 +173,15 @@ impl Task {
         edges
     }
 
-    fn key(&self) -> (&str, Option<&str>, String) {
+    /// A product has the text of the formula that it is the automaton of.
+    fn key(&self) -> (&str, Option<&str>, String, bool) {
         let arguments = format!("{:?}", self.inner.arguments());
-        (self.source().text(), self.inner.entry().name(), arguments)
+        (self.source().text(), self.inner.entry().name(), arguments, self.factors.is_some())
     }
 
     fn joined(&self, py: Python<'_>, operator: &str, other: &Self) -> PyResult<Self> {
-        if !self.is_formula() || !other.is_formula() {
-            return Err(wrong("only bare formulas are joined; write the task in the file"));
+        if [self, other].iter().any(|task| !task.inner.entry().is_bare()) {
+            return Err(wrong(NotBare.to_string()));
         }
         let text = format!("({}) {operator} ({})", self.source().text(), other.source().text());
         Self::new(py, &text, Some(self.budget.clone()))
@@ -161,6 +204,26 @@ impl Task {
             .map_err(|error| mistaken(py, &error))?;
         warn(py, inner.entry().file().source(), &warnings)?;
         Ok(Self::of(inner, budget))
+    }
+
+    /// The task of an automaton that another tool wrote in the HOA format (Spot, Owl, ltlf2dfa). It
+    /// must be deterministic, and accept for good once it accepts.
+    ///
+    /// There is no formula: `text` is the name in the file, and `robustness` that of the best run
+    /// through the automaton. States are given by the names of the propositions, as for a bare
+    /// formula.
+    ///
+    /// Raises `CompileError` if the text is not such an automaton.
+    ///
+    /// >>> from tltl import Task
+    /// >>> theirs = Task.from_hoa(Task("!wet U home").to_hoa())
+    /// >>> theirs.fingerprint == Task("!wet U home").fingerprint
+    /// True
+    #[staticmethod]
+    #[pyo3(signature = (text, /, *, name="automaton"))]
+    fn from_hoa(py: Python<'_>, text: &str, name: &str) -> PyResult<Self> {
+        let file = TaskFile::of_automaton(Source::new(name, text));
+        Self::bind(&file.map_err(|error| mistaken(py, &error))?, None, &[], Budget::default())
     }
 
     /// The formula, as it was written.
@@ -395,7 +458,7 @@ impl Task {
         columns: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         self.by_trajectory(states, columns, |columns, scratch| {
-            self.inner.evaluator().robustness(columns, scratch)
+            self.inner.robustness(columns, scratch)
         })
     }
 
@@ -442,7 +505,11 @@ impl Task {
 
     /// The task in plain English, with shortest ways to satisfy it and to lose it.
     fn explain(&self) -> String {
-        let told = explain::explain(&self.inner.entry().task().spec, self.dfa());
+        let entry = self.inner.entry();
+        let told = match entry.is_automaton() {
+            true => explain::explain_automaton(self.dfa()),
+            false => explain::explain(&entry.task().spec, self.dfa()),
+        };
         format!("{}\n\n{told}", self.title())
     }
 
@@ -516,7 +583,11 @@ impl Task {
 
     /// The task as Rust source.
     fn to_rust(&self) -> String {
-        emit::rust::file(self.inner.entry().file().compiled())
+        let entry = self.inner.entry();
+        match entry.is_automaton() {
+            true => emit::rust::foreign(self.text(), self.dfa()),
+            false => emit::rust::file(entry.file().compiled()),
+        }
     }
 
     fn __and__(&self, py: Python<'_>, other: &Self) -> PyResult<Self> {
@@ -558,16 +629,27 @@ impl Task {
                 Value::Text(text) => arguments.set_item(name, text)?,
             }
         }
-        let source = self.source();
-        let file = (!self.is_formula()).then(|| source.name().to_owned());
-        let name = self.name().map(str::to_owned);
+        if let Some(factors) = &self.factors {
+            let restore = py.import("tltl._core")?.getattr("restore_product")?;
+            let (operator, operands) = &**factors;
+            let state = (super::product::name(*operator), operands.clone(), self.fingerprint());
+            return Ok((restore, state.into_pyobject(py)?));
+        }
+        let (source, entry) = (self.source(), self.inner.entry());
+        let form = match (entry.is_bare(), entry.is_automaton()) {
+            (true, _) => "formula",
+            (_, true) => "automaton",
+            _ => "file",
+        };
+        let source = (form, source.name(), source.text());
         let state =
-            (file, source.text(), name, arguments.items(), self.budget.clone(), self.fingerprint());
+            (source, self.name(), arguments.items(), self.budget.clone(), self.fingerprint());
         Ok((restore, state.into_pyobject(py)?))
     }
 
     fn __repr__(&self) -> String {
         match self.name() {
+            None if self.inner.entry().is_automaton() => format!("<Task {}>", self.text()),
             None => format!("Task({:?})", self.text()),
             Some(name) => format!("<Task {name} = {}>", self.text()),
         }
@@ -583,27 +665,32 @@ fn text(written: Result<emit::labels::Text<'_>, emit::labels::TooLarge>) -> PyRe
 #[pyfunction]
 pub(crate) fn restore(
     py: Python<'_>,
-    file: Option<String>,
-    text: String,
+    source: (String, String, String),
     name: Option<String>,
     arguments: Vec<(String, super::file::Argument)>,
     budget: Budget,
     fingerprint: &str,
 ) -> PyResult<Task> {
-    let limits = budget.limits();
-    let compiled = match file {
-        Some(file) => TaskFile::new(Source::new(file, text), limits),
-        None => TaskFile::of_formula(&text, limits),
+    let ((form, source, text), limits) = (source, budget.limits());
+    let compiled = match &*form {
+        "formula" => TaskFile::of_formula(&text, limits),
+        "automaton" => TaskFile::of_automaton(Source::new(source, text)),
+        _ => TaskFile::new(Source::new(source, text), limits),
     };
     let compiled = compiled.map_err(|error| mistaken(py, &error))?;
     let arguments: Vec<_> = arguments.into_iter().map(|(name, value)| (name, value.0)).collect();
     let task = Task::bind(&compiled, name.as_deref(), &arguments, budget)?;
-    if task.fingerprint() != fingerprint {
-        return Err(wrong(format!(
-            "`{}` has another numbered automaton in this version: what was learned with it does not \
-             fit",
-            task.text()
-        )));
-    }
-    Ok(task)
+    task.expect(fingerprint)
+}
+
+/// A product of yesterday, made again.
+#[pyfunction]
+pub(crate) fn restore_product(
+    py: Python<'_>,
+    operator: &str,
+    operands: Vec<Bound<'_, PyAny>>,
+    fingerprint: &str,
+) -> PyResult<Task> {
+    let operands = operands.iter().map(super::labelled::task_of).collect::<PyResult<_>>()?;
+    Task::product(py, super::product::operator(operator)?, operands)?.0.expect(fingerprint)
 }

@@ -9,9 +9,13 @@ use tltlc::evaluate::{self, InputKind};
 #[pyclass(frozen, eq, hash, get_all, from_py_object, module = "tltl")]
 #[derive(Clone, PartialEq, Eq, Hash)]
 pub struct Budget {
+    /// The most states, before the automaton is minimal.
     states: usize,
+    /// The most nodes of its decision diagrams.
     nodes: usize,
+    /// The most edges of the minimal automaton.
     edges: usize,
+    /// The most products (cubes) of one guard.
     products: usize,
 }
 
@@ -70,9 +74,14 @@ impl Budget {
 #[pyclass(frozen, eq, get_all, module = "tltl")]
 #[derive(Clone, PartialEq, Eq)]
 pub struct Input {
+    /// Its name: `x`, `pose.x`, `joints[2]`, or the proposition.
     name: String,
+    /// The type that the task file declares, or `enum`; in a bare formula `variable`, any number, or
+    /// `proposition`, which is given by its robustness.
     kind: &'static str,
+    /// The unit that the task file declares.
     unit: Option<String>,
+    /// The names of the values of an enumeration, in the order of their numbers; else empty.
     values: Vec<String>,
 }
 
@@ -100,8 +109,11 @@ impl Input {
 #[pyclass(frozen, eq, get_all, module = "tltl")]
 #[derive(Clone, PartialEq, Eq)]
 pub struct Edge {
+    /// The state that it leaves.
     pub(crate) source: u32,
+    /// The state that it enters.
     pub(crate) target: u32,
+    /// The letters that take it, as a formula.
     pub(crate) guard: String,
 }
 
@@ -115,20 +127,27 @@ impl Edge {
 /// A trajectory that ran through a task: one entry for each row.
 #[pyclass(frozen, get_all, module = "tltl")]
 pub struct Run {
+    /// The automaton state after each row: uint32, of shape (T,).
     pub(crate) states: Py<PyAny>,
+    /// By how much each row makes the automaton move on: float64, of shape (T,); -inf where it is decided.
     pub(crate) progress: Py<PyAny>,
+    /// The robustness of the whole trajectory; -inf if it is empty.
     pub(crate) robustness: f64,
+    /// `satisfied`, `lost` or `open`.
     pub(crate) verdict: String,
+    /// The first row after which the verdict was this one; `None` if there are no rows.
     pub(crate) since: Option<usize>,
 }
 
 #[pymethods]
 impl Run {
+    /// Whether it satisfies the task.
     #[getter]
     fn satisfied(&self) -> bool {
         self.verdict == "satisfied"
     }
 
+    /// Whether the task is lost, whatever comes after it.
     #[getter]
     fn lost(&self) -> bool {
         self.verdict == "lost"

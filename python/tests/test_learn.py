@@ -266,6 +266,42 @@ def test_a_shield_keeps_its_promise(lake: FiniteModel, epsilon: float) -> None:
         best.shield(around=nowhere)
 
 
+@pytest.mark.parametrize("around", ["safest", "best"])
+def test_models_solutions_and_shields_pickle(lake: FiniteModel, around: Any) -> None:
+    model = pickle.loads(pickle.dumps(lake))
+    assert model.horizon == lake.horizon and np.array_equal(model.origin, lake.origin)
+    rewards = Rewards("shaped", gamma=0.9)
+    best = solve(model, "!hole U goal", holes, rewards=rewards)
+    again = pickle.loads(pickle.dumps(best))
+    for name in ("satisfied", "steps", "Q"):
+        own, theirs = (getattr(one, name) for one in (best, again))
+        assert np.array_equal(own, theirs, equal_nan=True)
+    shield = best.shield(epsilon=0.05, around=around)
+    for other in (pickle.loads(pickle.dumps(shield)), copy.deepcopy(shield)):
+        assert other.task == shield.task and other.epsilon == shield.epsilon
+        assert np.array_equal(other.masks, shield.masks)
+    policy = np.zeros((3, 16), int)
+    other = pickle.loads(pickle.dumps(shield))
+    assert other.certify(policy).lost_after == shield.certify(policy).lost_after
+
+
+def test_a_model_with_events_and_endings_pickles() -> None:
+    events: Any = lambda s, a, to, reward: "cliff" if reward <= -100 else None  # noqa: E731
+    model = FiniteModel.from_env(gym.make("CliffWalking-v1"), events=events)
+    again = pickle.loads(pickle.dumps(model))
+    assert (again.event, again.num_states) == (model.event, model.num_states)
+    labels: Any = lambda s, event: {"goal": s == 47, "cliff": event == "cliff"}  # noqa: E731
+    own, theirs = (solve(one, "!cliff U goal", labels) for one in (model, again))
+    assert np.array_equal(own.satisfied, theirs.satisfied)
+    # What was seen is kept as frequencies.
+    seen = FiniteModel.from_experience(
+        [0, 0, 0], [0, 0, 0], [1, 1, 0], num_states=2, num_actions=1, terminated=[1, 1, 0]
+    )
+    again = pickle.loads(pickle.dumps(seen))
+    own, theirs = (solve(one, "F b", lambda s: {"b": s == 1}) for one in (seen, again))
+    assert np.array_equal(own.satisfied, theirs.satisfied) and own.satisfied[0, 0] == 1.0
+
+
 def test_mistakes_are_worse_actions(lake: FiniteModel) -> None:
     best = solve(lake, "corner T goal", cells)
     assert best.mistakes(best.Q.argmax(-1)) == ()

@@ -23,7 +23,9 @@
 mod argument;
 mod factored;
 mod file;
+mod foreign;
 mod plain;
+mod product;
 mod run;
 mod running;
 mod unmade;
@@ -34,6 +36,7 @@ pub use argument::{ArgumentError, Parameter, Value};
 pub use factored::Factored;
 pub use file::{BindError, CompileError, Entry, NoSuchTask, TaskFile};
 pub use plain::Task;
+pub use product::{NotBare, RawProduct};
 pub use run::{Run, Verdict};
 pub use running::Running;
 pub use unmade::Unmade;

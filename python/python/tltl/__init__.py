@@ -27,6 +27,7 @@ from tltl._core import (
     NetworkPolicy,
     Parameter,
     Policy,
+    Product,
     Rewards,
     Run,
     Schedule,
@@ -38,6 +39,7 @@ from tltl._core import (
     TaskFile,
     __version__,
     compose,
+    product,
     solve,
 )
 from tltl._errors import CompileError, Diagnostic, TaskWarning
@@ -60,6 +62,7 @@ __all__ = [
     "NetworkPolicy",
     "Parameter",
     "Policy",
+    "Product",
     "Rewards",
     "Run",
     "Schedule",
@@ -74,5 +77,6 @@ __all__ = [
     "compose",
     "labels",
     "load",
+    "product",
     "solve",
 ]

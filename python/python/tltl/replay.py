@@ -13,7 +13,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from tltl._core import Rewards, Task
+from tltl._core import Product, Rewards, Task
 
 __all__ = ["Relabelled", "relabel"]
 
@@ -35,7 +35,7 @@ class Relabelled:
 
 
 def relabel(
-    task: Task,
+    task: Task | Product,
     next_labels: ArrayLike,
     *,
     rewards: Rewards,
@@ -58,6 +58,7 @@ def relabel(
     >>> seen.index.tolist(), seen.q.tolist(), seen.next_q.tolist(), seen.reward.tolist()
     ([0, 0, 1, 1], [0, 1, 0, 1], [1, 1, 0, 2], [0.0, 0.0, 0.0, 1.0])
     """
+    task = task.task if isinstance(task, Product) else task
     rho = np.asarray(next_labels)
     if rho.ndim != 2 or rho.shape[1] != len(task.propositions):
         wanted = f"(n, {len(task.propositions)}): {', '.join(task.propositions)}"

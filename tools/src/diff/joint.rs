@@ -8,12 +8,11 @@
 use rustc_hash::FxHashMap;
 
 use tltl_compiler::predicate::{
-    Arena, Binding, Condition, ConditionId, Enum, Module, ParameterType, Predicate, PredicateId,
-    Scalar, State, Step, Task, Term, TermId,
+    Binding, Condition, ConditionId, Enum, Module, ParameterType, Predicate, PredicateId, Scalar,
+    Step, Task, Term, TermId,
 };
 use tltl_compiler::source::Span;
 use tltl_compiler::spec::Spec;
-use tltl_compiler::unit::Units;
 
 /// A module that grows by what sources define.
 pub(super) struct Joint {
@@ -31,19 +30,7 @@ struct Images {
 
 impl Joint {
     pub(super) fn new() -> Self {
-        let module = Module {
-            docs: Vec::new(),
-            state: State::Free,
-            structs: Vec::new(),
-            enums: Vec::new(),
-            units: Units::default(),
-            constants: Vec::new(),
-            predicates: Vec::new(),
-            arena: Arena::default(),
-            places: Vec::new(),
-            tasks: Vec::new(),
-        };
-        Self { module, names: FxHashMap::default() }
+        Self { module: Module::default(), names: FxHashMap::default() }
     }
 
     /// The condition of each proposition of a task of `module`.

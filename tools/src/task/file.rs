@@ -11,15 +11,16 @@ use std::sync::Arc;
 use tltl_compiler::ast::{Item, ItemKind};
 use tltl_compiler::check;
 use tltl_compiler::compile::{self, Compiled};
-use tltl_compiler::dfa::Automata;
+use tltl_compiler::dfa::{Automata, Dfa};
 use tltl_compiler::error::{Error, Errors, Kind, Style};
+use tltl_compiler::hoa;
 use tltl_compiler::parse;
 use tltl_compiler::predicate::{self, Module};
 use tltl_compiler::source::{Source, Span};
 use tltl_compiler::translate::Budget;
 
 use super::argument::{ArgumentError, Arguments, Parameter, Value, bind};
-use super::{Bound, Factored, Task};
+use super::{Bound, Factored, Task, foreign};
 use crate::evaluate::Unreadable;
 use crate::lint;
 
@@ -43,15 +44,17 @@ use crate::lint;
 pub struct TaskFile {
     source: Source,
     compiled: Arc<Compiled>,
+    form: Form,
     /// The task that was asked for, if it was one.
     asked: Option<Arc<str>>,
 }
 
 /// The form of a source.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Form {
     File,
     Formula,
+    Automaton,
 }
 
 /// The warnings without those in other tasks than the one that was asked for.
@@ -140,6 +143,39 @@ impl TaskFile {
         Self::compiled_from(source, compiled, Form::Formula, None)
     }
 
+    /// Reads an automaton of another tool, in the [HOA format](hoa): a file with one task, which has
+    /// no name, no parameters and no formula. Its inputs are its propositions, given by their
+    /// robustness, and its robustness is that of the [best run](tltl::robustness::best_run).
+    ///
+    /// # Errors
+    /// If the text is not HOA, or the automaton is not one that a formula could have.
+    ///
+    /// ```
+    /// use tltl::Monitor;
+    /// use tltl_compiler::source::Source;
+    /// use tltlc::task::{Bound, TaskFile};
+    ///
+    /// let text = "HOA: v1 Start: 0 AP: 1 \"a\" Acceptance: 1 Inf(0)
+    ///     --BODY-- State: 0 [0] 1 [!0] 0 State: 1 {0} [t] 1 --END--";
+    /// let file = TaskFile::of_automaton(Source::new("eventually.hoa", text))?;
+    /// let Bound::Plain(task) = file.find(None)?.bind(&[])? else { panic!("it has one automaton") };
+    /// assert_eq!((task.next(0, &[-1.0])?, task.next(0, &[1.0])?), (0, 1));
+    /// assert!(task.entry().is_automaton());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn of_automaton(source: Source) -> Result<Self, CompileError> {
+        let compiled = hoa::read(&source).map(foreign::compiled).map_err(Errors::from);
+        Self::compiled_from(source, compiled, Form::Automaton, None)
+    }
+
+    /// The same source with another automaton, which accepts the same trajectories, in the place of
+    /// that of its only task.
+    pub(super) fn with_automaton(&self, dfa: Dfa) -> Self {
+        let mut compiled = Compiled::clone(&self.compiled);
+        compiled.automata = vec![Automata { propositional: dfa.clone(), dfa }];
+        Self { compiled: Arc::new(compiled), ..self.clone() }
+    }
+
     fn compiled_from(
         source: Source,
         compiled: Result<Compiled, Errors>,
@@ -147,13 +183,13 @@ impl TaskFile {
         asked: Option<Arc<str>>,
     ) -> Result<Self, CompileError> {
         match compiled {
-            Ok(compiled) => Ok(Self { source, compiled: Arc::new(compiled), asked }),
+            Ok(compiled) => Ok(Self { source, compiled: Arc::new(compiled), form, asked }),
             Err(errors) => {
-                let read = match form {
-                    Form::File => parse::recover_file,
-                    Form::Formula => parse::recover_formula,
+                let warnings = match form {
+                    Form::File => lint::written(&parse::recover_file(&source)),
+                    Form::Formula => lint::written(&parse::recover_formula(&source)),
+                    Form::Automaton => Vec::new(),
                 };
-                let warnings = lint::written(&read(&source));
                 let errors = errors.with(about(asked.as_deref(), &source, warnings));
                 Err(CompileError { source, errors, form })
             }
@@ -178,6 +214,9 @@ impl TaskFile {
     /// ```
     #[must_use]
     pub fn step(&self) -> Option<(f64, &str)> {
+        if self.form != Form::File {
+            return None;
+        }
         let (ast, _) = parse::recover_file(&self.source);
         let text = |span: Span| &self.source.text()[span.start..span.end];
         ast.items().iter().find_map(|item| match item.kind {
@@ -197,6 +236,9 @@ impl TaskFile {
     /// Some cost a search, so they are made on demand, and not when the file is compiled.
     #[must_use]
     pub fn warnings(&self) -> Vec<Error> {
+        if self.form == Form::Automaton {
+            return Vec::new();
+        }
         let warnings = lint::warnings(&self.source, &self.compiled);
         about(self.asked.as_deref(), &self.source, warnings)
     }
@@ -314,6 +356,18 @@ impl Entry {
         self.task().name.as_deref()
     }
 
+    /// Whether it is a bare formula, which declares nothing.
+    #[must_use]
+    pub fn is_bare(&self) -> bool {
+        self.file.form == Form::Formula
+    }
+
+    /// Whether it came as an automaton, without a formula.
+    #[must_use]
+    pub fn is_automaton(&self) -> bool {
+        self.file.form == Form::Automaton
+    }
+
     /// Whether its parts run side by side. It then has no automaton of its own.
     #[must_use]
     pub fn is_factored(&self) -> bool {
@@ -424,6 +478,7 @@ impl CompileError {
         match self.form {
             Form::File => check::file(&self.source).ok(),
             Form::Formula => check::formula(&self.source).ok(),
+            Form::Automaton => None,
         }
     }
 

@@ -64,7 +64,12 @@ impl Task {
         let evaluator = Evaluator::new(module, task)?;
         let name = task.name.clone().unwrap_or_else(|| task.text.clone());
         let wrong = "the compiler's tables are an automaton and a formula over its propositions";
-        let formula = tables::formula(&task.spec, &task.text).expect(wrong);
+        let formula = match entry.is_automaton() {
+            // Without operators, as the runtime has it: robustness is that of the best run.
+            true => Formula::new(task.text.clone(), Vec::new()),
+            false => tables::formula(&task.spec, &task.text),
+        };
+        let formula = formula.expect(wrong);
         let automaton = tables::automaton(&automata.dfa).expect(wrong);
         let monitor = tltl::Task::new(name, formula, automaton, evaluator.clone()).expect(wrong);
         Ok(Self(Arc::new(Inner { entry, arguments, evaluator, monitor })))

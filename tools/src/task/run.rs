@@ -112,6 +112,10 @@ impl Task {
     pub fn run(&self, columns: &Columns<'_>, scratch: &mut Scratch) -> Result<Run, NotANumber> {
         let automaton = self.automaton();
         let read = Reading::new(self.evaluator(), columns, scratch)?;
+        let robustness = match self.entry().is_automaton() {
+            true => self.best_run(&read),
+            false => read.robustness,
+        };
         let mut states = vec![Automaton::INITIAL; columns.rows()];
         automaton.run(Automaton::INITIAL, &read.labels[..], &mut states);
         let before = std::iter::once(&Automaton::INITIAL).chain(&states);
@@ -121,9 +125,53 @@ impl Task {
         Ok(Run {
             progress: progress.collect(),
             verdicts: states.iter().map(|&q| verdict(automaton, q)).collect(),
-            robustness: read.robustness,
+            robustness,
             states,
         })
+    }
+
+    /// The robustness of the trajectory that the rows are: of the formula, or of the
+    /// [best run](robustness::best_run) of an automaton without one; -∞ for an empty trajectory.
+    ///
+    /// # Errors
+    /// The first predicate that is not a number, in the first row in which there is one.
+    ///
+    /// # Panics
+    /// If the number of columns is not the number of inputs.
+    ///
+    /// ```
+    /// use tltl_compiler::source::Source;
+    /// use tltlc::evaluate::{Columns, Scratch};
+    /// use tltlc::task::{Bound, TaskFile};
+    ///
+    /// let text = "HOA: v1 Start: 0 AP: 1 \"a\" Acceptance: 1 Inf(0)
+    ///     --BODY-- State: 0 [0] 1 [!0] 0 State: 1 {0} [t] 1 --END--";
+    /// let file = TaskFile::of_automaton(Source::new("eventually.hoa", text))?;
+    /// let Bound::Plain(task) = file.find(None)?.bind(&[])? else { panic!("it has one automaton") };
+    /// // Wait at −3, with 3 to spare, then accept with 2.
+    /// let a = Columns::of_rows(2, 1, &[-3.0, 2.0])?;
+    /// assert_eq!(task.robustness(&a, &mut Scratch::default())?, 2.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[track_caller]
+    pub fn robustness(
+        &self,
+        columns: &Columns<'_>,
+        scratch: &mut Scratch,
+    ) -> Result<f64, NotANumber> {
+        match self.entry().is_automaton() {
+            true => Ok(self.best_run(&Reading::new(self.evaluator(), columns, scratch)?)),
+            false => self.evaluator().robustness(columns, scratch),
+        }
+    }
+
+    fn best_run(&self, read: &Reading) -> f64 {
+        let automaton = self.automaton();
+        let cells = || vec![0.0; automaton.states() as usize];
+        let width = self.evaluator().propositions();
+        let rho = |i, t| Ok::<_, Infallible>(read.rho[t * width + i]);
+        let Ok(rho) = robustness::best_run(automaton, read.rows, &mut cells(), &mut cells(), rho);
+        rho
     }
 }
 
