@@ -11,7 +11,7 @@ use std::process::{Command, Stdio};
 use serde_json::Value;
 use tltl::estimate::{Estimate, Interval};
 use tltl::network::policy::{NetworkDocument, NetworkPolicy, NetworkPolicyError, NetworkTraining};
-use tltl::network::{Dense, Network, Shape};
+use tltl::network::{Activation, Dense, Form, Network, NetworkError, Scale, Shape};
 use tltl::policy::States;
 use tltl::reward::End;
 use tltl::solve::Basis;
@@ -210,11 +210,74 @@ fn policies() -> Vec<NetworkPolicy> {
             let shape = Shape { inputs, hidden, heads, actions, entities, channels };
             let network = network(shape, || number(&mut choices, 1.5));
             let automaton = States { states, initial: 0, accepting, trap };
-            let policy = policy("t", "F a", automaton, names("a", actions), network);
-            all.push(policy.unwrap());
+            let named = |network| policy("t", "F a", automaton, names("a", actions), network);
+            all.push(named(network.clone()).unwrap());
+            all.push(named(formed(&network, &mut choices)).unwrap());
         }
     }
     all
+}
+
+/// The network in another form: normalised, with tanh, and with the automaton state among the inputs
+/// where there is a hidden layer for it.
+fn formed(network: &Network, choices: &mut impl Choices) -> Network {
+    let (shape, mut layers) = (network.shape().clone(), network.layers().to_vec());
+    let mut some = |count: usize, scale| (0..count).map(|_| number(choices, scale)).collect();
+    let mean = some(shape.inputs, 1.0);
+    let deviation: Vec<f32> = some(shape.inputs, 2.0);
+    let deviation = deviation.into_iter().map(|x| x.abs() + 0.25).collect();
+    let scale = Some(Scale { mean, deviation, clip: 5.0 });
+    let mut states = Vec::new();
+    if let Some(units) = shape.hidden.first() {
+        states = some(units * shape.heads, 1.0);
+        let last = layers.last_mut().unwrap();
+        let width = last.bias.len() / shape.heads;
+        let rows = last.weights.chunks(width * shape.heads);
+        last.weights = rows.flat_map(|row| row[..width].to_vec()).collect();
+        last.bias.truncate(width);
+    }
+    Network::with_form(shape, layers, Form { activation: Activation::Tanh, scale, states }).unwrap()
+}
+
+#[test]
+fn a_form_must_fit_its_network() {
+    let shape =
+        Shape { inputs: 1, hidden: vec![2], heads: 2, actions: 1, entities: 0, channels: 0 };
+    let layer =
+        |weights: usize, bias: usize| Dense { weights: vec![0.5; weights], bias: vec![0.0; bias] };
+    let scale =
+        |mean: Vec<f32>, deviation: f32, clip| Scale { mean, deviation: vec![deviation], clip };
+    let made = |scale: Option<Scale>, states: Vec<f32>, heads| {
+        let layers = vec![layer(2, 2), layer(2 * heads, heads)];
+        Network::with_form(
+            shape.clone(),
+            layers,
+            Form { activation: Activation::Relu, scale, states },
+        )
+    };
+    assert!(made(None, vec![], 2).is_ok() && made(None, vec![1.0; 4], 1).is_ok());
+    let wrong =
+        |part, found, expected| Err(NetworkError::Form { part, found, expected: Some(expected) });
+    assert_eq!(made(None, vec![1.0; 3], 1), wrong("states", 3, 4));
+    assert_eq!(made(Some(scale(vec![], 1.0, 1.0)), vec![], 2), wrong("scale.mean", 0, 1));
+    // With the automaton state as an input there is one head.
+    assert!(matches!(made(None, vec![1.0; 4], 2), Err(NetworkError::Size { layer: 1, .. })));
+    assert_eq!(made(None, vec![f32::NAN; 4], 1), Err(NetworkError::NotFinite { layer: 0 }));
+    for (deviation, clip) in [(0.0, 1.0), (f32::NAN, 1.0), (1.0, -1.0), (1.0, f32::INFINITY)] {
+        let wrong = made(Some(scale(vec![0.0], deviation, clip)), vec![], 2);
+        assert_eq!(wrong, Err(NetworkError::Scale));
+    }
+}
+
+#[test]
+fn tanh_is_the_hyperbolic_tangent() {
+    let mut choices = Seeded(5);
+    for _ in 0..100_000 {
+        let x = number(&mut choices, 12.0);
+        let (found, exact) = (Activation::Tanh.of(x), f64::from(x).tanh());
+        assert!((f64::from(found) - exact).abs() <= 3.5e-7 * exact.abs(), "{x}: {found}, {exact}");
+        assert_eq!(Activation::Tanh.of(-x), -found);
+    }
 }
 
 /// A feature: often 0, as features are.

@@ -67,6 +67,36 @@ def test_a_network_is_its_document(tmp_path: Path) -> None:
     assert (tmp_path / "network.rs").read_text() == emitted
 
 
+def test_a_network_of_another_form_is_its_document() -> None:
+    """Normalised inputs, tanh, and the automaton state among the inputs of the network."""
+    task = Task("F a && F b ensuring !c")
+    told, layers = document(task, 1)
+    live = [q for q in range(task.num_states) if q not in (task.accepting, task.trap)]
+    rng = np.random.default_rng(3)
+    mean, deviation = rng.normal(size=4), rng.uniform(0.5, 2, 4)
+    states = rng.normal(size=(len(live), 8)).astype(np.float32)
+    w, bias = layers[-1]
+    layers[-1] = w[:, :3], bias[:3]
+    told["version"], network = 2, told["network"]
+    network["activation"] = "tanh"
+    network["scale"] = {"mean": mean.tolist(), "deviation": deviation.tolist(), "clip": 1.5}
+    network["states"] = states.ravel().tolist()
+    network["layers"][-1] = {"weights": w[:, :3].ravel().tolist(), "bias": bias[:3].tolist()}
+    policy = NetworkPolicy.from_json(json.dumps(told))
+    assert NetworkPolicy.from_json(policy.to_json()) == policy
+    for x in rng.normal(size=(50, 4)).astype(np.float32):
+        for head, q in enumerate(live):
+            at = np.clip((x - mean) / deviation, -1.5, 1.5) @ layers[0][0] + layers[0][1]
+            for w, bias in layers[1:]:
+                at = np.tanh(at + (states[head] if w is layers[1][0] else 0)) @ w + bias
+            assert np.allclose(policy.values(q, x), at, rtol=1e-4, atol=1e-5)
+    source = policy.emit_rust()
+    assert "fn tanh" in source and "static MEAN" in source and "BIAS_0: [[f32; 8]; 3]" in source
+    network["states"] = network["states"][:-1]
+    with pytest.raises(ValueError, match=r"`network.states` has 23 entries, not 24"):
+        NetworkPolicy.from_json(json.dumps(told))
+
+
 def test_what_is_wrong_is_named() -> None:
     task = Task("F a")
     told, _ = document(task, 1)

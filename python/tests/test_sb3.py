@@ -7,13 +7,13 @@ from __future__ import annotations
 import shutil
 import subprocess
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import gymnasium as gym
 import numpy as np
 import pytest
 
-from tltl import FiniteModel, NetworkPolicy, Task, solve
+from tltl import FiniteModel, NetworkPolicy, Rewards, Task, TaskWarning, solve
 from tltl.gymnasium import TaskEnv
 
 torch = pytest.importorskip("torch")
@@ -33,17 +33,14 @@ def lake(**options: Any) -> TaskEnv:
     return TaskEnv(gym.make("FrozenLake-v1", is_slippery=False), "corner T goal", labels, **options)
 
 
-def cart() -> TaskEnv:
-    return TaskEnv(gym.make("CartPole-v1"), "(x > 0.05) T (x < -0.05)", columns={"x": 0})
+def cart(**options: Any) -> TaskEnv:
+    return TaskEnv(gym.make("CartPole-v1"), "(x > 0.05) T (x < -0.05)", columns={"x": 0}, **options)
 
 
-def learned(kind: str, env: TaskEnv, **options: Any) -> Any:
+def learned(kind: str, env: Any, policy: str = "MlpPolicy", **options: Any) -> Any:
     if kind == "dqn":
-        return sb3.DQN("MlpPolicy", env, learning_starts=100, seed=0, **options).learn(600)
-    activation: Any = {"activation_fn": torch.nn.ReLU, "net_arch": [32, 16]}
-    return sb3.PPO(
-        "MlpPolicy", env, n_steps=128, seed=0, policy_kwargs=activation, **options
-    ).learn(256)
+        return sb3.DQN(policy, env, learning_starts=100, seed=0, **options).learn(600)
+    return sb3.PPO(policy, env, n_steps=128, seed=0, **options).learn(256)
 
 
 def test_the_checker_of_sb3_is_content() -> None:
@@ -76,12 +73,24 @@ def test_a_network_is_certified(kind: str) -> None:
     assert info["tltl"]["satisfied"] == (worth.satisfied == 1.0)
 
 
-@pytest.mark.parametrize("kind", ["dqn", "ppo"])
-def test_a_network_is_exported(kind: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize("is_normalised", [False, True])
+@pytest.mark.parametrize("observe", ["flat", "dict"])
+@pytest.mark.parametrize("kind", ["dqn", "ppo", "relu"])
+def test_a_network_is_exported(
+    kind: str, observe: Literal["flat", "dict"], is_normalised: bool, tmp_path: Path
+) -> None:
+    from stable_baselines3.common.vec_env import DummyVecEnv, VecNormalize
     from tltl.sb3 import export
 
-    env = cart()
-    algorithm = learned(kind, env)
+    env = cart(observe=observe)
+    vectors: Any = DummyVecEnv([lambda: cart(observe=observe)])
+    if is_normalised:
+        keys = None if observe == "flat" else ["observation"]
+        vectors = VecNormalize(vectors, norm_obs_keys=keys, clip_obs=2.0)
+    relu = {"activation_fn": torch.nn.ReLU, "net_arch": [32, 16]}
+    options: Any = {"policy_kwargs": relu} if kind == "relu" else {}
+    form = "MlpPolicy" if observe == "flat" else "MultiInputPolicy"
+    algorithm = learned(kind, vectors, form, **options)
     policy = export(algorithm, env.task, actions=["left", "right"])
     policy.save(tmp_path / "policy.json")
     assert NetworkPolicy.load(tmp_path / "policy.json") == policy
@@ -89,12 +98,27 @@ def test_a_network_is_exported(kind: str, tmp_path: Path) -> None:
     live = [q for q in range(env.task.num_states) if q != env.task.accepting]
     q = rng.choice(live, 10_000)
     states = rng.normal(size=(10_000, 4)).astype(np.float32)
-    seen = [env.observed(obs, int(p)) for obs, p in zip(states, q, strict=True)]
-    theirs, _ = algorithm.predict(np.array(seen), deterministic=True)
+    met: list[tuple[Any, int]] = []
+    obs, info = env.reset(seed=1)
+    while len(met) < 2_000:
+        base = obs[:4] if observe == "flat" else obs["observation"]
+        met.append((base, info["tltl"]["state"]))
+        obs, _, terminated, truncated, info = env.step(env.action_space.sample())
+        if terminated or truncated:
+            obs, info = env.reset()
+    states[: len(met)] = [base for base, _ in met]
+    q[: len(met)] = [state for _, state in met]
+    seen: Any = [env.observed(obs, int(p)) for obs, p in zip(states, q, strict=True)]
+    if observe == "dict":
+        seen = {name: np.array([one[name] for one in seen]) for name in seen[0]}
+    seen = np.array(seen) if observe == "flat" else seen
+    theirs, _ = algorithm.predict(
+        vectors.normalize_obs(seen) if is_normalised else seen, deterministic=True
+    )
     differ = 0
-    for obs, p, action in zip(seen, q.tolist(), theirs, strict=True):
-        values = np.sort(policy.values(p, obs))
-        if policy.act(p, obs) != action:
+    for row, p, action in zip(states, q.tolist(), theirs, strict=True):
+        values = np.sort(policy.values(p, row))
+        if policy.act(p, row) != action:
             # Only where the two best are as good as equal.
             assert values[-1] - values[-2] < 1e-4 * max(1.0, abs(values[-1]))
             differ += 1
@@ -102,32 +126,136 @@ def test_a_network_is_exported(kind: str, tmp_path: Path) -> None:
     if shutil.which("rustc") is None:
         pytest.skip("there is no rustc: the emitted file was not compiled")
     policy.emit_rust(tmp_path / "policy.rs")
-    some = list(zip(q[:200].tolist(), seen[:200], strict=True))
-    rows = ", ".join(f"({p}, {[float(x) for x in obs]})" for p, obs in some)
+    states.tofile(tmp_path / "states")
+    q.astype(np.uint8).tofile(tmp_path / "q")
     (tmp_path / "main.rs").write_text(
-        "#[allow(dead_code)] mod policy;\n"
-        f"fn main() {{ for (q, obs) in [{rows}] as [(usize, [f32; {len(seen[0])}]); 200] {{"
-        ' println!("{}", policy::act(q, &obs, &[])); } }'
+        """#[allow(dead_code)] mod policy;
+        fn main() {
+            let (states, q) = (std::fs::read("states").unwrap(), std::fs::read("q").unwrap());
+            for (row, q) in states.chunks(16).zip(q) {
+                let mut x = [0.0; 4];
+                for (x, bytes) in x.iter_mut().zip(row.chunks(4)) {
+                    *x = f32::from_ne_bytes(bytes.try_into().unwrap());
+                }
+                println!("{}", policy::act(q.into(), &x, &[]));
+            }
+        }"""
     )
-    subprocess.run(["rustc", str(tmp_path / "main.rs"), "-o", str(tmp_path / "main")], check=True)
-    out = subprocess.run([tmp_path / "main"], capture_output=True, text=True, check=True).stdout
-    assert out.split() == [str(policy.act(p, obs)) for p, obs in some]
+    subprocess.run(["rustc", "--edition=2024", "main.rs"], cwd=tmp_path, check=True)
+    out = subprocess.run(
+        [tmp_path / "main"], cwd=tmp_path, capture_output=True, text=True, check=True
+    ).stdout
+    assert out.split() == [str(policy.act(p, row)) for p, row in zip(q.tolist(), states, strict=True)]
+
+
+def test_a_network_without_hidden_layers_is_exported() -> None:
+    from tltl.sb3 import export
+
+    env = cart()
+    algorithm = learned("dqn", env, policy_kwargs={"net_arch": []})
+    policy = export(algorithm, env.task)
+    x = np.array([0.1, -0.2, 0.3, 0.4], np.float32)
+    for q in (0, 1):
+        with torch.no_grad():
+            theirs = algorithm.q_net(torch.as_tensor(env.observed(x, q)[None])).numpy()[0]
+        assert np.allclose(policy.values(q, x), theirs, rtol=1e-5, atol=1e-6)
 
 
 def test_what_cannot_be_exported_is_named() -> None:
     from tltl.sb3 import export
 
     env = cart()
-    tanh = sb3.PPO("MlpPolicy", env, n_steps=64, seed=0)
-    with pytest.raises(ValueError, match=r"a layer Tanh\(\): a document has Linear layers with ReLU"):
-        export(tanh, env.task)
-    by_name = TaskEnv(gym.make("CartPole-v1"), "F x > 1", columns={"x": 0}, observe="dict")
+    smooth = sb3.PPO(
+        "MlpPolicy", env, n_steps=64, seed=0, policy_kwargs={"activation_fn": torch.nn.ELU}
+    )
+    with pytest.raises(ValueError, match=r"a layer ELU.*: a document has Linear layers with ReLU or"):
+        export(smooth, env.task)
+    by_name = cart(observe="dict", key="mode")
     many = sb3.DQN("MultiInputPolicy", by_name, seed=0)
-    with pytest.raises(ValueError, match="wanted are flat observations"):
+    with pytest.raises(ValueError, match="or a Dict in which `task_state` is"):
         export(many, by_name.task)
+    assert export(many, by_name.task, key="mode").formula == by_name.task.text
     other = Task("F a && F b && F c")
     with pytest.raises(ValueError, match="flat ones with the 8 states of"):
         export(learned("dqn", env), other)
+
+
+@pytest.mark.parametrize("observe", ["flat", "dict"])
+def test_each_step_is_stored_for_every_live_state(observe: Literal["flat", "dict"]) -> None:
+    """Against the steps of environments whose automata are put into each state by hand."""
+    from tltl.sb3 import CounterfactualDictReplayBuffer, CounterfactualReplayBuffer
+
+    rewards = Rewards("shaped", environment=0.5)
+    env = lake(observe=observe, rewards=rewards)
+    kind: Any = CounterfactualReplayBuffer if observe == "flat" else CounterfactualDictReplayBuffer
+    form = "MlpPolicy" if observe == "flat" else "MultiInputPolicy"
+    algorithm = sb3.DQN(
+        form,
+        env,
+        learning_starts=10_000,
+        seed=0,
+        replay_buffer_class=kind,
+        replay_buffer_kwargs={"task": env.task, "rewards": rewards},
+    ).learn(300)
+    buffer = algorithm.replay_buffer
+    assert buffer.pos == 600
+    world = gym.make("FrozenLake-v1", is_slippery=False).unwrapped
+    table: Any = world.P  # type: ignore[attr-defined]
+    for i in range(0, 600, 2):
+        both = range(i, i + 2)
+        if observe == "flat":
+            obs, after = (array[both, 0] for array in (buffer.observations, buffer.next_observations))
+            place = [obs[:, :16].argmax(1), after[:, :16].argmax(1)]
+            q, next_q = obs[:, 16:].argmax(1), after[:, 16:].argmax(1)
+        else:
+            arrays = (buffer.observations, buffer.next_observations)
+            place = [one["observation"][both, 0].ravel() for one in arrays]
+            q, next_q = (one["task_state"][both, 0].ravel() for one in arrays)
+        action = int(buffer.actions[i, 0, 0])
+        [(_, to, paid, done)] = table[int(place[0][0])][action]
+        assert q.tolist() == [0, 1] and set(place[1].tolist()) == {to}
+        for j, state in zip(both, q.tolist(), strict=True):
+            then = env.task.step(state, cells(to))
+            assert next_q[j - i] == then
+            expected = rewards.pay(env.task, state, then, reward=paid, terminated=done)
+            assert buffer.rewards[j, 0] == pytest.approx(expected)
+            assert buffer.dones[j, 0] == (done or then == env.task.accepting)
+    assert buffer.timeouts.sum() == 0
+
+
+def test_states_of_stored_steps_are_drawn() -> None:
+    from tltl.sb3 import CounterfactualReplayBuffer
+
+    env = TaskEnv(gym.make("FrozenLake-v1"), "F corner && F goal && F wet", lambda env, obs, info: {
+        "corner": obs == 3, "goal": obs == 15, "wet": obs in {5, 7, 11, 12}})
+    kwargs: Any = {"task": env.task, "rewards": env.rewards, "states": 3, "seed": 1}
+    algorithm = sb3.DQN(
+        "MlpPolicy", env, learning_starts=10_000, seed=0,
+        replay_buffer_class=CounterfactualReplayBuffer, replay_buffer_kwargs=kwargs,
+    ).learn(400)
+    buffer = algorithm.replay_buffer
+    assert buffer.pos == 1_200
+    q = buffer.observations[:1_200, 0, 16:].argmax(1).reshape(-1, 3)
+    assert set(q.ravel().tolist()) == set(range(env.task.num_states)) - {env.task.accepting}
+    assert (q[:, 0] == 0).any() and len({tuple(row) for row in q.tolist()}) > 20
+    with pytest.raises(ValueError, match='states is 0, not "all"'):
+        CounterfactualReplayBuffer(
+            10, env.observation_space, env.action_space, task=env.task, rewards=env.rewards, states=0
+        )
+    with pytest.raises(ValueError, match="not by how much"):
+        CounterfactualReplayBuffer(
+            10, env.observation_space, env.action_space, task=env.task, rewards=Rewards("robustness")
+        )
+
+
+def test_another_discount_factor_is_warned_of() -> None:
+    from tltl.sb3 import TaskCallback
+
+    callback = TaskCallback()
+    algorithm = sb3.DQN("MlpPolicy", lake(), gamma=0.9, seed=0)
+    with pytest.warns(TaskWarning, match="gamma is 0.9, and the shaped rewards are for 0.99"):
+        algorithm.learn(200, callback=callback)
+    assert len(callback.last_q) == len(callback.lost) > 0 and set(callback.last_q) <= {0, 1, 2}
 
 
 def test_no_masked_action_is_taken() -> None:

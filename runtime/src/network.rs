@@ -13,6 +13,7 @@
 //! This module learns nothing and needs nothing but an allocator; the learner is in `deep`, the saved
 //! form in [`policy`].
 
+mod form;
 pub mod policy;
 
 use alloc::vec::Vec;
@@ -22,6 +23,8 @@ use core::fmt;
 use serde::{Deserialize, Serialize};
 
 use crate::q::argmax;
+
+pub use form::{Activation, Form, Scale};
 
 /// What a network sees of a state of type `S`.
 ///
@@ -247,6 +250,18 @@ pub enum NetworkError {
         /// Of which layer.
         layer: usize,
     },
+    /// A part of the form has not the size that the shape says.
+    Form {
+        /// The part.
+        part: &'static str,
+        /// How many numbers there are.
+        found: usize,
+        /// How many there should be; `None`: more than fit into memory.
+        expected: Option<usize>,
+    },
+    /// The normalisation of inputs has a deviation or a clip that is not positive, or a number that is
+    /// not finite.
+    Scale,
     /// There is no network of that shape.
     Shape {
         /// The size that does not go with the others.
@@ -268,6 +283,14 @@ impl fmt::Display for NetworkError {
                     None => f.write_str("would be too large"),
                 }
             }
+            Self::Form { part, found, expected } => {
+                write!(f, "`network.{part}` has {found} entries")?;
+                expected.map_or(Ok(()), |expected| write!(f, ", not {expected}"))
+            }
+            Self::Scale => f.write_str(
+                "`network.scale` has a deviation or a clip that is not positive, or a number that is \
+                 not finite",
+            ),
             Self::NotFinite { layer } => {
                 write!(f, "layer {layer} has a weight that is not a finite number")
             }
@@ -300,6 +323,7 @@ impl core::error::Error for NetworkError {}
 pub struct Network {
     shape: Shape,
     layers: Vec<Dense>,
+    form: Form,
 }
 
 impl Network {
@@ -309,10 +333,23 @@ impl Network {
     /// If they do not fit the shape, or a weight is not finite.
     #[inline]
     pub fn new(shape: Shape, layers: Vec<Dense>) -> Result<Self, NetworkError> {
+        Self::with_form(shape, layers, Form::default())
+    }
+
+    /// The network of these layers with another form than those that are learned here.
+    ///
+    /// # Errors
+    /// If layers or form do not fit the shape, or a number is not finite.
+    #[inline]
+    pub fn with_form(shape: Shape, layers: Vec<Dense>, form: Form) -> Result<Self, NetworkError> {
         if let Some(field) = shape.fault() {
             return Err(NetworkError::Shape { field });
         }
-        let widths = shape.widths();
+        let mut widths = shape.widths();
+        if let Some(last) = widths.last_mut() {
+            *last = form.heads(&shape) * shape.head_width();
+        }
+        form.check(&shape)?;
         let (found, expected) = (layers.len(), widths.len() - 1);
         if found != expected {
             return Err(NetworkError::Layers { found, expected });
@@ -331,7 +368,7 @@ impl Network {
                 return Err(NetworkError::NotFinite { layer });
             }
         }
-        Ok(Self { shape, layers })
+        Ok(Self { shape, layers, form })
     }
 
     /// A network with random weights: uniform in ±√(6/inputs) (He et al. 2015), and a tenth of it in
@@ -359,7 +396,7 @@ impl Network {
             Dense { weights, bias: alloc::vec![0.0; width[1]] }
         });
         let layers = layers.collect();
-        Self { shape, layers }
+        Self { shape, layers, form: Form::default() }
     }
 
     /// The same network with all values 0: the weights of the heads are.
@@ -381,6 +418,13 @@ impl Network {
     #[inline]
     pub const fn shape(&self) -> &Shape {
         &self.shape
+    }
+
+    /// What it does beside its sums.
+    #[must_use]
+    #[inline]
+    pub const fn form(&self) -> &Form {
+        &self.form
     }
 
     /// The layers, the heads last: the columns of head h start at
@@ -419,12 +463,21 @@ impl Network {
         assert_eq!(entities.len(), self.shape.channels * n, "features of each entity");
         let (last, trunk) = self.layers.split_last().expect("a network has heads");
         let mut x = inputs.to_vec();
-        for dense in trunk {
-            x = dense.forward(&x, 0, dense.bias.len());
-            x.iter_mut().for_each(|v| *v = v.max(0.0));
+        if let Some(scale) = &self.form.scale {
+            x.iter_mut().enumerate().for_each(|(i, x)| *x = scale.of(i, *x));
+        }
+        for (i, dense) in trunk.iter().enumerate() {
+            let mut sums = dense.bias.clone();
+            if i == 0 && !self.form.states.is_empty() {
+                let added = self.form.states[head * sums.len()..].iter();
+                sums.iter_mut().zip(added).for_each(|(sum, added)| *sum += added);
+            }
+            x = dense.forward(&x, 0, sums);
+            x.iter_mut().for_each(|v| *v = self.form.activation.of(*v));
         }
         let width = self.shape.head_width();
-        let mut out = last.forward(&x, head * width, width);
+        let from = if self.form.states.is_empty() { head * width } else { 0 };
+        let mut out = last.forward(&x, from, last.bias[from..from + width].to_vec());
         // A head puts out its values first, and then the query.
         let query = out.split_off(self.shape.levels());
         let common = out.get(plain).copied().unwrap_or(0.0);
@@ -448,14 +501,14 @@ impl Network {
 }
 
 impl Dense {
-    /// The outputs `from..from + width`.
+    /// The outputs from `from` on, added to `y`.
     ///
     /// Inputs of 0 are skipped: features are mostly sparse (one of many is 1), and half of the units
     /// behind a rectifier are off. The order of the sum is that of the inputs, as in emitted code, so
     /// both give the same bits.
     #[inline]
-    fn forward(&self, x: &[f32], from: usize, width: usize) -> Vec<f32> {
-        let mut y = self.bias[from..from + width].to_vec();
+    fn forward(&self, x: &[f32], from: usize, mut y: Vec<f32>) -> Vec<f32> {
+        let width = y.len();
         for (&x, row) in x.iter().zip(self.weights.chunks(self.bias.len())) {
             if x != 0.0 {
                 y.iter_mut().zip(&row[from..from + width]).for_each(|(y, w)| *y += x * w);
@@ -470,7 +523,19 @@ impl Dense {
 #[serde(deny_unknown_fields)]
 struct Unchecked {
     shape: Shape,
+    #[serde(default, skip_serializing_if = "is_default")]
+    activation: Activation,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    scale: Option<Scale>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    states: Vec<f32>,
     layers: Vec<Dense>,
+}
+
+#[cfg(feature = "serde")]
+#[inline]
+fn is_default(activation: &Activation) -> bool {
+    *activation == Activation::default()
 }
 
 #[cfg(feature = "serde")]
@@ -479,7 +544,8 @@ impl TryFrom<Unchecked> for Network {
 
     #[inline]
     fn try_from(network: Unchecked) -> Result<Self, NetworkError> {
-        Self::new(network.shape, network.layers)
+        let Unchecked { shape, activation, scale, states, layers } = network;
+        Self::with_form(shape, layers, Form { activation, scale, states })
     }
 }
 
@@ -487,6 +553,7 @@ impl TryFrom<Unchecked> for Network {
 impl From<Network> for Unchecked {
     #[inline]
     fn from(network: Network) -> Self {
-        Self { shape: network.shape, layers: network.layers }
+        let Network { shape, layers, form: Form { activation, scale, states } } = network;
+        Self { shape, activation, scale, states, layers }
     }
 }

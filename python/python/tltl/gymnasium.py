@@ -54,7 +54,8 @@ class TaskEnv(gym.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
     The environment's own end stays its own: it satisfies nothing. `info["tltl"]` has, at every step
     and at reset: `state`, `satisfied`, `lost`, `progress` (whether the automaton moved on), `distance`
     (moves to acceptance at least, -1 if there is no way), `labels`, `resampled` (resets that were
-    decided), and `rho` where the reward reads it.
+    decided), `terminated` and `environment` (whether the environment ended the episode itself, and its own
+    reward), and `rho` where the reward reads it.
 
     >>> import gymnasium as gym
     >>> from tltl.gymnasium import TaskEnv
@@ -147,7 +148,8 @@ class TaskEnv(gym.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
             if resampled == RESETS:
                 raise RuntimeError(f"{RESETS} starts were decided; the last is {obs!r}")
             resampled += 1
-        told["progress"] = False
+        told["progress"] = told["terminated"] = False
+        told["environment"] = 0.0
         self._see(obs)
         obs, info = self._observe(obs, self._q), {**info, "tltl": told}
         self._last = (obs, info) if self._is_over(told) else None
@@ -165,6 +167,7 @@ class TaskEnv(gym.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
         q = self._q
         told = self._read(obs, info)
         told["resampled"] = 0
+        told["terminated"], told["environment"] = bool(terminated), float(reward)
         rho = told.get("rho")
         paid = self.rewards.pay(
             self.task, q, self._q, rho=rho, reward=float(reward), terminated=terminated
@@ -172,6 +175,11 @@ class TaskEnv(gym.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
         over = bool(terminated) or self._is_over(told)
         self._see(obs)
         return self._observe(obs, self._q), paid, over, truncated, {**info, "tltl": told}
+
+    @property
+    def shaping_gamma(self) -> float | None:
+        """The discount factor that the rewards are for, which must be the learner's, if they are shaped."""
+        return self.rewards.gamma if self.rewards.mode == "shaped" else None
 
     def observed(self, obs: Any, q: int) -> Any:
         """What the agent sees where the environment shows `obs` and the automaton is in `q`."""

@@ -2,7 +2,7 @@
 
 `tabulate` asks a network in every pair of a finite model, so that `Solution.certify` says what it is
 worth. `export` makes a document of its weights, which `tltlc policy` turns into Rust that needs no
-standard library.
+standard library. The replay buffers store each step once for every automaton state.
 """
 
 # pyright: reportMissingImports=false
@@ -11,22 +11,36 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, Literal
+from warnings import warn
 
 import numpy as np
 from numpy.typing import NDArray
 
-from tltl._core import FiniteModel, NetworkPolicy, Task
+from tltl._core import FiniteModel, NetworkPolicy, Rewards, Task
+from tltl._errors import TaskWarning
 from tltl.gymnasium import TaskEnv
+from tltl.replay import relabel
+
+from gymnasium import spaces  # isort: skip
 
 try:
     import torch
     from stable_baselines3.common.base_class import BaseAlgorithm
+    from stable_baselines3.common.buffers import DictReplayBuffer, ReplayBuffer
     from stable_baselines3.common.callbacks import BaseCallback
+    from stable_baselines3.common.preprocessing import get_flattened_obs_dim
+    from stable_baselines3.common.torch_layers import CombinedExtractor, FlattenExtractor
 except ImportError:
     raise ImportError("tltl.sb3 needs Stable-Baselines3: pip install 'tltl[sb3]'")
 
-__all__ = ["TaskCallback", "export", "tabulate"]
+__all__ = [
+    "CounterfactualDictReplayBuffer",
+    "CounterfactualReplayBuffer",
+    "TaskCallback",
+    "export",
+    "tabulate",
+]
 
 
 def tabulate(
@@ -55,50 +69,51 @@ def export(
     algorithm: BaseAlgorithm,
     task: Task,
     *,
+    key: str = "task_state",
     actions: Sequence[str] | None = None,
     inputs: Sequence[str] | None = None,
 ) -> NetworkPolicy:
     """The network of a DQN, or the actor of a PPO or A2C, as a `NetworkPolicy`.
 
-    It takes the observation as the algorithm does: flat, with the automaton's state one-hot at its end.
-    So its heads are the same for every automaton state. The numbers are those of `predict` with
-    `deterministic=True`.
+    It takes what the environment shows without the automaton's state, which is an argument of its own:
+    `spaces.flatten` of the observation beneath `TaskEnv`, float32. With `observe="dict"` the parts stand
+    in the order of their names, without `key`. Normalisation by a `VecNormalize` around the environment
+    is part of the policy. The values are those of `predict` with `deterministic=True`.
 
     Raises `ValueError` for what the document cannot say, by its name: layers other than `Linear` with
-    `ReLU` between them (PPO: `policy_kwargs={"activation_fn": torch.nn.ReLU}`), observations that are
-    not flat, actions that are not `Discrete`.
+    `ReLU` or `Tanh` between them, other feature extractors, actions that are not `Discrete`.
     """
-    policy, own = algorithm.policy, algorithm.observation_space
-    actor = acting(policy)
-    layers: list[dict[str, Any]] = []
-    hidden: list[int] = []
-    expects_activation = False
-    for layer in actor:
-        if isinstance(layer, torch.nn.Flatten):
-            continue
-        if isinstance(layer, torch.nn.Linear) and not expects_activation:
-            weights = layer.weight.detach().cpu().numpy().astype(np.float32)
-            bias = layer.bias.detach().cpu().numpy().astype(np.float32)
-            layers.append({"weights": weights.T, "bias": bias})
-            hidden.append(len(bias))
-        elif not isinstance(layer, torch.nn.ReLU):
-            raise ValueError(f"a layer {layer}: a document has Linear layers with ReLU between them")
-        expects_activation = isinstance(layer, torch.nn.Linear)
-    *hidden, count = hidden
-    live = task.num_states - (task.accepting is not None) - (task.trap is not None)
-    last = layers[-1]
-    # Every automaton state has the same head: what differs is its input.
-    last["weights"], last["bias"] = np.tile(last["weights"], (1, live)), np.tile(last["bias"], live)
-    width = layers[0]["weights"].shape[0]
-    hot = np.stack([getattr(own, end)[-task.num_states :] for end in ("low", "high")])
-    if own.shape != (width,) or hot.T.tolist() != [[0, 1]] * task.num_states:
-        raise ValueError(
-            f"observations of {own}: wanted are flat ones with the {task.num_states} states of "
-            f"`{task.text}` at their end"
-        )
+    extractor, actor = acting(algorithm.policy)
+    base, state = columns_of(algorithm.observation_space, extractor, task, key)
+    layers, activation = dense(actor)
+    own, count = [w.shape[1] for w, _ in layers[:-1]], layers[-1][0].shape[1]
+    scale, seen = normalisation(algorithm, base, state, task.num_states)
+    weights, bias = layers[0]
+    # What each live state adds to the first layer: its input, normalised, is the same in every state.
+    ends = (task.accepting, task.trap)
+    live = [q for q in range(task.num_states) if q not in ends]
+    added = np.stack([np.asarray(seen(q) @ weights[state].astype(float)) for q in live])
+    network: dict[str, Any] = {
+        "shape": {
+            "inputs": len(base),
+            "hidden": own,
+            "heads": len(live),
+            "actions": count,
+            "entities": 0,
+            "channels": 0,
+        },
+        "activation": activation,
+        **scale,
+    }
+    layers[0] = weights[base], bias
+    if own:
+        network["states"] = added.astype(np.float32).ravel().tolist()
+    else:
+        layers[0] = np.tile(weights[base], (1, len(live))), (bias + added).astype(np.float32).ravel()
+    network["layers"] = [{"weights": w.ravel().tolist(), "bias": b.tolist()} for w, b in layers]
     document = {
         "format": "tltl-network-policy",
-        "version": 1,
+        "version": 2,
         "task": task.name or task.text,
         "formula": task.text,
         "actions": list(actions or map(str, range(count))),
@@ -110,26 +125,36 @@ def export(
         },
         "inputs": list(inputs or ()),
         "training": [],
-        "network": {
-            "shape": {
-                "inputs": width,
-                "hidden": hidden,
-                "heads": live,
-                "actions": count,
-                "entities": 0,
-                "channels": 0,
-            },
-            "layers": [
-                {name: numbers.ravel().tolist() for name, numbers in layer.items()}
-                for layer in layers
-            ],
-        },
+        "network": network,
     }
     return NetworkPolicy.from_json(json.dumps(document))
 
 
-def acting(policy: Any) -> list[Any]:
-    """The layers between an observation and what the deterministic action is the largest of."""
+def dense(actor: list[Any]) -> tuple[list[tuple[NDArray[np.float32], NDArray[np.float32]]], str]:
+    """The weights, of shape (inputs, outputs), and biases of layers, and the activation between them."""
+    layers: list[tuple[NDArray[np.float32], NDArray[np.float32]]] = []
+    between: set[str] = set()
+    names = {torch.nn.ReLU: "relu", torch.nn.Tanh: "tanh"}
+    is_next = False
+    for layer in actor:
+        if isinstance(layer, torch.nn.Linear) and not is_next:
+            both = (part.detach().cpu().numpy().astype(np.float32) for part in (layer.weight, layer.bias))
+            weights, bias = both
+            layers.append((weights.T, bias))
+        elif type(layer) in names and is_next:
+            between.add(names[type(layer)])
+        else:
+            raise ValueError(
+                f"a layer {layer}: a document has Linear layers with ReLU or Tanh between them"
+            )
+        is_next = isinstance(layer, torch.nn.Linear)
+    if len(between) > 1:
+        raise ValueError("both ReLU and Tanh: a document has one of them")
+    return layers, (between or {"relu"}).pop()
+
+
+def acting(policy: Any) -> tuple[Any, list[Any]]:
+    """What makes features of an observation, and the layers from there to action values or logits."""
     if hasattr(policy, "q_net"):
         net = policy.q_net
         extractor, rest = net.features_extractor, list(net.q_net)
@@ -138,29 +163,196 @@ def acting(policy: Any) -> list[Any]:
         rest = [*policy.mlp_extractor.policy_net, policy.action_net]
     else:
         raise ValueError(f"{type(policy).__name__} has neither action values nor an actor")
-    if [type(part).__name__ for part in extractor.children()] != ["Flatten"]:
-        raise ValueError(f"{type(extractor).__name__}: wanted are flat observations")
     if type(policy.action_space).__name__ != "Discrete" or policy.action_space.start != 0:
         raise ValueError(f"actions of {policy.action_space}: wanted is Discrete from 0 on")
-    return [*extractor.children(), *rest]
+    return extractor, rest
+
+
+def columns_of(
+    own: spaces.Space[Any], extractor: Any, task: Task, key: str
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Which features are the environment's, and which the automaton's state, one-hot."""
+    count = task.num_states
+    if isinstance(extractor, FlattenExtractor) and isinstance(own, spaces.Box):
+        width = int(np.prod(own.shape))
+        hot = np.stack([getattr(own, end).ravel()[-count:] for end in ("low", "high")])
+        if hot.T.tolist() == [[0, 1]] * count:
+            return np.arange(width - count), np.arange(width - count, width)
+    elif isinstance(extractor, CombinedExtractor) and isinstance(own, spaces.Dict):
+        parts = {name: type(part) for name, part in extractor.extractors.items()}
+        other = [name for name, part in parts.items() if part is not torch.nn.Flatten]
+        if other:
+            raise ValueError(f"the part `{other[0]}` of observations is an image: it is not exported")
+        ends = np.cumsum([0, *(get_flattened_obs_dim(own[name]) for name in parts)])
+        place = dict(zip(parts, zip(ends, ends[1:], strict=False), strict=True))
+        if key in place and place[key][1] - place[key][0] == count:
+            state = np.arange(*place[key])
+            return np.setdiff1d(np.arange(ends[-1]), state), state
+    raise ValueError(
+        f"observations of {own}: wanted are flat ones with the {count} states of `{task.text}` at "
+        f"their end, or a Dict in which `{key}` is one of them"
+    )
+
+
+def normalisation(
+    algorithm: BaseAlgorithm, base: NDArray[np.int64], state: NDArray[np.int64], count: int
+) -> tuple[dict[str, Any], Callable[[int], NDArray[np.float64]]]:
+    """How a `VecNormalize` changes the environment's features, for the document, and what it makes of an
+    automaton state, one-hot."""
+    own, wrapper = algorithm.observation_space, algorithm.get_vec_normalize_env()
+    hot = np.eye(count)
+    if wrapper is None or not wrapper.norm_obs:
+        return {}, lambda q: hot[q]
+    mean, deviation = np.zeros(len(base) + count), np.ones(len(base) + count)
+    clip, at = float(wrapper.clip_obs), 0
+    is_flat = not isinstance(own, spaces.Dict)
+    parts: dict[str, Any] = {"": own} if is_flat else dict(own.spaces)
+    for name, part in parts.items():
+        width = get_flattened_obs_dim(part)
+        if is_flat or name in (wrapper.norm_obs_keys or ()):
+            moments: Any = wrapper.obs_rms if is_flat else wrapper.obs_rms[name]
+            mean[at : at + width] = moments.mean.ravel()
+            deviation[at : at + width] = np.sqrt(moments.var + wrapper.epsilon).ravel()
+        elif isinstance(part, spaces.Box) and max(np.abs(part.low).max(), np.abs(part.high).max()) > clip:
+            raise ValueError(f"`{name}` is not normalised, and may be larger than clip_obs, {clip}")
+        at += width
+    numbers = {"mean": mean[base].tolist(), "deviation": deviation[base].tolist(), "clip": clip}
+    return {"scale": numbers}, lambda q: np.clip((hot[q] - mean[state]) / deviation[state], -clip, clip)
 
 
 class TaskCallback(BaseCallback):
-    """Records at the end of each episode whether the task was `satisfied` or `lost`.
+    """Records at the end of each episode whether the task was `satisfied` or `lost`, and its `last_q`.
 
-    In the logger as `tltl/satisfied` and `tltl/lost`, fractions of the last hundred episodes.
+    In the logger as `tltl/satisfied` and `tltl/lost`, fractions of the last hundred episodes, and
+    `tltl/last_q`. Warns if the discount factor of the rewards is not the algorithm's.
     """
 
     def __init__(self) -> None:
         super().__init__()
         self.satisfied: list[bool] = []
         self.lost: list[bool] = []
+        self.last_q: list[int] = []
+
+    def _on_training_start(self) -> None:
+        gamma = getattr(self.model, "gamma", None)
+        for wanted in self.training_env.get_attr("shaping_gamma"):
+            if wanted not in (None, gamma):
+                warn(
+                    f"gamma is {gamma}, and the shaped rewards are for {wanted}: give "
+                    f'TaskEnv rewards=Rewards("shaped", gamma={gamma})',
+                    TaskWarning,
+                    stacklevel=2,
+                )
 
     def _on_step(self) -> bool:
         for info, done in zip(self.locals["infos"], self.locals["dones"], strict=True):
             if done and "tltl" in info:
-                self.satisfied.append(bool(info["tltl"]["satisfied"]))
-                self.lost.append(bool(info["tltl"]["lost"]))
+                told = info["tltl"]
+                self.satisfied.append(bool(told["satisfied"]))
+                self.lost.append(bool(told["lost"]))
+                self.last_q.append(int(told["state"]))
                 self.logger.record("tltl/satisfied", float(np.mean(self.satisfied[-100:])))
                 self.logger.record("tltl/lost", float(np.mean(self.lost[-100:])))
+                self.logger.record("tltl/last_q", self.last_q[-1])
         return True
+
+
+class Counterfactual:
+    """Stores each step once for every live automaton state, as `tltl.replay.relabel` has it.
+
+    With a number of `states`, so many are stored: the state in which the step was taken, and others
+    that are drawn by `seed`.
+    """
+
+    def __init__(
+        self,
+        *args: Any,
+        task: Task,
+        rewards: Rewards,
+        states: Literal["all"] | int = "all",
+        key: str = "task_state",
+        seed: int | None = None,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(*args, **kwargs)
+        if rewards.mode == "robustness":
+            raise ValueError("rewards: what is stored of a step is what holds, not by how much")
+        if not isinstance(states, str) and states < 1:
+            raise ValueError(f"states is {states}, not \"all\" or a number from 1 on")
+        self.task, self.paid_by, self.states, self.key = task, rewards, states, key
+        self.generator = np.random.default_rng(seed)
+        self.hot = np.eye(task.num_states, dtype=np.float32)
+
+    def add(
+        self, obs: Any, next_obs: Any, action: Any, reward: Any, done: Any, infos: list[dict[str, Any]]
+    ) -> None:
+        told = [info["tltl"] for info in infos]
+        seen = relabel(
+            self.task,
+            np.stack([one["labels"] for one in told]),
+            rewards=self.paid_by,
+            reward=[one["environment"] for one in told],
+            terminated=[one["terminated"] for one in told],
+        )
+        # One row for each step, one column for each live state.
+        by_step = [values.reshape(len(infos), -1) for values in (seen.q, seen.next_q)]
+        q, next_q = by_step
+        paid, over = seen.reward.reshape(q.shape), seen.terminated.reshape(q.shape)
+        rows = np.arange(len(infos))
+        for column in self.chosen(self.before(obs), q).T:
+            at = rows, column
+            super().add(  # type: ignore[misc]
+                self.shown(obs, q[at]),
+                self.shown(next_obs, next_q[at]),
+                action,
+                paid[at],
+                over[at],
+                # A step at a time limit is an ordinary one: only `terminated` ends.
+                [{} for _ in infos],
+            )
+
+    def chosen(self, before: NDArray[np.int64], q: NDArray[np.uint32]) -> NDArray[np.int64]:
+        """The columns that are stored: of shape (steps, states)."""
+        steps, live = q.shape
+        if isinstance(self.states, str):
+            return np.tile(np.arange(live), (steps, 1))
+        own = (q == before[:, None]).argmax(1)
+        drawn = self.generator.integers(live, size=(steps, self.states - 1))
+        return np.column_stack([own, drawn])
+
+    def before(self, obs: Any) -> NDArray[np.int64]:
+        """The automaton states in which the steps were taken."""
+        raise NotImplementedError
+
+    def shown(self, obs: Any, q: NDArray[np.uint32]) -> Any:
+        """The observations as they would be in other automaton states."""
+        raise NotImplementedError
+
+
+class CounterfactualReplayBuffer(Counterfactual, ReplayBuffer):
+    """A replay buffer for `observe="flat"` that stores each step for every live automaton state.
+
+    `DQN("MlpPolicy", env, replay_buffer_class=CounterfactualReplayBuffer, replay_buffer_kwargs={"task":
+    env.task, "rewards": env.rewards})`. One step teaches as many as there are live states, so the buffer
+    is full after that many fewer. `states` and `seed` as for `Counterfactual`: with 1 + k states it is
+    used as HER's, whose k relabelled goals are other automaton states here.
+    """
+
+    def before(self, obs: Any) -> NDArray[np.int64]:
+        hot: NDArray[Any] = obs[:, -self.task.num_states :]
+        return np.asarray(hot.argmax(1))
+
+    def shown(self, obs: Any, q: NDArray[np.uint32]) -> Any:
+        shown = obs.copy()
+        shown[:, -self.task.num_states :] = self.hot[q]
+        return shown
+
+
+class CounterfactualDictReplayBuffer(Counterfactual, DictReplayBuffer):
+    """The same for `observe="dict"`, with `key` as for `TaskEnv`."""
+
+    def before(self, obs: Any) -> NDArray[np.int64]:
+        return np.asarray(obs[self.key], np.int64).reshape(-1)
+
+    def shown(self, obs: Any, q: NDArray[np.uint32]) -> Any:
+        return {**obs, self.key: q.astype(np.int64).reshape(np.shape(obs[self.key]))}

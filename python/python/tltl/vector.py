@@ -124,6 +124,7 @@ class TaskVectorEnv(VectorWrapper):
         obs, reward, terminated, truncated, infos = self.env.step(actions)
         before = self._q
         told = self._read(obs, infos)
+        told["terminated"], told["environment"] = terminated.copy(), np.array(reward, float)
         rho = told.get("rho")
         paid = self.rewards.pay(
             self.task, before, self._q, rho=rho, reward=np.asarray(reward), terminated=terminated
@@ -174,6 +175,8 @@ class TaskVectorEnv(VectorWrapper):
         told = self._read(obs, infos)
         self._q = np.where(which, self._q, kept)
         told["progress"][:] = False
+        told["terminated"] = np.zeros(self.num_envs, bool)
+        told["environment"] = np.zeros(self.num_envs)
         return told
 
     def _read(self, obs: Any, infos: dict[str, Any]) -> Told:

@@ -5,12 +5,13 @@
 //! policy in hand is a valid one; `tltlc policy` turns it into Rust that stands alone. It does not move
 //! the automaton, which needs the task's predicates: the task itself does.
 //!
-//! # Schema, version 1
-//! As JSON, every field required unless marked optional, unknown fields refused:
+//! # Schema, version 2
+//! As JSON, every field required unless marked optional, unknown fields refused. Version 1 is the same
+//! without `activation`, `scale` and `states`, and is read too:
 //! ```text
 //! {
 //!   "format": "tltl-network-policy",   these two first
-//!   "version": 1,
+//!   "version": 2,
 //!   "task": "fetch",                   name of the task
 //!   "formula": "F a && F b",           its text
 //!   "actions": ["wait", "take a", ...],  A names, numbered 0..A
@@ -40,6 +41,14 @@
 //!       "entities": 2,                 E, what the last E actions point at
 //!       "channels": 2                  C; 0 where E is
 //!     },
+//!     "activation": "tanh",            optional: of hidden units; relu if left out
+//!     "scale": {                       optional: inputs become (x - mean) / deviation, within ±clip
+//!       "mean": [0.5, -0.25],
+//!       "deviation": [1.0, 2.0],       positive
+//!       "clip": 10.0
+//!     },
+//!     "states": [0.0, ...],            optional: H * (first of hidden), what each live state adds to
+//!                                      the first layer; then all share one head
 //!     "layers": [                      the hidden layers, then the heads
 //!       {
 //!         "weights": [0.1, ...],       indexed input * outputs + output
@@ -50,7 +59,7 @@
 //!   }
 //! }
 //! ```
-//! Layers are `x W + b`, the hidden ones with negative outputs set to 0. Head h belongs to the h-th
+//! Layers are `x W + b`, the outputs of the hidden ones as `activation` says. Head h belongs to the h-th
 //! automaton state in which the task goes on, and puts out columns `h * w..(h + 1) * w` of the last
 //! layer: values of the first A - E actions; where E > 0, one that the others have in common;
 //! and C weights, whose product with the features of its entity is added to that. So w is
@@ -385,8 +394,8 @@ impl NetworkPolicy {
     /// The value of the field `format`.
     pub const FORMAT: &'static str = "tltl-network-policy";
 
-    /// The version that this library writes and reads.
-    pub const VERSION: u32 = 1;
+    /// The version that this library writes. It reads 1 too.
+    pub const VERSION: u32 = 2;
 
     /// The policy that is greedy in `network`, whose heads are the states in which `task` goes on;
     /// `actions` are what the world's actions are called.
@@ -553,7 +562,7 @@ fn check_format(found: &String) -> Result<(), NetworkPolicyError> {
 
 #[inline]
 fn check_version(found: &u32) -> Result<(), NetworkPolicyError> {
-    let known = *found == NetworkPolicy::VERSION;
+    let known = (1..=NetworkPolicy::VERSION).contains(found);
     if known { Ok(()) } else { Err(NetworkPolicyError::Version(*found)) }
 }
 

@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 
 use tltl::estimate::{Estimate, Interval};
 use tltl::network::policy::{NetworkDocument, NetworkPolicy, NetworkTraining};
-use tltl::network::{Dense, Shape};
+use tltl::network::{Activation, Dense, Form, Scale, Shape};
 use tltl::policy::States;
 
 use super::policy::{known, paragraph};
@@ -36,13 +36,17 @@ pub fn source(policy: &NetworkPolicy) -> String {
     );
     rows(&mut text, "", heads);
     text.push_str(";\n");
-    let shape = network.shape();
+    let (shape, form) = (network.shape(), network.form());
+    if let Some(scale) = &form.scale {
+        normalisation(&mut text, scale);
+    }
     let (last, hidden) = network.layers().split_last().expect("a network has heads");
     for (i, layer) in hidden.iter().enumerate() {
-        dense(&mut text, i, layer);
+        let states: &[f32] = if i == 0 { &form.states } else { &[] };
+        dense(&mut text, i, layer, states);
     }
-    head(&mut text, shape, last);
-    functions(&mut text, shape);
+    head(&mut text, if form.states.is_empty() { shape.heads } else { 1 }, last);
+    functions(&mut text, shape, form);
     text
 }
 
@@ -89,10 +93,13 @@ fn sizes(policy: &NetworkDocument) -> String {
     };
     let weights =
         policy.network.layers().iter().map(|layer| layer.weights.len() + layer.bias.len());
+    let weights = weights.chain([policy.network.form().states.len()]);
+    let form = policy.network.form();
+    let heads = if form.states.is_empty() { *heads } else { 1 };
     format!(
         "Network: {} of the state, {hidden}, {} for {}{pointing}; {} in all.",
         count(*inputs, "feature"),
-        count(*heads, "head"),
+        count(heads, "head"),
         count(*actions, "action"),
         count(weights.sum(), "weight")
     )
@@ -187,8 +194,23 @@ fn listed(text: &mut String, name: &str, about: &str, names: &[String], length: 
     text.push_str(";\n");
 }
 
-/// A hidden layer: weights by input, then the bias.
-fn dense(text: &mut String, i: usize, layer: &Dense) {
+/// How inputs are normalised.
+fn normalisation(text: &mut String, Scale { mean, deviation, clip }: &Scale) {
+    for (name, about, numbers) in
+        [("MEAN", "Taken off", mean), ("DEVIATION", "What divides", deviation)]
+    {
+        let _ =
+            write!(text, "\n/// {about} each input.\n{LEARNED}\nstatic {name}: [f32; INPUTS] = ");
+        rows(text, "", numbers.iter().map(|&x| literal(x)));
+        text.push_str(";\n");
+    }
+    let clip = literal(*clip);
+    let _ =
+        write!(text, "\n/// The largest size of a normalised input.\nconst CLIP: f32 = {clip};\n");
+}
+
+/// A hidden layer: weights by input, then the bias, with what each automaton state adds to it.
+fn dense(text: &mut String, i: usize, layer: &Dense, states: &[f32]) {
     let outputs = layer.bias.len();
     let inputs = layer.weights.len() / outputs;
     let _ = write!(
@@ -197,14 +219,24 @@ fn dense(text: &mut String, i: usize, layer: &Dense) {
          static WEIGHTS_{i}: [[f32; {outputs}]; {inputs}] = "
     );
     matrix(text, "", layer.weights.chunks(outputs));
-    let _ = write!(text, ";\n{LEARNED}\nstatic BIAS_{i}: [f32; {outputs}] = ");
-    rows(text, "", layer.bias.iter().map(|&w| literal(w)));
+    if states.is_empty() {
+        let _ = write!(text, ";\n{LEARNED}\nstatic BIAS_{i}: [f32; {outputs}] = ");
+        rows(text, "", layer.bias.iter().map(|&w| literal(w)));
+    } else {
+        let heads = states.len() / outputs;
+        let _ = write!(text, ";\n{LEARNED}\nstatic BIAS_{i}: [[f32; {outputs}]; {heads}] = ");
+        let added = |row: &[f32]| -> Vec<f32> {
+            layer.bias.iter().zip(row).map(|(bias, added)| bias + added).collect()
+        };
+        let all: Vec<Vec<f32>> = states.chunks(outputs).map(added).collect();
+        matrix(text, "", all.iter().map(Vec::as_slice));
+    }
     text.push_str(";\n");
 }
 
 /// The last layer, head by head, so that one head is contiguous.
-fn head(text: &mut String, shape: &Shape, layer: &Dense) {
-    let (heads, outputs) = (shape.heads, layer.bias.len());
+fn head(text: &mut String, heads: usize, layer: &Dense) {
+    let outputs = layer.bias.len();
     let (width, inputs) = (outputs / heads, layer.weights.len() / outputs);
     let _ = write!(
         text,
@@ -265,14 +297,24 @@ fn literal(weight: f32) -> String {
 }
 
 /// The forward pass of this shape: its hidden layers, and the pointing actions if it has entities.
-fn functions(text: &mut String, shape: &Shape) {
+fn functions(text: &mut String, shape: &Shape, form: &Form) {
     let mut trunk = String::new();
+    let first = if form.scale.is_some() { "&normalised(inputs)" } else { "inputs" };
+    let (function, activation) = match form.activation {
+        Activation::Relu => ("rectified", RECTIFIED),
+        Activation::Tanh => ("tanh", TANH),
+    };
     for i in 0..shape.hidden.len() {
-        let from = if i == 0 { "inputs" } else { "&x" };
-        let _ = writeln!(trunk, "    let x = rectified(dense({from}, &WEIGHTS_{i}, &BIAS_{i}));");
+        let from = if i == 0 { first } else { "&x" };
+        let of_state = if i == 0 && !form.states.is_empty() { "[head]" } else { "" };
+        let _ = writeln!(
+            trunk,
+            "    let x = {function}(dense({from}, &WEIGHTS_{i}, &BIAS_{i}{of_state}));"
+        );
     }
-    let last = if shape.hidden.is_empty() { "inputs" } else { "&x" };
-    let out = format!("dense({last}, &HEAD_WEIGHTS[head], &HEAD_BIAS[head])");
+    let last = if shape.hidden.is_empty() { first } else { "&x" };
+    let head = if form.states.is_empty() { "head" } else { "0" };
+    let out = format!("dense({last}, &HEAD_WEIGHTS[{head}], &HEAD_BIAS[{head}])");
     let (plain, forward) = match shape.entities {
         0 => (String::new(), format!("{trunk}    {out}\n")),
         _ => (
@@ -286,7 +328,8 @@ fn functions(text: &mut String, shape: &Shape) {
     text.push_str(&plain);
     let unused = if shape.entities == 0 { "_entities" } else { "entities" };
     text.push_str(&FUNCTIONS.replace("FORWARD", &forward).replace("UNUSED", unused));
-    text.push_str(if shape.hidden.is_empty() { "" } else { RECTIFIED });
+    text.push_str(if form.scale.is_some() { NORMALISED } else { "" });
+    text.push_str(if shape.hidden.is_empty() { "" } else { activation });
 }
 
 /// The functions of the generated file; `FORWARD` and `UNUSED` are replaced.
@@ -370,6 +413,32 @@ const POINTING: &str = "    let mut values = [out[PLAIN]; ACTIONS.len()];
         }
     }
     values
+";
+
+/// The normalisation of the inputs, as [`Scale::of`] has it.
+const NORMALISED: &str = "
+fn normalised(inputs: &[f32; INPUTS]) -> [f32; INPUTS] {
+    let mut x = *inputs;
+    for ((x, mean), deviation) in x.iter_mut().zip(&MEAN).zip(&DEVIATION) {
+        *x = ((*x - mean) / deviation).clamp(-CLIP, CLIP);
+    }
+    x
+}
+";
+
+/// The other activation function, as [`Activation::of`] has it.
+const TANH: &str = "
+/// Lambert's continued fraction at a quarter of the sum, doubled twice.
+fn tanh<const N: usize>(mut x: [f32; N]) -> [f32; N] {
+    for value in &mut x {
+        let y = value.clamp(-9.5, 9.5) * 0.25;
+        let s = y * y;
+        let t = y * (945.0 + s * (105.0 + s)) / (945.0 + s * (420.0 + s * 15.0));
+        let t = 2.0 * t / (1.0 + t * t);
+        *value = 2.0 * t / (1.0 + t * t);
+    }
+    x
+}
 ";
 
 /// The activation function; a network without hidden layers has none.
