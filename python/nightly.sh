@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# What takes too long or too much space for every change: the tests with Stable-Baselines3 and with MuJoCo's
-# simulators, the pages and the benches, each in an environment of its own, on the wheel as it is published. About 6 GB.
+# What takes too long or too much space for every change: the tests with Stable-Baselines3, with RLlib on Ray and
+# with MuJoCo's simulators, the oldest NumPy, the pages and the benches, each in an environment of its own, on the
+# wheel as it is published. About 7 GB.
 #
 #   TLTL_TORCH_INDEX   an index with smaller builds of PyTorch, those without CUDA
 #   TLTL_NIGHTLY       where the environments are made; a new directory, if left out
@@ -24,8 +25,8 @@ environment() {
 tests() {
     local name="$1"
     shift
-    cp -r tests README.md "$place/$name/"
-    (cd "$place/$name" && bin/python -m pytest -q -rs -p no:cacheprovider --import-mode=append "$@")
+    cp -r tests examples README.md "$place/$name/"
+    (cd "$place/$name" && PYTHONPATH=examples bin/python -m pytest -q -rs -p no:cacheprovider --import-mode=append "$@")
 }
 
 step "the wheel"
@@ -40,9 +41,21 @@ environment empty 'numpy>=1.26'
 "$place/empty/bin/tltlc" --version
 "$place/empty/bin/python" -c 'import tltl; print(tltl.Task("F a && F b ensuring !c").explain())'
 
-step "simulators"
-environment robotics 'gymnasium-robotics>=1.4' 'mujoco<3.12'
-tests robotics tests/test_mujoco.py
+step "the oldest NumPy, and the wheel's ABI"
+environment oldest 'numpy==1.26.0' 'gymnasium==1.0.0' hypothesis cloudpickle networkx
+tests oldest tests/test_task.py tests/test_arrays.py tests/test_solve.py tests/test_gymnasium.py tests/test_products.py
+"$place/build/bin/pip" install abi3audit
+"$place/build/bin/abi3audit" --strict "$place"/dist/tltl-*.whl
+
+step "the source distribution builds from itself"
+"$place/build/bin/maturin" sdist --quiet --out "$place/sdist"
+python3 -m venv "$place/from-source"
+"$place/from-source/bin/pip" install "$place"/sdist/tltl-*.tar.gz
+"$place/from-source/bin/tltlc" --version
+
+step "simulators and recorded data"
+environment robotics 'gymnasium-robotics>=1.4' 'mujoco<3.12' 'minari[create,hdf5]'
+tests robotics tests/test_mujoco.py examples/test_examples.py -k 'mujoco or arm or kitchen or recorded'
 
 step "Stable-Baselines3"
 if [ -n "${TLTL_TORCH_INDEX:-}" ]; then
@@ -50,7 +63,13 @@ if [ -n "${TLTL_TORCH_INDEX:-}" ]; then
     "$place/sb3/bin/pip" install torch --index-url "$TLTL_TORCH_INDEX"
 fi
 environment sb3 stable-baselines3 sb3-contrib
-tests sb3 tests/test_sb3.py tests/test_readme.py
+"$place/sb3/bin/pip" install minigrid
+tests sb3 tests/test_sb3.py tests/test_readme.py examples/test_examples.py
+
+step "RLlib on Ray"
+environment rllib 'ray[rllib]' minigrid
+echo "$(echo "$place"/sb3/lib/python*/site-packages)" > "$(echo "$place"/rllib/lib/python*/site-packages)/torch.pth"
+tests rllib tests/test_rllib_contract.py examples/test_examples.py -k 'rllib or runner or travel or wrong or trains'
 
 step "pages"
 environment docs sphinx myst-nb furo gymnasium

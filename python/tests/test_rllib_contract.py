@@ -1,7 +1,5 @@
 """RLlib on Ray: two runners do what one process does; `pip install 'tltl[rllib]'`."""
 
-# pyright: reportMissingImports=false
-
 from __future__ import annotations
 
 import os

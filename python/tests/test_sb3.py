@@ -1,7 +1,5 @@
 """Stable-Baselines3: certified, exported, emitted; `pip install 'tltl[sb3]'`."""
 
-# pyright: reportMissingImports=false
-
 from __future__ import annotations
 
 import shutil

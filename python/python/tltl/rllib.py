@@ -4,8 +4,6 @@ Nothing here is an engine of its own: an environment is registered by name, and 
 they are. Everywhere the same version of this package is installed; a task by value says so if it is not.
 """
 
-# pyright: reportMissingImports=false
-
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping

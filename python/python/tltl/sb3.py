@@ -5,8 +5,6 @@ worth. `export` makes a document of its weights, which `tltlc policy` turns into
 standard library. The replay buffers store each step once for every automaton state.
 """
 
-# pyright: reportMissingImports=false
-
 from __future__ import annotations
 
 import json

@@ -1,0 +1,90 @@
+"""FrozenLake, Taxi and CliffWalking: learned, and judged exactly.
+
+`python toy_text.py` prints the certificate of what the tabular learner learned in each world, and, with
+`tltl[sb3]`, that of a network of PPO on the small lake.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import gymnasium as gym
+
+from tltl import Certificate, FiniteModel, Learner, Settings, Solution, solve
+from tltl.gymnasium import TaskEnv
+
+HOLES = {5, 7, 11, 12}
+
+
+def lake(s: int) -> dict[str, bool]:
+    return {"corner": s == 3, "goal": s == 15, "hole": s in HOLES}
+
+
+def large_lake(s: int) -> dict[str, bool]:
+    return {"corner": s == 7, "goal": s == 63}
+
+
+def taxi(s: int) -> dict[str, bool]:
+    """A state is ((row, column), passenger, destination); passenger 4 is in the taxi."""
+    return {"aboard": s // 4 % 5 == 4, "home": s // 4 % 5 == s % 4}
+
+
+def cliff(s: int, event: str | None) -> dict[str, bool]:
+    """Nobody *is* in the cliff: who steps there is at the start again. So it is an event."""
+    return {"cliff": event == "cliff", "goal": s == 47}
+
+
+def fell(s: int, a: int, to: int, reward: float) -> str | None:
+    """What happened on the way."""
+    return "cliff" if reward <= -100 else None
+
+
+#: Environment, its options, task, labels, events.
+WORLDS: dict[str, tuple[str, dict[str, Any], str, Any, Any]] = {
+    "FrozenLake": ("FrozenLake-v1", {}, "corner T goal", lake, None),
+    "FrozenLake 8x8": ("FrozenLake8x8-v1", {}, "corner T goal", large_lake, None),
+    "Taxi": ("Taxi-v4", {}, "aboard T home", taxi, None),
+    "CliffWalking": ("CliffWalking-v1", {"is_slippery": True}, "!cliff U goal", cliff, fell),
+}
+
+
+def solved(name: str) -> tuple[FiniteModel, Solution]:
+    """The world, and what is optimal in it."""
+    world, options, formula, labels, events = WORLDS[name]
+    model = FiniteModel.from_env(gym.make(world, **options), events=events)
+    return model, solve(model, formula, labels)
+
+
+def certified(name: str, steps: int, seed: int = 1) -> Certificate:
+    """What the tabular learner's policy is worth after so many steps."""
+    model, best = solved(name)
+    _, _, formula, labels, _ = WORLDS[name]
+    settings = Settings(exploration="coverage")
+    return Learner(model, formula, labels, settings=settings, seed=seed).train(steps).certify(best)
+
+
+def certified_network(steps: int, seed: int = 0) -> Certificate:
+    """What a network that PPO learned on the small lake is worth, by the same model."""
+    from stable_baselines3 import PPO
+
+    from tltl.sb3 import tabulate
+
+    world, options, formula, labels, _ = WORLDS["FrozenLake"]
+    env = TaskEnv(gym.make(world, **options), formula, lambda env, obs, info: labels(int(obs)))
+    network = PPO("MlpPolicy", env, n_steps=256, ent_coef=0.02, seed=seed).learn(steps)
+    model, best = solved("FrozenLake")
+    return best.certify(tabulate(network, model, env))
+
+
+def main() -> None:
+    for name in WORLDS:
+        print(f"{name}: the tabular learner, 600,000 steps\n{certified(name, 600_000)}\n")
+    try:
+        import stable_baselines3  # noqa: F401
+    except ImportError:
+        return
+    print(f"FrozenLake: a network of PPO, 50,000 steps\n{certified_network(50_000)}\n")
+
+
+if __name__ == "__main__":
+    main()
