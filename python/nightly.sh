@@ -42,7 +42,7 @@ environment empty 'numpy>=1.26'
 "$place/empty/bin/python" -c 'import tltl; print(tltl.Task("F a && F b ensuring !c").explain())'
 
 step "the oldest NumPy, and the wheel's ABI"
-environment oldest 'numpy==1.26.0' 'gymnasium==1.0.0' hypothesis cloudpickle networkx
+environment oldest 'numpy==1.26.0' 'gymnasium>=1.1' hypothesis cloudpickle networkx
 tests oldest tests/test_task.py tests/test_arrays.py tests/test_solve.py tests/test_gymnasium.py tests/test_products.py
 "$place/build/bin/pip" install abi3audit
 "$place/build/bin/abi3audit" --strict "$place"/dist/tltl-*.whl

@@ -4,10 +4,11 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict};
 use tltl_compiler::source::Source;
-use tltlc::task::{self, Value};
+use tltlc::task::{self, Bound as Bind, Value};
 
 use super::error::{diagnostics, mistaken, warn};
-use super::task::Task;
+use super::factored::Factored;
+use super::task::{Task, bound};
 use super::values::Budget;
 
 /// A value for a parameter.
@@ -102,7 +103,7 @@ impl TaskFile {
 
     /// The task of this name with these values for its parameters; without a name the only task.
     ///
-    /// A parameter is a number, a truth value, or the name of a value of its enumeration. Raises
+    /// A task that is marked `#[factored]` is a `Factored`. A parameter is a number, a truth value, or the name of a value of its enumeration. Raises
     /// `ValueError` if the file has no such task, or it takes other arguments.
     ///
     /// >>> from tltl import TaskFile
@@ -110,12 +111,21 @@ impl TaskFile {
     /// >>> file.task("far", d=2.5).satisfied([[1.0], [3.0]])
     /// True
     #[pyo3(signature = (name=None, /, **arguments))]
-    fn task(&self, name: Option<&str>, arguments: Option<&Bound<'_, PyDict>>) -> PyResult<Task> {
+    fn task<'py>(
+        &self,
+        py: Python<'py>,
+        name: Option<&str>,
+        arguments: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
         let mut values = Vec::new();
         for (name, value) in arguments.into_iter().flatten() {
             values.push((name.extract()?, value.extract::<Argument>()?.0));
         }
-        Task::bind(&self.inner, name, &values, self.budget.clone())
+        let budget = self.budget.clone();
+        match bound(&self.inner, name, &values)? {
+            Bind::Plain(inner) => Ok(Task::of(inner, budget).into_pyobject(py)?.into_any()),
+            Bind::Factored(inner) => Ok(Factored::new(inner, budget).into_pyobject(py)?.into_any()),
+        }
     }
 
     fn __repr__(&self) -> String {

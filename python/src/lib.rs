@@ -5,7 +5,7 @@
 //! | `array` | every NumPy array that enters, whatever its type and strides |
 //! | `states` | recorded states, as arrays or mappings, into the columns that a task reads |
 //! | `labels` | what holds in a state, as mappings, names or arrays |
-//! | `task`, `batch`, `monitor`, `file`, `product` | tasks |
+//! | `task`, `batch`, `monitor`, `file`, `product`, `factored` | tasks |
 //! | `rewards` | what moves pay |
 //! | `model`, `labelled` | finite worlds, and tasks on their states |
 //! | `solution`, `certificate`, `shield` | what is optimal, what policies are worth, what is allowed |
@@ -25,6 +25,7 @@ mod certificate;
 mod composition;
 mod document;
 mod error;
+mod factored;
 mod file;
 mod labelled;
 mod labels;
@@ -58,6 +59,8 @@ mod _core {
     use super::certificate::{Certificate, Mistake};
     #[pymodule_export]
     use super::composition::{Composition, compose};
+    #[pymodule_export]
+    use super::factored::Factored;
     #[pymodule_export]
     use super::file::{Parameter, TaskFile};
     #[pymodule_export]

@@ -23,6 +23,7 @@ use super::array::{frozen, shaped};
 use super::batch::Letters;
 use super::certificate::preformatted;
 use super::error::{diagnostics, mistaken, warn, wrong};
+use super::factored::Factored;
 use super::labels;
 use super::states::States;
 use super::values::{Budget, Edge, Input, Run};
@@ -57,7 +58,7 @@ pub struct Task {
 }
 
 impl Task {
-    fn of(inner: task::Task, budget: Budget) -> Self {
+    pub(crate) fn of(inner: task::Task, budget: Budget) -> Self {
         Self { ends: Arc::new(Ends::of(&inner)), inner, budget, factors: None }
     }
 
@@ -75,26 +76,6 @@ impl Task {
         let RawProduct { task, components } = whole.map_err(|error| mistaken(py, &error))?;
         let factors = Some(Arc::new((operator, operands)));
         Ok((Self { factors, ..Self::of(task, budget) }, components))
-    }
-
-    /// The task of `file` with this name and these arguments.
-    pub(crate) fn bind(
-        file: &TaskFile,
-        name: Option<&str>,
-        arguments: &[(String, Value)],
-        budget: Budget,
-    ) -> PyResult<Self> {
-        let entry = file.find(name).map_err(|error| wrong(error.to_string()))?;
-        let arguments: Vec<_> =
-            arguments.iter().map(|(name, value)| (name.as_str(), value.clone())).collect();
-        match entry.bind(&arguments).map_err(|error| wrong(error.to_string()))? {
-            Made::Plain(inner) => Ok(Self::of(inner, budget)),
-            Made::Factored(_) => Err(wrong(format!(
-                "`{}` is factored: it has an automaton for each part, and this package reads tasks \
-                 with one automaton",
-                entry.name().unwrap_or_default()
-            ))),
-        }
     }
 
     fn source(&self) -> &Source {
@@ -133,18 +114,6 @@ impl Task {
         task.name
             .as_ref()
             .map_or_else(|| task.text.clone(), |name| format!("{name} = {}", task.text))
-    }
-
-    /// The task, if its automaton is the one that was numbered so.
-    fn expect(self, fingerprint: &str) -> PyResult<Self> {
-        if self.fingerprint() == fingerprint {
-            return Ok(self);
-        }
-        Err(wrong(format!(
-            "`{}` has another numbered automaton in this version: what was learned with it does not \
-             fit",
-            self.text()
-        )))
     }
 
     /// A state of the automaton, checked.
@@ -223,7 +192,11 @@ impl Task {
     #[pyo3(signature = (text, /, *, name="automaton"))]
     fn from_hoa(py: Python<'_>, text: &str, name: &str) -> PyResult<Self> {
         let file = TaskFile::of_automaton(Source::new(name, text));
-        Self::bind(&file.map_err(|error| mistaken(py, &error))?, None, &[], Budget::default())
+        let file = file.map_err(|error| mistaken(py, &error))?;
+        match bound(&file, None, &[])? {
+            Made::Plain(inner) => Ok(Self::of(inner, Budget::default())),
+            Made::Factored(_) => Err(wrong("an automaton is not factored")),
+        }
     }
 
     /// The formula, as it was written.
@@ -620,31 +593,14 @@ impl Task {
         &self,
         py: Python<'py>,
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        let restore = py.import("tltl._core")?.getattr("restore")?;
-        let arguments = PyDict::new(py);
-        for (name, value) in self.inner.arguments() {
-            match value {
-                Value::Number(number) => arguments.set_item(name, number)?,
-                Value::Truth(truth) => arguments.set_item(name, truth)?,
-                Value::Text(text) => arguments.set_item(name, text)?,
-            }
-        }
         if let Some(factors) = &self.factors {
             let restore = py.import("tltl._core")?.getattr("restore_product")?;
             let (operator, operands) = &**factors;
             let state = (super::product::name(*operator), operands.clone(), self.fingerprint());
             return Ok((restore, state.into_pyobject(py)?));
         }
-        let (source, entry) = (self.source(), self.inner.entry());
-        let form = match (entry.is_bare(), entry.is_automaton()) {
-            (true, _) => "formula",
-            (_, true) => "automaton",
-            _ => "file",
-        };
-        let source = (form, source.name(), source.text());
-        let state =
-            (source, self.name(), arguments.items(), self.budget.clone(), self.fingerprint());
-        Ok((restore, state.into_pyobject(py)?))
+        let (entry, arguments) = (self.inner.entry(), self.inner.arguments());
+        reduced(py, entry, arguments, &self.budget, &self.fingerprint())
     }
 
     fn __repr__(&self) -> String {
@@ -661,6 +617,46 @@ fn text(written: Result<emit::labels::Text<'_>, emit::labels::TooLarge>) -> PyRe
     written.map(|text| text.to_string()).map_err(|error| wrong(error.to_string()))
 }
 
+/// The task of `file` with this name and these arguments.
+pub(crate) fn bound(
+    file: &TaskFile,
+    name: Option<&str>,
+    arguments: &[(String, Value)],
+) -> PyResult<Made> {
+    let entry = file.find(name).map_err(|error| wrong(error.to_string()))?;
+    let arguments: Vec<_> =
+        arguments.iter().map(|(name, value)| (name.as_str(), value.clone())).collect();
+    entry.bind(&arguments).map_err(|error| wrong(error.to_string()))
+}
+
+/// What `restore` makes a task of.
+pub(crate) fn reduced<'py>(
+    py: Python<'py>,
+    entry: &task::Entry,
+    values: &[(String, Value)],
+    budget: &Budget,
+    fingerprint: &str,
+) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+    let restore = py.import("tltl._core")?.getattr("restore")?;
+    let arguments = PyDict::new(py);
+    for (name, value) in values {
+        match value {
+            Value::Number(number) => arguments.set_item(name, number)?,
+            Value::Truth(truth) => arguments.set_item(name, truth)?,
+            Value::Text(text) => arguments.set_item(name, text)?,
+        }
+    }
+    let source = entry.file().source();
+    let form = match (entry.is_bare(), entry.is_automaton()) {
+        (true, _) => "formula",
+        (_, true) => "automaton",
+        _ => "file",
+    };
+    let source = (form, source.name(), source.text());
+    let state = (source, entry.name(), arguments.items(), budget.clone(), fingerprint);
+    Ok((restore, state.into_pyobject(py)?))
+}
+
 /// A task of yesterday: compiled again, and compared by its numbered automaton.
 #[pyfunction]
 pub(crate) fn restore(
@@ -670,7 +666,7 @@ pub(crate) fn restore(
     arguments: Vec<(String, super::file::Argument)>,
     budget: Budget,
     fingerprint: &str,
-) -> PyResult<Task> {
+) -> PyResult<Py<PyAny>> {
     let ((form, source, text), limits) = (source, budget.limits());
     let compiled = match &*form {
         "formula" => TaskFile::of_formula(&text, limits),
@@ -679,8 +675,28 @@ pub(crate) fn restore(
     };
     let compiled = compiled.map_err(|error| mistaken(py, &error))?;
     let arguments: Vec<_> = arguments.into_iter().map(|(name, value)| (name, value.0)).collect();
-    let task = Task::bind(&compiled, name.as_deref(), &arguments, budget)?;
-    task.expect(fingerprint)
+    match bound(&compiled, name.as_deref(), &arguments)? {
+        Made::Plain(inner) => {
+            let task = Task::of(inner, budget);
+            expect(task.text(), &task.fingerprint(), fingerprint)?;
+            Ok(task.into_pyobject(py)?.into_any().unbind())
+        }
+        Made::Factored(inner) => {
+            let prints: Vec<_> = inner.parts().iter().map(task::Task::fingerprint).collect();
+            expect(&inner.entry().task().text, &prints.join(" "), fingerprint)?;
+            Ok(Factored::new(inner, budget).into_pyobject(py)?.into_any().unbind())
+        }
+    }
+}
+
+/// An error unless the automaton is numbered as it was.
+fn expect(text: &str, found: &str, fingerprint: &str) -> PyResult<()> {
+    if found == fingerprint {
+        return Ok(());
+    }
+    Err(wrong(format!(
+        "`{text}` has another numbered automaton in this version: what was learned with it does not fit"
+    )))
 }
 
 /// A product of yesterday, made again.
@@ -692,5 +708,7 @@ pub(crate) fn restore_product(
     fingerprint: &str,
 ) -> PyResult<Task> {
     let operands = operands.iter().map(super::labelled::task_of).collect::<PyResult<_>>()?;
-    Task::product(py, super::product::operator(operator)?, operands)?.0.expect(fingerprint)
+    let (task, _) = Task::product(py, super::product::operator(operator)?, operands)?;
+    expect(task.text(), &task.fingerprint(), fingerprint)?;
+    Ok(task)
 }

@@ -196,9 +196,6 @@ def test_task_files() -> None:
         file.task("grab")
     with pytest.raises(CompileError, match=r"kitchen.tltl:\d+"):
         tltl.TaskFile.from_text("task t = F", name="kitchen.tltl")
-    with pytest.raises(ValueError, match="factored"):
-        tour = "state S { a: bool, b: bool }\n#[factored] task tour = F a && F b"
-        tltl.TaskFile.from_text(tour).task()
 
 
 def test_threads_share_a_task() -> None:

@@ -22,6 +22,7 @@ __all__ = [
     "Certificate",
     "Composition",
     "Edge",
+    "Factored",
     "FiniteModel",
     "Input",
     "Learner",
@@ -448,10 +449,10 @@ class TaskFile:
     @property
     def warnings(self) -> tuple[Diagnostic, ...]:
         """What the author should look at."""
-    def task(self, name: str | None = None, /, **arguments: float | bool | str) -> Task:
+    def task(self, name: str | None = None, /, **arguments: float | bool | str) -> Any:
         """The task of this name with these values for its parameters; without a name the only task.
 
-        A parameter is a number, a truth value, or the name of a value of its enumeration. Raises
+        A task that is marked `#[factored]` is a `Factored`. A parameter is a number, a truth value, or the name of a value of its enumeration. Raises
         `ValueError` if the file has no such task, or it takes other arguments.
 
         >>> from tltl import TaskFile
@@ -489,13 +490,65 @@ def product(operator: Literal["and", "or"], /, *tasks: Task | str) -> Product:
     >>> both.task.step(both.task.initial, {"a": False, "b": True})
     1
     """
+@final
+class Factored:
+    """A conjunction whose parts run side by side (`#[factored]` in a task file): n goals in any order are n
+    automata of two states, and not one of 2^n.
+
+    A state is an array of one automaton state for each part: uint32, of shape (parts,). The task is
+    satisfied when every part is, and lost when one part is.
+
+    >>> from tltl import TaskFile
+    >>> file = TaskFile.from_text("state S { a: bool, b: bool } #[factored] task tour = F a && F b")
+    >>> tour = file.task()
+    >>> q = tour.step(tour.initial, {"a": True, "b": False})
+    >>> q.tolist(), tour.is_satisfied(q), tour.is_satisfied(tour.step(q, {"b"}))
+    ([1, 0], False, True)
+    """
+    @property
+    def text(self) -> str:
+        """The formula, as it was written."""
+    @property
+    def name(self) -> str | None:
+        """Its name in the task file."""
+    @property
+    def parts(self) -> tuple[Task, ...]:
+        """Its parts, each a task of its own."""
+    @property
+    def propositions(self) -> tuple[str, ...]:
+        """The names of what any part reads, in the order of the columns of labels."""
+    @property
+    def inputs(self) -> tuple[Input, ...]:
+        """What the predicates read from a state, in the order of the columns."""
+    @property
+    def initial(self) -> NDArray[np.uint32]:
+        """The state before anything is read: uint32, of shape (parts,)."""
+    def step(self, q: ArrayLike, labels: Labels) -> NDArray[np.uint32]:
+        """The state after `q` has read what holds; `labels` as for `Task.step`.
+
+        Raises `ValueError` if a proposition is missing, `IndexError` if `q` is not a state.
+        """
+    def step_batch(self, q: ArrayLike, labels: ArrayLike) -> NDArray[np.uint32]:
+        """The states after `q`, of shape (n, parts), has read `labels`, truth values of shape (n,
+        propositions).
+        """
+    def is_satisfied(self, q: ArrayLike) -> Any:
+        """Whether the task is satisfied at `q`, of shape (parts,), or at each of many, of shape (n, parts)."""
+    def is_lost(self, q: ArrayLike) -> Any:
+        """Whether the task is lost at `q`, whatever comes after it; shapes as for `is_satisfied`."""
+    def labels(self, states: _States, *, columns: _Columns | None = None) -> NDArray[np.bool_]:
+        """Which propositions hold in each of `states`; arguments as for `Task.labels`."""
+    def run(self, states: _States, *, columns: _Columns | None = None) -> Run:
+        """A trajectory of shape (T, d), followed row by row; `states` of the result has shape (T, parts)."""
+    def __reduce__(self) -> tuple[Any, ...]: ...
+
 def restore(
     source: tuple[str, str, str],
     name: str | None,
     arguments: Sequence[tuple[str, float | bool | str]],
     budget: Budget,
     fingerprint: str,
-) -> Task:
+) -> Task | Factored:
     """A task of yesterday: compiled again, and compared by its numbered automaton."""
 def restore_product(operator: str, operands: Sequence[Task], fingerprint: str) -> Task:
     """A product of yesterday, made again."""
