@@ -14,3 +14,5 @@ nb_execution_timeout = 120
 myst_enable_extensions = ["colon_fence"]
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"
+# They are large, and the reference needs none of what they do.
+autodoc_mock_imports = ["minari", "ray", "stable_baselines3", "torch"]
