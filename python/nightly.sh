@@ -48,7 +48,7 @@ tests oldest tests/test_task.py tests/test_arrays.py tests/test_solve.py tests/t
 "$place/build/bin/abi3audit" --strict "$place"/dist/tltl-*.whl
 
 step "the source distribution builds from itself"
-"$place/build/bin/maturin" sdist --quiet --out "$place/sdist"
+"$place/build/bin/maturin" sdist --out "$place/sdist"
 python3 -m venv "$place/from-source"
 "$place/from-source/bin/pip" install "$place"/sdist/tltl-*.tar.gz
 "$place/from-source/bin/tltlc" --version
