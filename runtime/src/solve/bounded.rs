@@ -133,7 +133,7 @@ impl Problem {
             let rule = rule.costing(costs);
             let solution = Solution::new(component, &rule, first, None);
             all.put(&solution);
-            all.add_error(members, solution.relative_error(costs));
+            all.add_error(members, solution.relative_error());
         }
         all.bounded
     }

@@ -56,10 +56,10 @@ impl Solution<'_> {
 
     /// The relative error of costs.
     #[inline]
-    pub(super) fn relative_error(&self, costs: &[f64]) -> f64 {
-        let (unknowns, mut part) = (self.component.unknowns(), 0.0_f64);
+    pub(super) fn relative_error(&self) -> f64 {
+        let mut part = 0.0_f64;
         self.residuals(|Action { i, wrong, .. }| {
-            part = part.max(wrong / costs[self.component.pair(unknowns[i as usize])]);
+            part = part.max(wrong / self.rows.cost(i as usize));
         });
         let error = if part < 0.5 { part / (1.0 - part) } else { f64::INFINITY };
         error.min(self.eliminated_error())
@@ -122,16 +122,14 @@ impl Solution<'_> {
     #[inline]
     fn residuals(&self, mut visit: impl FnMut(Action)) {
         let (component, rule) = (&self.component, self.rule);
-        let mut arrivals = Vec::new();
-        component.arrivals(&self.x, &mut arrivals);
+        let mut places = Vec::new();
+        self.rows.places(&self.x, &mut places);
         for (i, &code) in component.unknowns().iter().enumerate() {
-            let (outcomes, x) = (component.outcomes(code), self.x[i]);
-            let part = component.part(code, &arrivals);
-            let cost = rule.costs.map_or(0.0, |costs| costs[component.pair(code)]);
+            let (outcomes, x, cost) = (self.rows.outcomes(i), self.x[i], self.rows.cost(i));
             for a in component.allowed(rule, code) {
                 let (mut gain, mut size) = (cost, cost);
                 for (&at, p) in outcomes.successors.iter().zip(outcomes.row(a)) {
-                    let part = p * (part[at as usize] - x);
+                    let part = p * (places[at as usize] - x);
                     (gain, size) = (gain + part, size + part.abs());
                 }
                 let own = self.policy[i] as usize == a;
@@ -159,7 +157,7 @@ impl<'a> Heights<'a> {
     fn new(solution: &Solution<'_>, plateaus: &'a [Vec<u32>]) -> Self {
         let n = solution.x.len();
         let mut w = alloc::vec![0.0; n];
-        let chain = Chain::new(&solution.component, &solution.policy, Factors::Plain);
+        let chain = Chain::new(&solution.rows, &solution.policy, Factors::Plain);
         chain.correct(&alloc::vec![1.0; n], &mut w, 1e-3);
         w.iter_mut().for_each(|w| *w = w.max(1.0));
         let mut of = alloc::vec![NONE; n];
@@ -179,7 +177,7 @@ impl<'a> Heights<'a> {
     /// Raises w where v + δ w does not hold; whether there was such an action.
     #[inline]
     fn raise(&mut self, solution: &Solution<'_>, actions: &[Action], delta: f64) -> bool {
-        let (component, mut raised) = (&solution.component, false);
+        let mut raised = false;
         for &Action { i, a, wrong } in actions {
             // No probability is outside 0 to 1: there is nothing to show.
             let room = if solution.rule.sign() > 0.0 {
@@ -193,7 +191,7 @@ impl<'a> Heights<'a> {
             }
             let plateau = self.of[i as usize];
             let same = |j: u32| j == i || (plateau != NONE && self.of[j as usize] == plateau);
-            let outcomes = component.outcomes(component.unknowns()[i as usize]);
+            let outcomes = solution.rows.outcomes(i as usize);
             // So that 2 w is more than the steps, too, that the policy can be expected to make.
             let least = if own { 0.5 } else { f64::NEG_INFINITY };
             let (mut height, mut moves) = ((wrong / delta).max(least), 0.0);

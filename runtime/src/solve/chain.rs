@@ -13,7 +13,8 @@
 
 use alloc::vec::Vec;
 
-use super::component::{Component, NONE};
+use super::component::NONE;
+use super::rows::Rows;
 
 /// The iterations of one correction at most: what they do not reach, the next correction does.
 const ITERATIONS: usize = 60;
@@ -27,6 +28,17 @@ pub(super) enum Factors {
     /// a slow world hardly changes (Gustafsson 1978). With σ_j the probability to have left when j is
     /// eliminated, d_i = leaving_i + Σ_{j < i} p_ij σ_j + Σ_{k > i} p_ik, without a subtraction.
     SumPreserving,
+}
+
+impl Factors {
+    /// The others.
+    #[inline]
+    pub(super) const fn other(self) -> Self {
+        match self {
+            Self::Plain => Self::SumPreserving,
+            Self::SumPreserving => Self::Plain,
+        }
+    }
 }
 
 /// The equations, divided by d.
@@ -48,7 +60,7 @@ pub(super) struct Chain {
 impl Chain {
     /// The system of a policy, which has an action for each unknown.
     #[inline]
-    pub(super) fn new(component: &Component<'_>, policy: &[u32], factors: Factors) -> Self {
+    pub(super) fn new(rows: &Rows<'_>, policy: &[u32], factors: Factors) -> Self {
         let n = policy.len();
         let mut chain = Self {
             first: Vec::with_capacity(n + 1),
@@ -62,13 +74,13 @@ impl Chain {
         let (mut way, mut sigma) = (Vec::with_capacity(n), Vec::with_capacity(n));
         let mut above = Vec::new();
         chain.first.push(0);
-        for (i, (&code, &a)) in component.unknowns().iter().zip(policy).enumerate() {
+        for (i, &a) in policy.iter().enumerate() {
             let (mut leaving, mut moving, mut back, mut left) = (0.0, 0.0, 0.0, 0.0);
             let mut leaves = false;
             above.clear();
-            for (p, target, _) in component.outcomes(code).of(a as usize) {
-                let (j, inside) = (target as usize, component.discount() * p);
-                leaving += if target == NONE { p } else { (1.0 - component.discount()) * p };
+            for (p, target, _) in rows.outcomes(i).of(a as usize) {
+                let (j, inside) = (target as usize, rows.discount() * p);
+                leaving += if target == NONE { p } else { (1.0 - rows.discount()) * p };
                 leaves |= target == NONE || j < i && way[j];
                 if j < i {
                     chain.column.push(target);
@@ -126,7 +138,7 @@ impl Chain {
 
     /// The unknowns that never leave, of the chain of this policy.
     #[inline]
-    pub(super) fn trapped(&self, component: &Component<'_>, policy: &[u32]) -> Vec<usize> {
+    pub(super) fn trapped(&self, rows: &Rows<'_>, policy: &[u32]) -> Vec<usize> {
         if self.leaves {
             return Vec::new();
         }
@@ -142,7 +154,7 @@ impl Chain {
                 before[*at as usize] = i as u32;
                 *at += 1;
             }
-            let mut outcomes = component.outcomes(component.unknowns()[i]).of(policy[i] as usize);
+            let mut outcomes = rows.outcomes(i).of(policy[i] as usize);
             if outcomes.any(|(_, target, _)| target == NONE) {
                 seen[i] = true;
                 found.push(i);

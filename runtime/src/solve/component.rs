@@ -90,7 +90,7 @@ impl<'a> Component<'a> {
     }
 
     #[inline]
-    fn split(&self, code: u32) -> (usize, usize) {
+    pub(super) fn split(&self, code: u32) -> (usize, usize) {
         if self.members.len() == 1 {
             return (0, code as usize);
         }
@@ -115,6 +115,13 @@ impl<'a> Component<'a> {
             target: &self.target[k * width..][..width],
             worth: &self.worth[k * width..][..width],
         }
+    }
+
+    /// All arrivals: what they enter, as it is numbered, and what they pay, with what they are worth where they
+    /// lead out.
+    #[inline]
+    pub(super) fn arrivals(&self) -> impl Iterator<Item = (u32, f64)> {
+        self.target.iter().copied().zip(self.worth.iter().copied())
     }
 
     /// The arrivals that lead out of the system, with what they are worth.
@@ -143,12 +150,6 @@ impl<'a> Component<'a> {
         let (all, number) =
             ((0..self.members.len()).map(move |j| j * width + s), self.number[code as usize]);
         all.filter(move |&arrival| self.target[arrival] == number)
-    }
-
-    /// What an arrival is worth that enters an unknown of this value.
-    #[inline]
-    pub(super) fn entering(&self, arrival: usize, x: f64) -> f64 {
-        self.worth[arrival] + self.discount * x
     }
 
     /// The number of the unknown with a code, or [`NONE`]; the code itself until they are chosen.
@@ -203,21 +204,6 @@ impl<'a> Component<'a> {
         self.unknowns.iter().map(of).collect()
     }
 
-    /// What each arrival is worth, given the unknowns.
-    #[inline]
-    pub(super) fn arrivals(&self, x: &[f64], arrivals: &mut Vec<f64>) {
-        let later = |&target: &u32| x.get(target as usize).map_or(0.0, |x| self.discount * x);
-        arrivals.clear();
-        arrivals.extend(self.worth.iter().zip(&self.target).map(|(worth, to)| worth + later(to)));
-    }
-
-    /// What arrivals are worth in the part of `arrivals` that a pair reads.
-    #[inline]
-    pub(super) fn part<'b>(&self, code: u32, arrivals: &'b [f64]) -> &'b [f64] {
-        let width = self.problem.dynamics.arrivals();
-        &arrivals[self.split(code).0 * width..][..width]
-    }
-
     /// The actions that `rule` allows in a pair.
     #[inline]
     pub(super) fn allowed<'b>(
@@ -235,8 +221,8 @@ impl<'a> Component<'a> {
 pub(super) struct Outcomes<'a> {
     pub(super) successors: &'a [u32],
     pub(super) matrix: &'a [f64],
-    target: &'a [u32],
-    worth: &'a [f64],
+    pub(super) target: &'a [u32],
+    pub(super) worth: &'a [f64],
 }
 
 impl<'a> Outcomes<'a> {

@@ -11,7 +11,8 @@
 
 use alloc::vec::Vec;
 
-use super::component::{Component, NONE};
+use super::component::NONE;
+use super::rows::Rows;
 
 /// The most unknowns of systems that are always eliminated.
 pub(super) const SMALL: usize = 64;
@@ -37,15 +38,11 @@ struct Row {
 
 /// The values of a policy, unless it is too much work; `cost` by code. Every unknown leaves in the end.
 #[inline]
-pub(super) fn eliminate(
-    component: &Component<'_>,
-    policy: &[u32],
-    cost: impl Fn(u32) -> f64,
-) -> Option<Vec<f64>> {
+pub(super) fn eliminate(equations: &Rows<'_>, policy: &[u32]) -> Option<Vec<f64>> {
     let (n, mut work) = (policy.len(), 0);
     // By unknown, those with smaller numbers that lead to it.
     let mut before = alloc::vec![Vec::new(); n];
-    let mut rows: Vec<Row> = (0..n).map(|i| row(component, policy, i, &cost)).collect();
+    let mut rows: Vec<Row> = (0..n).map(|i| row(equations, policy, i)).collect();
     for (i, row) in rows.iter().enumerate() {
         let later = row.entries.iter().filter(|(j, _)| *j as usize > i);
         later.for_each(|(j, _)| before[*j as usize].push(i));
@@ -73,16 +70,15 @@ pub(super) fn eliminate(
 
 /// The equation of an unknown.
 #[inline]
-fn row(component: &Component<'_>, policy: &[u32], i: usize, cost: &impl Fn(u32) -> f64) -> Row {
-    let code = component.unknowns()[i];
-    let mut row = Row { b: cost(code), ..Row::default() };
-    for (p, target, worth) in component.outcomes(code).of(policy[i] as usize) {
+fn row(equations: &Rows<'_>, policy: &[u32], i: usize) -> Row {
+    let mut row = Row { b: equations.cost(i), ..Row::default() };
+    for (p, target, worth) in equations.outcomes(i).of(policy[i] as usize) {
         row.b += p * worth;
         if target == NONE {
             row.out += p;
         } else {
-            row.out += (1.0 - component.discount()) * p;
-            row.entries.push((target, component.discount() * p));
+            row.out += (1.0 - equations.discount()) * p;
+            row.entries.push((target, equations.discount() * p));
         }
     }
     row.entries.retain(|&(j, _)| j as usize != i);

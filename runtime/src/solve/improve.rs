@@ -14,13 +14,15 @@ use super::Rule;
 use super::chain::{Chain, Factors};
 use super::component::{Component, NONE};
 use super::eliminate::{SMALL, eliminate};
+use super::rows::Rows;
 use super::rule::Choice;
 
 /// By how much an action must be better to be taken, relative to the values: ties are common, and rounding
 /// must not decide them again and again.
 const TIE: f64 = 1e-12;
 
-/// The residual, relative to the values, below which there is nothing to correct but rounding.
+/// The residual, relative to the values, below which there is nothing to correct but rounding. Where values
+/// slope, ties leave more.
 const DONE: f64 = 2e-15;
 
 /// How far a system is solved while the policy changes, where values slope; else; and in the end.
@@ -29,7 +31,11 @@ const TIGHT: f64 = 1e-10;
 const FULL: f64 = 1e-13;
 
 /// Sweeps between two systems: what becomes better beside one unknown makes the next one better.
-const SWEEPS: usize = 6;
+const SWEEPS: usize = 4;
+
+/// Unknowns from which on iterations are dear: their number grows with the way through the world, if factors
+/// do not treat smooth errors exactly.
+const WIDE: usize = 1 << 17;
 
 /// The rounds at most: policies improve each time, and few worlds take twenty.
 const ROUNDS: usize = 1000;
@@ -37,15 +43,17 @@ const ROUNDS: usize = 1000;
 /// Values and policy of the unknowns of a component.
 pub(super) struct Solution<'a> {
     pub(super) component: Component<'a>,
+    pub(super) rows: Rows<'a>,
     pub(super) rule: &'a Rule<'a>,
     pub(super) x: Vec<f64>,
     /// The action of each unknown.
     pub(super) policy: Vec<u32>,
-    arrivals: Vec<f64>,
+    places: Vec<f64>,
     /// By unknown: what the policy's action comes to, less the value.
     residual: Vec<f64>,
     /// The largest value; costs are compared with their own.
     scale: f64,
+    factors: Factors,
 }
 
 impl<'a> Solution<'a> {
@@ -60,8 +68,13 @@ impl<'a> Solution<'a> {
         let n = component.unknowns().len();
         let first = start.is_none();
         let x = start.unwrap_or_else(|| alloc::vec![0.0; n]);
-        let (arrivals, residual) = (Vec::new(), alloc::vec![0.0; n]);
-        let mut solution = Self { component, rule, x, policy, arrivals, residual, scale: 0.0 };
+        let (places, residual) = (Vec::new(), alloc::vec![0.0; n]);
+        let (rows, factors) = (Rows::new(&component, rule.costs), Factors::Plain);
+        let mut solution =
+            Self { component, rows, rule, x, policy, places, residual, scale: 0.0, factors };
+        if n >= WIDE && solution.slopes() {
+            solution.factors = Factors::SumPreserving;
+        }
         solution.solve(first);
         solution
     }
@@ -83,17 +96,16 @@ impl<'a> Solution<'a> {
             self.look();
             let size = self.size(chain);
             let small = self.x.len() <= SMALL;
-            if !changed && (small || size <= DONE || size > 0.5 * before) {
+            let settled = !changed && (small || size <= DONE || size > 0.5 * before);
+            if settled || self.slopes() && !small && size <= TIE {
                 break;
             }
             let loose = if self.slopes() { LOOSE } else { TIGHT };
             let full = (0.1 * DONE / size).max(FULL);
             let last = !changed || self.rule.is_policy();
             let reduction = if last { full } else { loose };
-            let converged = small && self.eliminate()
-                || chain.correct(&self.residual, &mut self.x, reduction)
-                || self.correct_otherwise(reduction)
-                || self.eliminate();
+            let converged =
+                small && self.eliminate() || self.correct(chain, reduction) || self.eliminate();
             if !converged && changed && round > 0 {
                 (self.x, self.policy) = solved;
                 break;
@@ -120,26 +132,45 @@ impl<'a> Solution<'a> {
         changed
     }
 
-    /// Corrects the values with the other factors; whether that was enough. Their residuals may be small
-    /// where the true ones are not, so these decide.
+    /// Corrects the values, with the other factors where these fail; whether that was enough.
     #[inline]
-    fn correct_otherwise(&mut self, reduction: f64) -> bool {
-        let chain = Chain::new(&self.component, &self.policy, Factors::SumPreserving);
+    fn correct(&mut self, chain: &mut Chain, reduction: f64) -> bool {
+        if self.attempt(chain, self.factors, reduction) {
+            return true;
+        }
+        let mut other = Chain::new(&self.rows, &self.policy, self.factors.other());
         self.look();
-        let (x, before) = (self.x.clone(), self.size(&chain));
+        let converged = self.attempt(&other, self.factors.other(), reduction);
+        if matches!(self.factors, Factors::SumPreserving) {
+            // Where they failed once, they mostly do again.
+            self.factors = Factors::Plain;
+            core::mem::swap(chain, &mut other);
+        }
+        converged
+    }
+
+    /// Corrects the values; whether that was enough. What factors that preserve sums leave may be small where
+    /// the true residuals are not, so these decide.
+    #[inline]
+    fn attempt(&mut self, chain: &Chain, factors: Factors, reduction: f64) -> bool {
+        if matches!(factors, Factors::Plain) {
+            return chain.correct(&self.residual, &mut self.x, reduction);
+        }
+        let (x, before) = (self.x.clone(), self.size(chain));
         let converged = chain.correct(&self.residual, &mut self.x, reduction);
         self.look();
-        if self.size(&chain) < before {
+        if self.size(chain) < before.min(1.0) {
             return converged;
         }
         self.x = x;
+        self.look();
         false
     }
 
     /// Finds the values by elimination, unless it is too much work.
     #[inline]
     fn eliminate(&mut self) -> bool {
-        let found = eliminate(&self.component, &self.policy, |code| self.cost(code));
+        let found = eliminate(&self.rows, &self.policy);
         found.map(|x| self.x = x).is_some()
     }
 
@@ -153,13 +184,13 @@ impl<'a> Solution<'a> {
     /// The system of the policy. Undiscounted, what would be trapped takes its former action back.
     #[inline]
     fn chain(&mut self, former: &[u32]) -> Chain {
-        let chain = Chain::new(&self.component, &self.policy, Factors::Plain);
-        let trapped = chain.trapped(&self.component, &self.policy);
+        let chain = Chain::new(&self.rows, &self.policy, self.factors);
+        let trapped = chain.trapped(&self.rows, &self.policy);
         if trapped.is_empty() || self.component.discount() < 1.0 {
             return chain;
         }
         trapped.iter().for_each(|&i| self.policy[i] = former[i]);
-        Chain::new(&self.component, &self.policy, Factors::Plain)
+        Chain::new(&self.rows, &self.policy, self.factors)
     }
 
     /// Numbers the unknowns by their values, in the direction in which the policy goes.
@@ -169,6 +200,8 @@ impl<'a> Solution<'a> {
         let mut order: Vec<u32> = (0..self.x.len() as u32).collect();
         order.sort_by(|&i, &j| (sign * self.x[i as usize]).total_cmp(&(sign * self.x[j as usize])));
         self.component.renumber(&order);
+        drop(core::mem::take(&mut self.rows));
+        self.rows = Rows::new(&self.component, self.rule.costs);
         let new = |old: &Vec<f64>| order.iter().map(|&i| old[i as usize]).collect();
         (self.x, solved.0) = (new(&self.x), new(&solved.0));
         let new = |old: &Vec<u32>| order.iter().map(|&i| old[i as usize]).collect();
@@ -198,22 +231,14 @@ impl<'a> Solution<'a> {
     /// Computes the residuals.
     #[inline]
     fn look(&mut self) {
-        let mut arrivals = core::mem::take(&mut self.arrivals);
-        self.component.arrivals(&self.x, &mut arrivals);
+        self.rows.places(&self.x, &mut self.places);
         self.rescale();
-        for (i, &code) in self.component.unknowns().iter().enumerate() {
-            let (outcomes, x) = (self.component.outcomes(code), self.x[i]);
-            let part = self.component.part(code, &arrivals);
+        for (i, &x) in self.x.iter().enumerate() {
+            let outcomes = self.rows.outcomes(i);
             let row = outcomes.successors.iter().zip(outcomes.row(self.policy[i] as usize));
-            let own: f64 = row.map(|(&at, p)| p * (part[at as usize] - x)).sum();
-            self.residual[i] = own + self.cost(code);
+            let own: f64 = row.map(|(&at, p)| p * (self.places[at as usize] - x)).sum();
+            self.residual[i] = own + self.rows.cost(i);
         }
-        self.arrivals = arrivals;
-    }
-
-    #[inline]
-    fn cost(&self, code: u32) -> f64 {
-        self.rule.costs.map_or(0.0, |costs| costs[self.component.pair(code)])
     }
 
     /// Takes actions that are better by more than `tie` and their values, one unknown after the other, so
@@ -223,17 +248,14 @@ impl<'a> Solution<'a> {
         if self.rule.is_policy() {
             return 0;
         }
-        let mut arrivals = core::mem::take(&mut self.arrivals);
-        self.component.arrivals(&self.x, &mut arrivals);
+        self.rows.places(&self.x, &mut self.places);
         self.rescale();
         let slopes = self.slopes();
         let (mut gathered, mut taken, sign) = (Vec::new(), 0, self.rule.sign());
         for (i, &code) in self.component.unknowns().iter().enumerate() {
-            let (outcomes, x) = (self.component.outcomes(code), self.x[i]);
-            let part = self.component.part(code, &arrivals);
+            let (outcomes, x) = (self.rows.outcomes(i), self.x[i]);
             gathered.clear();
-            gathered.extend(outcomes.successors.iter().map(|&at| part[at as usize] - x));
-            let pair = self.component.pair(code);
+            gathered.extend(outcomes.successors.iter().map(|&at| self.places[at as usize] - x));
             let own = sum(outcomes.row(self.policy[i] as usize), &gathered);
             let (mut best, mut most) = (self.policy[i], own);
             let tie = tie * self.unit(x);
@@ -247,7 +269,7 @@ impl<'a> Solution<'a> {
                 if better > 0.0
                     && sign * gain > sign * most
                     && (better > tie || better > tie * moving(a))
-                    && self.rule.allows(pair, a)
+                    && self.rule.allows(self.component.pair(code), a)
                 {
                     (best, most) = (a as u32, gain);
                 }
@@ -257,13 +279,12 @@ impl<'a> Solution<'a> {
             if !slopes {
                 continue;
             }
-            let value = x + most + self.cost(code);
+            let value = x + most + self.rows.cost(i);
             self.x[i] = value;
-            for arrival in self.component.entries(code) {
-                arrivals[arrival] = self.component.entering(arrival, value);
+            for place in self.rows.entries(i) {
+                self.places[place] = self.rows.entering(place, value);
             }
         }
-        self.arrivals = arrivals;
         taken
     }
 }

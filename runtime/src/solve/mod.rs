@@ -29,6 +29,7 @@ mod graph;
 mod improve;
 mod optimum;
 mod report;
+mod rows;
 mod rule;
 mod sets;
 
