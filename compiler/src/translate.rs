@@ -270,10 +270,36 @@ impl<'a> Translation<'a> {
     fn expand_formulas(&mut self) -> Result<(), Exceeded> {
         let needed = self.needed();
         for (id, formula) in self.spec.formulas().filter(|(id, _)| needed[id.0 as usize]) {
-            self.expansion[id.0 as usize] = self.expansion_of(id, formula);
+            self.expansion[id.0 as usize] = match formula {
+                Formula::And(..) | Formula::Or(..) => self.expansion_of_chain(id, formula)?,
+                _ => self.expansion_of(id, formula),
+            };
             self.check_nodes()?;
         }
         Ok(())
+    }
+
+    /// The expansion of a chain of `&&` or `||`.
+    ///
+    /// From the right: later operands mostly stand lower in the diagram, and each step then touches
+    /// only the top of the result so far. A result that leads to more demands than there may be
+    /// states is not carried on; they are counted as often as the diagram has doubled.
+    fn expansion_of_chain(&mut self, id: FormulaId, formula: Formula) -> Result<Bdd, Exceeded> {
+        let is_conjunction = matches!(formula, Formula::And(..));
+        let mut rest = if is_conjunction { Bdd::TRUE } else { Bdd::FALSE };
+        let mut counted = self.functions.nodes().len();
+        for &operand in self.chain(id).iter().rev() {
+            let operand = self.expansion[operand.0 as usize];
+            rest = match is_conjunction {
+                true => self.functions.and(operand, rest),
+                false => self.functions.or(operand, rest),
+            };
+            if self.functions.nodes().len() / 2 > counted {
+                counted = self.functions.nodes().len();
+                self.check_demands(rest)?;
+            }
+        }
+        Ok(rest)
     }
 
     /// The formulas whose expansion is used by itself. The inner `&&` of a chain of them is not: a
@@ -326,14 +352,7 @@ impl<'a> Translation<'a> {
             Formula::Literal { proposition, negated } => {
                 self.functions.literal((proposition, !negated))
             }
-            // From the right: later operands mostly stand lower in the diagram, and each step then
-            // touches only the top of the result so far.
-            Formula::And(..) => self.chain(id).iter().rev().fold(Bdd::TRUE, |rest, &operand| {
-                self.functions.and(self.expansion[operand.0 as usize], rest)
-            }),
-            Formula::Or(..) => self.chain(id).iter().rev().fold(Bdd::FALSE, |rest, &operand| {
-                self.functions.or(self.expansion[operand.0 as usize], rest)
-            }),
+            Formula::And(..) | Formula::Or(..) => unreachable!("expanded as chains"),
             Formula::Next(a) | Formula::Delay(1, a) => self.later(a),
             Formula::Delay(..) => self.again(id, formula),
             Formula::Within(0, a) | Formula::Throughout(0, a) => of(self, a),
@@ -466,9 +485,7 @@ impl<'a> Translation<'a> {
         }
         let mut transitions = Vec::new();
         while let Some(&root) = self.roots.get(transitions.len()) {
-            if self.demands(root) > 2 * self.budget.states {
-                return Err(Exceeded { what: Resource::States, limit: self.budget.states });
-            }
+            self.check_demands(root)?;
             let target = self.target(root);
             transitions.push(target);
             self.check_nodes()?;
@@ -484,14 +501,14 @@ impl<'a> Translation<'a> {
         })
     }
 
-    /// The number of demands that letters lead to from an expansion and that were not met before:
-    /// functions of obligations, of which only those with one expansion are one state. To count
-    /// them costs a step each, to expand those of a large conjunction a hundred times as much; so
-    /// what has twice as many as the automaton may have states is refused before.
-    fn demands(&self, root: Bdd) -> usize {
+    /// Checks the number of demands that letters lead to from an expansion and that were not met
+    /// before: functions of obligations, of which only those with one expansion are one state. To
+    /// count them costs a step each, to expand those of a large conjunction a hundred times as much;
+    /// so what has twice as many as the automaton may have states is refused before.
+    fn check_demands(&self, root: Bdd) -> Result<(), Exceeded> {
         let (most, mut demands) = (2 * self.budget.states, 0);
         if self.functions.nodes().len() <= most {
-            return 0;
+            return Ok(());
         }
         let (mut seen, mut stack) = (Seen::default(), vec![root]);
         while let Some(f) = stack.pop() {
@@ -505,7 +522,10 @@ impl<'a> Translation<'a> {
                 _ => demands += 1,
             }
         }
-        demands
+        match demands > most {
+            true => Err(Exceeded { what: Resource::States, limit: self.budget.states }),
+            false => Ok(()),
+        }
     }
 
     /// The transition function of an expansion: its part above the obligations, with states as

@@ -252,6 +252,8 @@ fn recordings_of_other_programs_are_read_or_named() {
         (b"{\"x\":0,\"y\":0,\"z\":\"\xe9\"}\n{\"x\":3,\"y\":2}", satisfied),
         (b"\xff\xfex\0,\0y\0\n\0", "this is UTF-16; save it as UTF-8"),
         (b"\0x\0,\0y\0\n", "this is UTF-16; save it as UTF-8"),
+        (b"x,\x07y\n0,0", "this is no text: its byte 3 is 0x07"),
+        (b"x,y\n0,0\n3,\0", "this is no text: its byte 11 is 0x00"),
         (
             b"PAR1\x15\x04",
             if cfg!(feature = "parquet") { "not Parquet" } else { "--features parquet" },
@@ -270,7 +272,7 @@ fn recordings_of_other_programs_are_read_or_named() {
 #[test]
 fn a_message_quotes_no_more_of_a_header_than_a_sentence_bears() {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("header.csv");
-    let noise: String = (0..100_000_u32).map(|i| ['q', '~', '\u{7}'][i as usize % 3]).collect();
+    let noise: String = (0..100_000_u32).map(|i| ['q', '~', '\u{1b}'][i as usize % 3]).collect();
     let columns = format!("{noise},{}\n", vec![&noise[..50]; 500].join(","));
     let twice = format!("{noise},{noise}\n");
     for (header, formula, map, shown) in [

@@ -16,14 +16,28 @@ pub(super) struct Lines<'a> {
 }
 
 impl<'a> Lines<'a> {
-    /// The lines of a text in UTF-8, behind its byte order mark if it has one.
+    /// The lines of a text in UTF-8, behind its byte order mark if it has one; an error if the file
+    /// begins as no text does.
     pub(super) fn new(name: &'a str, mut reader: Box<dyn BufRead + 'a>) -> Result<Self, String> {
         let first = reader.fill_buf().map_err(|error| unreadable(name, &error))?;
         if matches!(first, [0xff, 0xfe, ..] | [0xfe, 0xff, ..] | [0, _, ..] | [_, 0, ..]) {
             return Err(format!("{name}: this is UTF-16; save it as UTF-8"));
         }
         let ends = |byte: &u8| matches!(byte, b'\n' | b'\r');
-        let end = match first.iter().position(ends).map(|at| &first[at..]) {
+        let head = first.iter().position(ends);
+        // What stands in no line of names, or in no text at all.
+        let strange = |&(at, byte): &(usize, &u8)| {
+            let named = at < head.unwrap_or(first.len()) && !b"\t\x1b".contains(byte);
+            *byte == 0 || byte.is_ascii_control() && named
+        };
+        if let Some((at, byte)) = first.iter().enumerate().find(strange) {
+            return Err(format!(
+                "{name}: this is no text: its byte {} is 0x{byte:02x}; a recording is CSV, JSON or \
+                 Parquet",
+                at + 1
+            ));
+        }
+        let end = match head.map(|at| &first[at..]) {
             Some([b'\r', next, ..]) if *next != b'\n' => b'\r',
             _ => b'\n',
         };
