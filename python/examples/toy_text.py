@@ -64,16 +64,18 @@ def certified(name: str, steps: int, seed: int = 1) -> Certificate:
 
 
 def certified_network(steps: int, seed: int = 0) -> Certificate:
-    """What a network that PPO learned on the small lake is worth, by the same model."""
+    """What a network that PPO learned on the small lake, where nothing slips, is worth: exactly, too."""
     from stable_baselines3 import PPO
 
     from tltl.sb3 import tabulate
 
-    world, options, formula, labels, _ = WORLDS["FrozenLake"]
-    env = TaskEnv(gym.make(world, **options), formula, lambda env, obs, info: labels(int(obs)))
-    network = PPO("MlpPolicy", env, n_steps=256, ent_coef=0.02, seed=seed).learn(steps)
-    model, best = solved("FrozenLake")
-    return best.certify(tabulate(network, model, env))
+    world, _, formula, labels, _ = WORLDS["FrozenLake"]
+    holds: Any = lambda env, obs, info: labels(int(obs))  # noqa: E731
+    env = TaskEnv(gym.make(world, is_slippery=False), formula, holds, rewards="progress")
+    settings: Any = {"n_steps": 256, "batch_size": 256, "learning_rate": 3e-3, "ent_coef": 0.1}
+    network = PPO("MlpPolicy", env, seed=seed, **settings).learn(steps)
+    model = FiniteModel.from_env(env.env)
+    return solve(model, formula, labels).certify(tabulate(network, model, env))
 
 
 def main() -> None:
@@ -83,7 +85,7 @@ def main() -> None:
         import stable_baselines3  # noqa: F401
     except ImportError:
         return
-    print(f"FrozenLake: a network of PPO, 50,000 steps\n{certified_network(50_000)}\n")
+    print(f"FrozenLake, not slippery: a network of PPO, 30,000 steps\n{certified_network(30_000)}\n")
 
 
 if __name__ == "__main__":
