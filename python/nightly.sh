@@ -21,11 +21,13 @@ environment() {
     "$place/$name/bin/pip" install --force-reinstall --no-deps "$place"/dist/tltl-*.whl
 }
 
-# The tests beside the wheel: the sources in this directory have no compiled part of it.
+# The tests beside the wheel: the sources in this directory have no compiled part of it. Rows of test data are
+# where they are in the repository.
 tests() {
     local name="$1"
     shift
     cp -r tests examples README.md "$place/$name/"
+    mkdir -p "$place/tests" && cp -r ../tests/data "$place/tests/"
     (cd "$place/$name" && PYTHONPATH=examples bin/python -m pytest -q -rs -p no:cacheprovider --import-mode=append "$@")
 }
 
