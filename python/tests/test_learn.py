@@ -7,6 +7,7 @@ import copy
 import json
 import pickle
 import shutil
+import signal
 import subprocess
 import sys
 import threading
@@ -119,11 +120,14 @@ def test_settings_are_checked_by_name(lake: FiniteModel) -> None:
 
 
 def test_an_interrupt_loses_nothing(lake: FiniteModel) -> None:
+    # A shell that starts the tests in the background ignores interrupts for them.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
     learner = Learner(lake, "corner T goal", cells, seed=1)
     timer = threading.Timer(0.3, _thread.interrupt_main)
     timer.start()
     with pytest.raises(KeyboardInterrupt):
         learner.train(10**12)
+    signal.signal(signal.SIGINT, before)
     done = learner.steps
     assert 0 < done < 10**12
     again = Learner(lake, "corner T goal", cells, seed=1).train(done)
