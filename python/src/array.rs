@@ -28,7 +28,12 @@ macro_rules! array {
 
         impl<'py> Array<'py> {
             fn of(array: &Bound<'py, PyUntypedArray>) -> Option<Self> {
-                $(if let Ok(array) = array.cast::<PyArrayDyn<$number>>() {
+                let dtype = array.dtype();
+                let found = (dtype.kind(), dtype.itemsize());
+                // What is not of this kind and size is not asked whether it is of this type.
+                $(if found == (<$number as Reads>::KIND, size_of::<$number>())
+                    && let Ok(array) = array.cast::<PyArrayDyn<$number>>()
+                {
                     return array.try_readonly().ok().map(Self::$variant);
                 })*
                 None
@@ -42,7 +47,7 @@ macro_rules! array {
             }
 
             /// Which numbers are positive, or true, in C order; or the first that is not a number.
-            pub(crate) fn truths(&self) -> Result<Vec<bool>, usize> {
+            fn own_truths(&self) -> Result<Vec<bool>, usize> {
                 match self {
                     $(Self::$variant(array) => truths(&in_order(&array.as_array())),)*
                 }
@@ -58,9 +63,16 @@ macro_rules! array {
             }
 
             /// The numbers in C order, if they are whole and not negative.
-            pub(crate) fn naturals(&self) -> Option<Vec<u64>> {
+            fn own_naturals(&self) -> Option<Vec<u64>> {
                 match self {
                     $(Self::$variant(array) => naturals(&in_order(&array.as_array())),)*
+                }
+            }
+
+            /// The shape.
+            pub(crate) fn shape(&self) -> &[usize] {
+                match self {
+                    $(Self::$variant(array) => array.shape(),)*
                 }
             }
         }
@@ -93,6 +105,8 @@ fn naturals<T: Reads>(numbers: &[T]) -> Option<Vec<u64>> {
 
 /// A number as a truth value, and as an index.
 trait Reads: Copy {
+    /// What NumPy calls this kind of numbers.
+    const KIND: u8;
     /// Whether it is positive; `None` if it is not a number.
     fn truth(self) -> Option<bool>;
     /// Itself, if it is of a whole type and not negative.
@@ -102,8 +116,10 @@ trait Reads: Copy {
 }
 
 macro_rules! reads {
-    ($($float:ty)*; $($whole:ty)*) => {
+    ($($float:ty)*; $($whole:ty: $kind:literal)*) => {
         $(impl Reads for $float {
+            const KIND: u8 = b'f';
+
             fn truth(self) -> Option<bool> {
                 (!self.is_nan()).then_some(self > 0.0)
             }
@@ -117,6 +133,8 @@ macro_rules! reads {
             }
         })*
         $(impl Reads for $whole {
+            const KIND: u8 = $kind;
+
             fn truth(self) -> Option<bool> {
                 Some(self > 0)
             }
@@ -132,9 +150,11 @@ macro_rules! reads {
     };
 }
 
-reads! { f64 f32; i64 i32 i16 i8 u64 u32 u16 u8 }
+reads! { f64 f32; i64: b'i' i32: b'i' i16: b'i' i8: b'i' u64: b'u' u32: b'u' u16: b'u' u8: b'u' }
 
 impl Reads for bool {
+    const KIND: u8 = b'b';
+
     fn truth(self) -> Option<bool> {
         Some(self)
     }
@@ -177,11 +197,35 @@ impl<'a> View<'a> {
 
 impl<'py> Array<'py> {
     /// The numbers as automaton states, if they are stored as those are and less than `count`.
-    pub(crate) fn states(&self, count: u32) -> Option<Vec<u32>> {
+    pub(crate) fn states(&self, count: u32) -> Option<Cow<'_, [u32]>> {
         let Self::U32(array) = self else { return None };
-        let array = array.as_array();
-        let states = in_order(&array);
-        states.iter().all(|&q| q < count).then(|| states.to_vec())
+        let states = match array.as_array().to_slice() {
+            Some(slice) => Cow::Borrowed(slice),
+            None => Cow::Owned(array.as_array().iter().copied().collect()),
+        };
+        // A loop without an exit is one of vectors.
+        (states.iter().fold(0, |most, &q| most.max(q)) < count || states.is_empty())
+            .then_some(states)
+    }
+
+    /// Which numbers are positive, or true, in C order; or the first that is not a number.
+    pub(crate) fn truths(&self) -> Result<Cow<'_, [bool]>, usize> {
+        if let Self::Bool(array) = self
+            && let Some(slice) = array.as_array().to_slice()
+        {
+            return Ok(Cow::Borrowed(slice));
+        }
+        self.own_truths().map(Cow::Owned)
+    }
+
+    /// The numbers in C order, if they are whole and not negative.
+    pub(crate) fn naturals(&self) -> Option<Cow<'_, [u64]>> {
+        if let Self::U64(array) = self
+            && let Some(slice) = array.as_array().to_slice()
+        {
+            return Some(Cow::Borrowed(slice));
+        }
+        self.own_naturals().map(Cow::Owned)
     }
 
     /// The array `object`, which messages call `what`.

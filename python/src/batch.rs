@@ -1,8 +1,10 @@
 //! What a task reads: states, letters and trajectories, and what it makes of all of them at once.
 
+use std::borrow::Cow;
+
 use pyo3::exceptions::{PyIndexError, PyTypeError};
 use pyo3::prelude::*;
-use tltl::Acceptor;
+use tltl::{Acceptor, automaton};
 use tltlc::evaluate::{self, Columns, Scratch};
 
 use super::array::{Array, shaped};
@@ -12,10 +14,13 @@ use super::states::States;
 use super::task::Task;
 
 /// What each row reads: bits, or a truth value for each proposition.
-pub(crate) enum Letters {
-    Bits(Vec<u64>),
-    Labels(Vec<bool>),
+pub(crate) enum Letters<'a> {
+    Bits(Cow<'a, [u64]>),
+    Labels(Cow<'a, [bool]>),
 }
+
+/// Fewer moves than these are done before another thread could begin.
+const FEW: usize = 10_000;
 
 impl Task {
     /// Computes for each trajectory, without the GIL.
@@ -25,11 +30,7 @@ impl Task {
         states: &States<'_>,
         compute: impl Fn(&Columns<'_>, &mut Scratch) -> Result<T, evaluate::NotANumber> + Sync,
     ) -> PyResult<Vec<T>> {
-        let mut scratch = Scratch::default();
-        let results = states.trajectories(|rows, columns| {
-            let columns = Columns::new(rows, columns).expect("all have the rows of the shape");
-            py.detach(|| compute(&columns, &mut scratch))
-        });
+        let results = states.each(py, compute);
         results.map_err(|error| not_a_number(self.names(), error))
     }
 
@@ -51,15 +52,19 @@ impl Task {
     }
 
     pub(crate) fn states_of(&self, q: &Bound<'_, PyAny>) -> PyResult<Vec<u32>> {
-        let array = Array::new(q, "q")?;
-        if array.view().shape.len() != 1 {
+        self.states_in(&Array::new(q, "q")?).map(Cow::into_owned)
+    }
+
+    /// The automaton states of an array, in C order.
+    pub(crate) fn states_in<'a>(&self, q: &'a Array<'_>) -> PyResult<Cow<'a, [u32]>> {
+        if q.shape().len() != 1 {
             return Err(wrong("q: wanted is an array of shape (n,)"));
         }
         let count = u64::from(self.inner.states());
-        if let Some(states) = array.states(self.inner.states()) {
+        if let Some(states) = q.states(self.inner.states()) {
             return Ok(states);
         }
-        let states = array.naturals().ok_or_else(|| {
+        let states = q.naturals().ok_or_else(|| {
             PyTypeError::new_err("q: automaton states are whole numbers from 0 on")
         })?;
         match states.iter().position(|&q| q >= count) {
@@ -67,18 +72,20 @@ impl Task {
                 "q[{at}] is {}, and the automaton has {count} states",
                 states[at]
             ))),
-            None => Ok(states.into_iter().map(|q| q as u32).collect()),
+            None => Ok(states.iter().map(|&q| q as u32).collect()),
         }
     }
 
-    pub(crate) fn letters_of(&self, labels: &Bound<'_, PyAny>, rows: usize) -> PyResult<Letters> {
-        let array = Array::new(labels, "labels")?;
-        let (shape, width) = (array.view().shape, self.names().len());
-        match shape[..] {
+    pub(crate) fn letters_in<'a>(
+        &self,
+        labels: &'a Array<'_>,
+        rows: usize,
+    ) -> PyResult<Letters<'a>> {
+        let (shape, width) = (labels.shape(), self.names().len());
+        match *shape {
             [count] if count == rows => {
                 self.few_enough()?;
-                let bits = array.naturals();
-                bits.map(Letters::Bits).ok_or_else(|| {
+                labels.naturals().map(Letters::Bits).ok_or_else(|| {
                     PyTypeError::new_err(
                         "labels: letters are whole numbers whose bit i is proposition i; truth \
                          values have the shape (n, propositions)",
@@ -86,7 +93,7 @@ impl Task {
                 })
             }
             [count, own] if count == rows && own == width => {
-                labels::truths(self.names(), &array).map(Letters::Labels)
+                labels::truths(self.names(), labels).map(Letters::Labels)
             }
             _ => Err(wrong(format!(
                 "labels: an array of shape {shape:?}; wanted is ({rows}, {width}), truth values of \
@@ -95,11 +102,33 @@ impl Task {
         }
     }
 
+    /// Moves states, each on its own letter; without the GIL, if there are many.
+    pub(crate) fn step_all(&self, py: Python<'_>, q: &mut [u32], letters: &Letters<'_>) {
+        if q.len() < FEW {
+            self.move_all(q, letters)
+        } else {
+            py.detach(|| self.move_all(q, letters))
+        }
+    }
+
+    /// Moves states, each on its own letter.
+    pub(crate) fn move_all(&self, q: &mut [u32], letters: &Letters<'_>) {
+        let letters = match letters {
+            Letters::Bits(bits) => automaton::Letters::Bits(bits),
+            Letters::Labels(labels) => automaton::Letters::Labels(labels),
+        };
+        // To make the tables takes as long as some hundred moves.
+        match (q.len() >= 256).then(|| self.by_bytes()).flatten() {
+            Some(bytes) => bytes.step_batch(q, letters),
+            None => self.automaton().step_batch(q, letters),
+        }
+    }
+
     /// The robustness of the propositions in so many rows.
     pub(crate) fn rows_of(&self, labels: &Bound<'_, PyAny>, rows: usize) -> PyResult<Vec<f64>> {
         let array = Array::new(labels, "labels")?;
-        let (shape, width) = (array.view().shape, self.names().len());
-        if shape != [rows, width] {
+        let (shape, width) = (array.shape(), self.names().len());
+        if *shape != [rows, width] {
             let wanted = format!("wanted is ({rows}, {width})");
             return Err(wrong(format!("labels: an array of shape {shape:?}; {wanted}")));
         }

@@ -61,7 +61,7 @@ impl Factored {
                 )));
             }
         }
-        Ok((states.into_iter().map(|q| q as u32).collect(), shape))
+        Ok((states.iter().map(|&q| q as u32).collect(), shape))
     }
 
     /// A truth value for each state.
@@ -87,11 +87,7 @@ impl Factored {
         states: &States<'_>,
         compute: impl Fn(&Columns<'_>, &mut Scratch) -> Result<T, evaluate::NotANumber> + Sync,
     ) -> PyResult<Vec<T>> {
-        let mut scratch = Scratch::default();
-        let results = states.trajectories(|rows, columns| {
-            let columns = Columns::new(rows, columns).expect("all have the rows of the shape");
-            py.detach(|| compute(&columns, &mut scratch))
-        });
+        let results = states.each(py, compute);
         results.map_err(|error| not_a_number(&self.names(), error))
     }
 }
@@ -148,7 +144,8 @@ impl Factored {
         if shape.len() != 1 {
             return Err(wrong("q: one state is wanted; `step_batch` takes many"));
         }
-        let row = labels::row(&self.names(), labels)?;
+        let rho = labels::robustness(&self.names(), labels)?;
+        let row: Vec<bool> = rho.iter().map(|&rho| rho > 0.0).collect();
         self.inner.step_batch(&mut states, &row);
         shaped(q.py(), states, &shape)
     }

@@ -1,17 +1,61 @@
 //! What holds in a state: a mapping of names, the names of what holds, or an array in the order of
 //! the propositions. A number is a robustness, and holds if it is positive.
 
-use numpy::PyUntypedArray;
+use std::borrow::Cow;
+
+use numpy::{PyArray1, PyArrayMethods, PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyFloat, PyFrozenSet, PyMapping, PySet, PyString};
+use pyo3::types::{PyBool, PyDict, PyFloat, PyFrozenSet, PyMapping, PySet, PyString};
 use tltl::Shared;
 
 use super::array::Array;
 use super::error::wrong;
 use super::states::missing;
 
+/// What a task reads, with its names as Python has them: a dictionary finds those at once.
+pub(crate) struct Names {
+    names: Vec<Py<PyString>>,
+}
+
+impl Names {
+    pub(crate) fn new(propositions: &[Shared<str>]) -> Self {
+        let interned = |py: Python<'_>| {
+            propositions.iter().map(|name| PyString::intern(py, name).unbind()).collect()
+        };
+        Self { names: Python::attach(interned) }
+    }
+
+    /// The truth values of what is asked for at every step: a dictionary of truth values and numbers,
+    /// or an array of truth values. `None` for everything else, mistakes included.
+    fn of_known(&self, labels: &Bound<'_, PyAny>) -> Option<Vec<bool>> {
+        let py = labels.py();
+        if let Ok(mapping) = labels.cast_exact::<PyDict>() {
+            let truth = |name: &Py<PyString>| {
+                let value = mapping.get_item(name.bind(py)).ok()??;
+                if let Ok(truth) = value.cast_exact::<PyBool>() {
+                    return Some(truth.is_true());
+                }
+                let number = value.cast_exact::<PyFloat>().ok()?.value();
+                (!number.is_nan()).then_some(number > 0.0)
+            };
+            return self.names.iter().map(truth).collect();
+        }
+        let array = labels.cast::<PyArray1<bool>>().ok()?;
+        if array.len() != self.names.len() {
+            return None;
+        }
+        (0..self.names.len()).map(|i| array.get_owned(i)).collect()
+    }
+}
+
 /// One truth value for each of `propositions`.
-pub(crate) fn row(propositions: &[Shared<str>], labels: &Bound<'_, PyAny>) -> PyResult<Vec<bool>> {
+pub(crate) fn row(
+    (propositions, names): (&[Shared<str>], &Names),
+    labels: &Bound<'_, PyAny>,
+) -> PyResult<Vec<bool>> {
+    if let Some(row) = names.of_known(labels) {
+        return Ok(row);
+    }
     Ok(robustness(propositions, labels)?.into_iter().map(|rho| rho > 0.0).collect())
 }
 
@@ -32,7 +76,7 @@ pub(crate) fn robustness(
         return Err(wrong("labels: a text; wanted is a set of names, a mapping or an array"));
     }
     let array = Array::new(labels, "labels")?;
-    match array.view().shape[..] {
+    match *array.shape() {
         [count] if count == propositions.len() => {
             let rho = array.robustness();
             match rho.iter().position(|rho| rho.is_nan()) {
@@ -96,7 +140,10 @@ fn listed(propositions: &[Shared<str>]) -> String {
 }
 
 /// The numbers of an array whose last axis are `propositions`, as truth values in C order.
-pub(crate) fn truths(propositions: &[Shared<str>], array: &Array<'_>) -> PyResult<Vec<bool>> {
+pub(crate) fn truths<'a>(
+    propositions: &[Shared<str>],
+    array: &'a Array<'_>,
+) -> PyResult<Cow<'a, [bool]>> {
     array.truths().map_err(|at| {
         let width = propositions.len().max(1);
         let (row, name) = (at / width, &propositions[at % width]);

@@ -7,6 +7,7 @@
 //! | `labels` | what holds in a state, as mappings, names or arrays |
 //! | `task`, `batch`, `monitor`, `file`, `product`, `factored` | tasks |
 //! | `rewards` | what moves pay |
+//! | `follow` | what steps of a world are for a task |
 //! | `model`, `labelled` | finite worlds, and tasks on their states |
 //! | `solution`, `certificate`, `shield` | what is optimal, what policies are worth, what is allowed |
 //! | `settings`, `world`, `learner`, `policy`, `network` | learning, and what is learned |
@@ -27,6 +28,7 @@ mod document;
 mod error;
 mod factored;
 mod file;
+mod follow;
 mod labelled;
 mod labels;
 mod learner;
@@ -63,6 +65,8 @@ mod _core {
     use super::factored::Factored;
     #[pymodule_export]
     use super::file::{Parameter, TaskFile};
+    #[pymodule_export]
+    use super::follow::{follow, relabelled};
     #[pymodule_export]
     use super::learner::Learner;
     #[pymodule_export]

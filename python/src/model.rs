@@ -164,7 +164,7 @@ impl FiniteModel {
 /// The numbers of an argument, of one axis.
 fn numbers(object: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<f64>> {
     let array = Array::new(object, name)?;
-    match array.view().shape[..] {
+    match *array.shape() {
         [_] => Ok(array.robustness()),
         ref shape => Err(wrong(format!("{name}: an array of shape {shape:?}; wanted is one axis"))),
     }
@@ -173,7 +173,7 @@ fn numbers(object: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<f64>> {
 /// The indices of an argument, of one axis, none above `most`.
 fn indices(object: &Bound<'_, PyAny>, name: &str, most: usize) -> PyResult<Vec<usize>> {
     let array = Array::new(object, name)?;
-    if array.view().shape.len() != 1 {
+    if array.shape().len() != 1 {
         return Err(wrong(format!("{name}: wanted is an array of one axis")));
     }
     let found = array
@@ -181,7 +181,7 @@ fn indices(object: &Bound<'_, PyAny>, name: &str, most: usize) -> PyResult<Vec<u
         .ok_or_else(|| wrong(format!("{name}: wanted are whole numbers from 0 on")))?;
     match found.iter().position(|&index| index > most as u64) {
         Some(at) => Err(wrong(format!("{name}[{at}] is {}, and the largest is {most}", found[at]))),
-        None => Ok(found.into_iter().map(|index| index as usize).collect()),
+        None => Ok(found.iter().map(|&index| index as usize).collect()),
     }
 }
 

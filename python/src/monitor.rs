@@ -3,7 +3,6 @@
 use pyo3::prelude::*;
 use tltl::{Acceptor, Automaton};
 
-use super::labels;
 use super::task::Task;
 
 /// A task on its way.
@@ -47,10 +46,7 @@ impl Monitor {
 
     /// Reads what holds now; the state after it.
     fn observe(&mut self, labels: &Bound<'_, PyAny>) -> PyResult<u32> {
-        let row = labels::row(self.task.names(), labels)?;
-        let mut state = [self.state];
-        self.task.automaton().step_batch(&mut state, &row[..]);
-        self.state = state[0];
+        self.state = self.task.moved(self.state, &self.task.row(labels)?);
         Ok(self.state)
     }
 

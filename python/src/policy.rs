@@ -64,8 +64,8 @@ pub(crate) fn policy_of(
         pairs.map(|pair| policy.call1(pair)?.extract()).collect::<PyResult<_>>()?
     } else {
         let array = Array::new(policy, "policy")?;
-        let shape = array.view().shape;
-        if shape != [automaton, states] {
+        let shape = array.shape();
+        if *shape != [automaton, states] {
             return Err(wrong(format!(
                 "policy: an array of shape {shape:?}; wanted is ({automaton}, {states}), an action \
                  for each automaton state and state"
@@ -74,7 +74,7 @@ pub(crate) fn policy_of(
         let actions = array.naturals();
         let actions =
             actions.ok_or_else(|| wrong("policy: actions are whole numbers from 0 on"))?;
-        actions.into_iter().map(|a| usize::try_from(a).unwrap_or(usize::MAX)).collect()
+        actions.iter().map(|&a| usize::try_from(a).unwrap_or(usize::MAX)).collect()
     };
     Table::new(task, actions).map_err(|error| wrong(error.to_string()))
 }

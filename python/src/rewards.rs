@@ -136,7 +136,7 @@ impl Rewards {
             None => Ok(Vec::new()),
             Some(given) => {
                 let array = Array::new(given, name)?;
-                match array.view().shape[..] {
+                match *array.shape() {
                     [own] if own == count => Ok(array.robustness()),
                     ref shape => {
                         Err(wrong(format!("{name}: shape {shape:?}; q has {count} states")))

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use pyo3::prelude::*;
 use pyo3::types::PyMapping;
-use tltlc::evaluate::{Column, Input};
+use tltlc::evaluate::{Column, Columns, Input, NotANumber, Scratch};
 
 use super::array::{Array, View};
 use super::error::wrong;
@@ -39,7 +39,7 @@ impl<'py> States<'py> {
         for input in inputs {
             let object = named(mapping, &input.name)?;
             let name = format!("`{}`", input.name);
-            let own = Array::new(&object, &name)?.view().shape;
+            let own = Array::new(&object, &name)?.shape().to_vec();
             let array = Array::new(&at_least(&object, 1)?, &name)?;
             if shape.as_ref().is_some_and(|shape| *shape != own) {
                 let (first, name) = (&inputs[0].name, &input.name);
@@ -60,7 +60,7 @@ impl<'py> States<'py> {
         columns: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Self> {
         let array = Array::new(states, "states")?;
-        let mut shape = array.view().shape;
+        let mut shape = array.shape().to_vec();
         let Some(width) = shape.pop() else {
             return Err(wrong("states: a number; wanted is an array whose last axis is a state"));
         };
@@ -70,21 +70,34 @@ impl<'py> States<'py> {
         Ok(Self { arrays: vec![array], inputs, shape })
     }
 
-    /// Calls `each` with the columns of every trajectory: the rows along the last axis of the shape,
-    /// in C order of the others.
-    pub(crate) fn trajectories<T>(
+    /// Computes for each trajectory, without the GIL: once for all of them, for threads that wait for it
+    /// at every trajectory get in each other's way.
+    pub(crate) fn each<T: Send>(
         &self,
-        mut each: impl FnMut(usize, &[Column<'_>]) -> Result<T, tltlc::evaluate::NotANumber>,
-    ) -> Result<Vec<T>, tltlc::evaluate::NotANumber> {
+        py: Python<'_>,
+        compute: impl Fn(&Columns<'_>, &mut Scratch) -> Result<T, NotANumber> + Sync,
+    ) -> Result<Vec<T>, NotANumber> {
+        let rows = self.shape.last().copied().unwrap_or(1);
+        let all = self.columns();
+        py.detach(|| {
+            let mut scratch = Scratch::default();
+            let one = |columns: &Vec<Column<'_>>| {
+                let columns = Columns::new(rows, columns);
+                compute(&columns.expect("all have the rows of the shape"), &mut scratch)
+            };
+            all.iter().map(one).collect()
+        })
+    }
+
+    /// The columns of every trajectory: the rows along the last axis of the shape, in C order of the
+    /// others.
+    fn columns(&self) -> Vec<Vec<Column<'_>>> {
         let views: Vec<View<'_>> = self.arrays.iter().map(Array::view).collect();
         let along = self.shape.len().saturating_sub(1);
         let outer: &[usize] = &self.shape[..along];
-        let rows = self.shape.last().copied().unwrap_or(1);
-        let count = outer.iter().product();
-        let mut results = Vec::with_capacity(count);
-        for trajectory in 0..count {
+        let of_one = |trajectory| {
             let mut at = vec![0; along + 1];
-            let mut rest = trajectory;
+            let mut rest: usize = trajectory;
             for axis in (0..along).rev() {
                 at[axis] = rest % outer[axis];
                 rest /= outer[axis];
@@ -93,10 +106,9 @@ impl<'py> States<'py> {
                 let at: Vec<usize> = at.iter().copied().chain(place).collect();
                 views[array].column(along, &at)
             };
-            let columns: Vec<_> = self.inputs.iter().map(column).collect();
-            results.push(each(rows, &columns)?);
-        }
-        Ok(results)
+            self.inputs.iter().map(column).collect()
+        };
+        (0..outer.iter().product()).map(of_one).collect()
     }
 }
 

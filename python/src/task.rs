@@ -1,14 +1,16 @@
 //! `tltl.Task`: a task that is compiled while Python runs.
 
 use std::collections::hash_map::DefaultHasher;
+use std::convert::Infallible;
 use std::hash::{Hash, Hasher};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
-use numpy::{PyArray1, PyArrayMethods};
+use numpy::{PyArray1, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::basic::CompareOp;
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
+use tltl::automaton::ByBytes;
 use tltl::reward::Ends;
 use tltl::{Acceptor, Automaton, Shared, robustness};
 use tltl_compiler::dfa::Dfa;
@@ -19,12 +21,11 @@ use tltlc::explain;
 use tltlc::product::Operator;
 use tltlc::task::{self, Bound as Made, NotBare, RawProduct, TaskFile, Value, Verdict};
 
-use super::array::{frozen, shaped};
-use super::batch::Letters;
+use super::array::{Array, frozen, shaped};
 use super::certificate::preformatted;
 use super::error::{diagnostics, mistaken, warn, wrong};
 use super::factored::Factored;
-use super::labels;
+use super::labels::{self, Names};
 use super::states::States;
 use super::values::{Budget, Edge, Input, Run};
 
@@ -55,11 +56,36 @@ pub struct Task {
     budget: Budget,
     /// The tasks that it is the raw product of, if it is one.
     factors: Option<Arc<(Operator, Vec<Self>)>>,
+    known: Arc<Known>,
+}
+
+/// What is made once for all copies of a task.
+struct Known {
+    names: Names,
+    bytes: OnceLock<Option<ByBytes>>,
 }
 
 impl Task {
     pub(crate) fn of(inner: task::Task, budget: Budget) -> Self {
-        Self { ends: Arc::new(Ends::of(&inner)), inner, budget, factors: None }
+        let names = Names::new(inner.automaton().propositions());
+        let known = Arc::new(Known { names, bytes: OnceLock::new() });
+        Self { ends: Arc::new(Ends::of(&inner)), inner, budget, known, factors: None }
+    }
+
+    /// The automaton by bytes, if it is a diagram that is worth it.
+    pub(crate) fn by_bytes(&self) -> Option<&ByBytes> {
+        self.known.bytes.get_or_init(|| self.automaton().by_bytes()).as_ref()
+    }
+
+    /// The truth values of `labels`, in the order of the propositions.
+    pub(crate) fn row(&self, labels: &Bound<'_, PyAny>) -> PyResult<Vec<bool>> {
+        labels::row((self.names(), &self.known.names), labels)
+    }
+
+    /// The state after `q`, which is one.
+    pub(crate) fn moved(&self, q: u32, row: &[bool]) -> u32 {
+        let next = self.automaton().next(q, |i| Ok::<_, Infallible>(row[i]));
+        next.unwrap_or_else(|never| match never {})
     }
 
     /// The raw product of tasks, and for each of its states those of the tasks.
@@ -303,11 +329,7 @@ impl Task {
     ///
     /// Raises `ValueError` if a proposition is missing, `IndexError` if `q` is not a state.
     fn step(&self, q: i64, labels: &Bound<'_, PyAny>) -> PyResult<u32> {
-        let q = self.state(q)?;
-        let row = labels::row(self.names(), labels)?;
-        let mut state = [q];
-        self.automaton().step_batch(&mut state, &row[..]);
-        Ok(state[0])
+        Ok(self.moved(self.state(q)?, &self.row(labels)?))
     }
 
     /// What holds, in the order of `propositions`: bool, of shape (propositions,). `labels` as for
@@ -317,7 +339,7 @@ impl Task {
         py: Python<'py>,
         labels: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let row = labels::row(self.names(), labels)?;
+        let row = self.row(labels)?;
         let count = row.len();
         shaped(py, row, &[count])
     }
@@ -357,26 +379,45 @@ impl Task {
         labels: &Bound<'py, PyAny>,
         out: Option<&Bound<'py, PyArray1<u32>>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let mut states = self.states_of(q)?;
-        let letters = self.letters_of(labels, states.len())?;
-        py.detach(|| match &letters {
-            Letters::Bits(bits) => self.automaton().step_batch(&mut states, &bits[..]),
-            Letters::Labels(labels) => self.automaton().step_batch(&mut states, &labels[..]),
-        });
+        let labels = Array::new(labels, "labels")?;
+        if let Some(out) = out.filter(|out| out.is(q)) {
+            // In place, if that is an array of automaton states without gaps.
+            let count = out.len();
+            let letters = self.letters_in(&labels, count)?;
+            let mut target = out.try_readwrite().map_err(|_| read_only())?;
+            if let Ok(states) = target.as_slice_mut()
+                && states.iter().all(|&q| q < self.inner.states())
+            {
+                self.step_all(py, states, &letters);
+                return Ok(out.as_any().clone());
+            }
+        }
+        let q = Array::new(q, "q")?;
+        let states = self.states_in(&q)?;
+        let letters = self.letters_in(&labels, states.len())?;
         let Some(out) = out else {
-            let count = states.len();
+            let (count, mut states) = (states.len(), states.into_owned());
+            self.step_all(py, &mut states, &letters);
             return shaped(py, states, &[count]);
         };
-        let mut target = out.try_readwrite().map_err(|_| wrong("out: the array is read-only"))?;
-        let mut target = target.as_array_mut();
-        if target.len() != states.len() {
-            let (found, wanted) = (target.len(), states.len());
+        if out.len() != states.len() {
+            let (found, wanted) = (out.len(), states.len());
             return Err(wrong(format!("out: {found} states; wanted are {wanted}")));
         }
-        match target.as_slice_mut() {
-            Some(target) => target.copy_from_slice(&states),
-            None => target.iter_mut().zip(states).for_each(|(to, q)| *to = q),
+        if let Ok(mut target) = out.try_readwrite()
+            && let Ok(target) = target.as_slice_mut()
+        {
+            target.copy_from_slice(&states);
+            self.step_all(py, target, &letters);
+            return Ok(out.as_any().clone());
         }
+        // It has gaps, or shares its memory with what is read.
+        let mut states = states.into_owned();
+        self.step_all(py, &mut states, &letters);
+        drop(letters);
+        drop((labels, q));
+        let mut target = out.try_readwrite().map_err(|_| read_only())?;
+        target.as_array_mut().iter_mut().zip(states).for_each(|(to, q)| *to = q);
         Ok(out.as_any().clone())
     }
 
@@ -610,6 +651,10 @@ impl Task {
             Some(name) => format!("<Task {name} = {}>", self.text()),
         }
     }
+}
+
+fn read_only() -> PyErr {
+    wrong("out: the array is read-only")
 }
 
 /// A text that may be too large to be written.

@@ -92,6 +92,9 @@ def test_labels_of_all_layouts(layout: str, dtype: str) -> None:
     apart = np.zeros(100, dtype=np.uint32)[::2]
     task.step_batch(q, labels, out=apart)
     assert np.array_equal(apart, expected)
+    both = np.append(q, 0).astype(np.uint32)
+    task.step_batch(both[:-1], labels, out=both[1:])
+    assert np.array_equal(both[1:], expected), "what is read and written overlaps"
 
 
 def test_nothing_is_an_array_too() -> None:

@@ -116,13 +116,14 @@ def test_what_is_refused_says_what_to_do() -> None:
 @pytest.mark.parametrize("mode", MODES)
 def test_relabelled_steps_are_steps_of_the_task(mode: str) -> None:
     task, rng = Task("F a && F b ensuring !c"), np.random.default_rng(2)
-    rho = rng.normal(size=(50, 3))
-    reward, terminated = rng.normal(size=50), rng.random(50) < 0.2
+    n = 2_000
+    rho = rng.normal(size=(n, 3))
+    reward, terminated = rng.normal(size=n), rng.random(n) < 0.2
     rewards = Rewards(mode, environment=0.5, trap_penalty=1.0)
     seen = relabel(task, rho, rewards=rewards, reward=reward, terminated=terminated)
     live = [q for q in range(task.num_states) if q not in (task.accepting, task.trap)]
     rows = zip(seen.index, seen.q, seen.next_q, seen.reward, seen.terminated, strict=True)
-    expected = iter((i, q) for i in range(50) for q in live)
+    expected = iter((i, q) for i in range(n) for q in live)
     for (i, q, to, paid, over), pair in zip(rows, expected, strict=True):
         assert (i, q) == pair and to == task.step(int(q), rho[i])
         moved = task.progress_robustness(int(q), rho[i])
@@ -133,7 +134,7 @@ def test_relabelled_steps_are_steps_of_the_task(mode: str) -> None:
         assert over == (terminated[i] or to in (task.accepting, task.trap))
     drawn = relabel(task, rho, rewards=rewards, reward=reward, states=2, seed=7)
     again = relabel(task, rho, rewards=rewards, reward=reward, states=2, seed=7)
-    assert drawn.index.tolist() == np.repeat(np.arange(50), 2).tolist()
+    assert drawn.index.tolist() == np.repeat(np.arange(n), 2).tolist()
     assert np.array_equal(drawn.q, again.q) and set(drawn.q) <= set(live)
     with pytest.raises(ValueError, match=r"wanted is \(n, 3\): a, b, c"):
         relabel(task, rho[:, :2], rewards=rewards)

@@ -128,6 +128,18 @@ fn slices_pay_what_single_moves_pay() {
         };
         let mut paid = [0.0; 8];
         rewards.pay_all(&ends, &arrivals, &mut paid);
+        // Each kind of move is paid once where there are many.
+        let mut often = [0.0; 80];
+        let [robustness_often, reward_often] = [&robustness, &reward].map(|one| one.repeat(10));
+        let many = Arrivals {
+            q: &q.repeat(10),
+            to: &to.repeat(10),
+            robustness: &robustness_often,
+            reward: &reward_often,
+            terminated: &terminated.repeat(10),
+        };
+        rewards.pay_all(&ends, &many, &mut often);
+        assert!(often.chunks(8).all(|chunk| *chunk == paid), "{mode:?}");
         for (i, paid) in paid.into_iter().enumerate() {
             let (robustness, terminated) = (robustness[i], terminated[i]);
             let arrival =

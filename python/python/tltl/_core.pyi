@@ -43,8 +43,10 @@ __all__ = [
     "TaskFile",
     "__version__",
     "compose",
+    "follow",
     "main",
     "product",
+    "relabelled",
     "restore",
     "restore_product",
     "solve",
@@ -555,6 +557,36 @@ def restore_product(operator: str, operands: Sequence[Task], fingerprint: str) -
 def main(arguments: Sequence[str]) -> int:
     """Runs the command-line tool with these arguments, the name of the program first; its exit
     code.
+    """
+def follow(
+    task: Task,
+    rewards: Rewards,
+    q: int,
+    labels: Labels,
+    robust: Labels | None,
+    reward: float,
+    terminated: bool,
+) -> tuple[int, float, bool, dict[str, Any]]:
+    """What a step of the world is for the task in state `q`: the next state, what it pays, whether the
+    task is decided then, and what `info["tltl"]` says. For one state of an environment, what holds in
+    it is `labels`, or `robust` if the reward reads robustness.
+    """
+def relabelled(
+    task: Task,
+    rewards: Rewards,
+    next_labels: NDArray[Any],
+    reward: ArrayLike | None,
+    terminated: ArrayLike | None,
+    out: tuple[
+        NDArray[np.int64],
+        NDArray[np.uint32],
+        NDArray[np.uint32],
+        NDArray[np.float64],
+        NDArray[np.bool_],
+    ],
+) -> None:
+    """Writes the transitions that stored steps are in as many automaton states each, which are those of
+    `out[1]`; `next_labels` of shape (n, propositions), and `reward` and `terminated` of shape (n,).
     """
 
 @final

@@ -13,7 +13,7 @@ from warnings import warn
 import numpy as np
 from numpy.typing import NDArray
 
-from tltl._core import Rewards, Shield, Task
+from tltl._core import Rewards, Shield, Task, follow
 from tltl._errors import TaskWarning
 from tltl._labels import Labels
 
@@ -105,8 +105,6 @@ class TaskEnv(gym.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
         self._labels, self._columns = labels, columns
         self._terminate, self._on_decided_reset = terminate, on_decided_reset
         self._pays_rho = self.rewards.mode == "robustness"
-        self._moved = Rewards("progress")
-        self._distances = self.task.distances.tolist()
         self._observe, self.observation_space = observing(
             self.task, env.observation_space, observe, key
         )
@@ -139,9 +137,10 @@ class TaskEnv(gym.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
         while True:
             obs, info = self.env.reset(seed=seed if resampled == 0 else None, options=options)
             self._q = self.task.initial
-            told = self._read(obs, info)
+            _, decided, told = self._follow(obs, info)
             told["resampled"] = resampled
-            if not self._is_over(told) or self._on_decided_reset == "keep":
+            decided = decided and self._terminate
+            if not decided or self._on_decided_reset == "keep":
                 break
             if self._on_decided_reset == "raise":
                 raise RuntimeError(f"the task is decided at the start {obs!r}")
@@ -152,7 +151,7 @@ class TaskEnv(gym.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
         told["environment"] = 0.0
         self._see(obs)
         obs, info = self._observe(obs, self._q), {**info, "tltl": told}
-        self._last = (obs, info) if self._is_over(told) else None
+        self._last = (obs, info) if decided else None
         return obs, info
 
     def step(self, action: Any) -> tuple[Any, Any, bool, bool, dict[str, Any]]:
@@ -164,16 +163,10 @@ class TaskEnv(gym.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
             allowed = np.flatnonzero(self._mask).tolist()
             raise ValueError(f"the shield bars action {action}; it allows {allowed}: see action_masks()")
         obs, reward, terminated, truncated, info = self.env.step(action)
-        q = self._q
-        told = self._read(obs, info)
-        told["resampled"] = 0
-        told["terminated"], told["environment"] = bool(terminated), float(reward)
-        rho = told.get("rho")
-        paid = self.rewards.pay(
-            self.task, q, self._q, rho=rho, reward=float(reward), terminated=terminated
-        )
-        over = bool(terminated) or self._is_over(told)
-        self._see(obs)
+        paid, decided, told = self._follow(obs, info, float(reward), bool(terminated))
+        over = bool(terminated) or (decided and self._terminate)
+        if self._shield is not None:
+            self._see(obs)
         return self._observe(obs, self._q), paid, over, truncated, {**info, "tltl": told}
 
     @property
@@ -208,31 +201,23 @@ class TaskEnv(gym.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
             state = int(obs) if self._model_state is None else self._model_state(obs)
             self._mask = self._shield.mask(self._q, state)
 
-    def _is_over(self, told: dict[str, Any]) -> bool:
-        return self._terminate and bool(told["satisfied"] or told["lost"])
-
-    def _read(self, obs: Any, info: dict[str, Any]) -> dict[str, Any]:
-        """Moves the automaton by what holds now, and says where it is."""
-        task, q = self.task, self._q
-        told: dict[str, Any] = {}
+    def _follow(
+        self, obs: Any, info: dict[str, Any], reward: float = 0.0, terminated: bool = False
+    ) -> tuple[float, bool, dict[str, Any]]:
+        """Moves the automaton by what holds now: the pay, whether it is decided, and where it is."""
+        holds: Labels
+        robust: Labels | None = None
         if self._labels is None:
             row = spaces.flatten(self.env.observation_space, obs)
-            holds: Labels = task.labels(row, columns=self._columns)
-            robust: Labels = task.rho(row, columns=self._columns) if self._pays_rho else holds
+            holds = self.task.labels(row, columns=self._columns)
+            if self._pays_rho:
+                robust = self.task.rho(row, columns=self._columns)
         else:
-            holds = robust = self._labels(self.env, obs, info)
-        if self._pays_rho:
-            told["rho"] = task.progress_robustness(q, robust)
-        valuation = task.valuation(holds)
-        self._q = task.step(q, valuation)
-        return told | {
-            "state": self._q,
-            "satisfied": self._q == task.accepting,
-            "lost": self._q == task.trap,
-            "progress": self._moved.pay(task, q, self._q) > 0,
-            "distance": self._distances[self._q],
-            "labels": valuation,
-        }
+            holds = self._labels(self.env, obs, info)
+        self._q, paid, decided, told = follow(
+            self.task, self.rewards, self._q, holds, robust, reward, terminated
+        )
+        return paid, decided, told
 
 
 def has_a_way_back(task: Task) -> bool:
@@ -278,14 +263,11 @@ def flat(
         for end, hot in ((box.low, 0), (box.high, 1))
     )
 
-    size, is_box = box.shape[0], isinstance(base, spaces.Box)
+    hot, is_box = list(states), isinstance(base, spaces.Box) and base.shape == box.shape
 
     def joined(obs: Any, q: int) -> Any:
-        whole = np.empty(len(low), dtype)
-        flattened: Any = np.ravel(obs) if is_box else spaces.flatten(base, obs)
-        whole[:size] = flattened
-        whole[size:] = states[q]
-        return whole
+        flattened: Any = obs if is_box else spaces.flatten(base, obs)
+        return np.concatenate((flattened, hot[q]), dtype=dtype, casting="unsafe")
 
     return joined, spaces.Box(low, high, dtype=dtype.type)
 

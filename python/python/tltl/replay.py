@@ -13,7 +13,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from tltl._core import Product, Rewards, Task
+from tltl._core import Product, Rewards, Task, relabelled
 
 __all__ = ["Relabelled", "relabel"]
 
@@ -71,16 +71,13 @@ def relabel(
     else:
         each = states if len(live) else 0
         q = np.random.default_rng(seed).choice(live, each * steps) if each else live
-    index = np.repeat(np.arange(steps), each)
-    rows = rho[index]
-    next_q = task.step_batch(q, rows)
-    over = np.zeros(steps, bool) if terminated is None else np.asarray(terminated, bool)
-    given: Any = np.zeros(steps) if reward is None else np.asarray(reward)
-    progress = task.progress_robustness(q, rows) if rewards.mode == "robustness" else None
-    paid = rewards.pay(
-        task, q, next_q, rho=progress, reward=given[index], terminated=over[index]
-    )
-    return Relabelled(index, q, next_q, paid, over[index] | is_end[next_q])
+    m = len(q)
+    # NumPy's own arrays lie in large pages, where they are large: to touch the small ones of others
+    # takes as long as all the rest.
+    index, next_q = np.empty(m, np.int64), np.empty(m, np.uint32)
+    paid, over = np.empty(m, np.float64), np.empty(m, np.bool_)
+    relabelled(task, rewards, rho, reward, terminated, (index, q, next_q, paid, over))
+    return Relabelled(index, q, next_q, paid, over)
 
 
 def ends(task: Task) -> tuple[int | None, int | None]:

@@ -131,19 +131,21 @@ impl Automaton {
         match (&self.tables.transitions, letters) {
             (Transitions::Table { class, .. }, Letters::Bits(bits)) => {
                 let mask = class.len() - 1;
-                self.walk_letters(|row| bits[row] as usize & mask, walk);
+                self.walk_letters(bits.iter().map(|&bits| bits as usize & mask), walk);
             }
             (Transitions::Table { .. }, Letters::Labels(labels)) => {
-                self.walk_letters(|row| packed(labels, row * count, count), walk);
+                let letter = |row| packed(labels, row * count, count);
+                self.walk_letters((0..rows).map(letter), walk);
             }
             (Transitions::Diagram { nodes, roots }, Letters::Bits(bits)) => {
                 let (nodes, roots): (&[[u32; 3]], &[u32]) = (nodes, roots);
-                walk.walk(|q, row| descend(nodes, roots[q as usize], |i| bits[row] >> i & 1 == 1));
+                walk.walk(bits.iter(), |q, bits| {
+                    descend(nodes, roots[q as usize], |i| bits >> i & 1 == 1)
+                });
             }
             (Transitions::Diagram { nodes, roots }, Letters::Labels(labels)) => {
                 let (nodes, roots): (&[[u32; 3]], &[u32]) = (nodes, roots);
-                walk.walk(|q, row| {
-                    let labels = &labels[row * count..][..count];
+                walk.walk((0..rows).map(|row| &labels[row * count..][..count]), |q, labels| {
                     descend(nodes, roots[q as usize], |i| labels[i])
                 });
             }
@@ -152,10 +154,10 @@ impl Automaton {
 
     /// The same through a table, which has a letter for each row. What its form is, is asked once.
     #[inline]
-    fn walk_letters(&self, letter: impl Fn(usize) -> usize, walk: impl Walk) {
+    fn walk_letters(&self, letters: impl Iterator<Item = usize>, walk: impl Walk) {
         match self.shifts {
-            Some(shifts) => walk.walk(|q, row| shifted(&shifts, q, letter(row))),
-            None => walk.walk(|q, row| self.look_up(q, letter(row))),
+            Some(shifts) => walk.walk(letters, |q, letter| shifted(&shifts, q, letter)),
+            None => walk.walk(letters, |q, letter| self.look_up(q, letter)),
         }
     }
 }
@@ -164,19 +166,24 @@ impl Automaton {
 /// read at once where there are so many, and gathered by one multiplication.
 #[inline(always)]
 pub(super) fn packed(labels: &[bool], first: usize, count: usize) -> usize {
-    let mut letter = 0;
-    for at in (0..count).step_by(8) {
-        let labels = &labels[first + at..];
-        let bits = match labels.first_chunk::<8>() {
+    let eight = |first: usize, count: usize| {
+        let bits = match labels.get(first..first + 8).and_then(|labels| labels.first_chunk::<8>()) {
             Some(eight) => {
                 let eight = u64::from_le_bytes(eight.map(u8::from));
                 eight.wrapping_mul(0x0102_0408_1020_4080) >> 56
             }
-            None => labels.iter().rev().fold(0, |bits, &holds| bits << 1 | u64::from(holds)),
+            None => {
+                let labels = labels[first..][..count].iter().rev();
+                labels.fold(0, |bits, &holds| bits << 1 | u64::from(holds))
+            }
         };
-        letter |= (bits as usize) << at;
+        bits as usize & ((1 << count) - 1)
+    };
+    if count <= 8 {
+        return eight(first, count);
     }
-    letter & ((1 << count) - 1)
+    let bytes = (0..count).step_by(8);
+    bytes.fold(0, |bits, at| bits | eight(first + at, (count - at).min(8)) << at)
 }
 
 /// The state that a reference of a diagram leads to. To compute the next reference's place costs
@@ -189,12 +196,12 @@ fn descend(nodes: &[[u32; 3]], mut at: u32, holds: impl Fn(usize) -> bool) -> u3
     at & !Transitions::LEAF
 }
 
-/// A use of the transition function, which is given as the state after `q` has read the letter of a
-/// row. A trait, for a closure cannot take a closure of any type.
+/// A use of the transition function, which is given as the state after `q` has read a letter of a row,
+/// and of the letters of all rows. A trait, for a closure cannot take a closure of any type.
 trait Walk {
     /// Panics if it does not begin at states of the automaton.
     fn expect(&self, automaton: &Automaton);
-    fn walk(self, next: impl Fn(u32, usize) -> u32);
+    fn walk<L>(self, letters: impl Iterator<Item = L>, next: impl Fn(u32, L) -> u32);
 }
 
 /// Every state for itself.
@@ -207,8 +214,8 @@ impl Walk for Each<'_> {
     }
 
     #[inline]
-    fn walk(self, next: impl Fn(u32, usize) -> u32) {
-        self.0.iter_mut().enumerate().for_each(|(row, q)| *q = next(*q, row));
+    fn walk<L>(self, letters: impl Iterator<Item = L>, next: impl Fn(u32, L) -> u32) {
+        self.0.iter_mut().zip(letters).for_each(|(q, letter)| *q = next(*q, letter));
     }
 }
 
@@ -225,10 +232,10 @@ impl Walk for Along<'_> {
     }
 
     #[inline]
-    fn walk(self, next: impl Fn(u32, usize) -> u32) {
+    fn walk<L>(self, letters: impl Iterator<Item = L>, next: impl Fn(u32, L) -> u32) {
         let mut q = self.q;
-        for (row, state) in self.states.iter_mut().enumerate() {
-            q = next(q, row);
+        for (state, letter) in self.states.iter_mut().zip(letters) {
+            q = next(q, letter);
             *state = q;
         }
     }
