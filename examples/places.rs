@@ -23,7 +23,7 @@ impl Place {
     }
 }
 
-/// A finite world of places; an episode starts at any of them.
+/// A finite world of places; an episode starts at any of them, unless [one](World::from_the_last) is chosen.
 #[derive(Clone, Debug)]
 pub struct World {
     /// What it is called.
@@ -32,9 +32,18 @@ pub struct World {
     actions: usize,
     /// The outcomes of each `place * actions + action`.
     outcomes: Vec<Vec<(usize, f64)>>,
+    /// Where all episodes start, if at one place.
+    start: Option<usize>,
 }
 
 impl World {
+    /// The same, all episodes starting at the last empty place.
+    #[must_use]
+    pub fn from_the_last(&self) -> Self {
+        let start = self.places.iter().rposition(|place| *place == Place::default());
+        Self { start, ..self.clone() }
+    }
+
     /// A map, row by row: `#` is a wall, `.` an empty place, a letter what is there. The actions are
     /// up, down, left, right and stay; one time in `1 / slip` a random one of the five is taken.
     fn map(name: &'static str, slip: f64, rows: &[&str]) -> Self {
@@ -67,6 +76,7 @@ impl World {
             places: cells.iter().map(|&(x, y)| Place::of(mark(x, y).unwrap_or(b'.'))).collect(),
             actions: MOVES.len(),
             outcomes: cells.iter().flat_map(outcomes).collect(),
+            start: None,
         }
     }
 
@@ -79,7 +89,7 @@ impl World {
             let to = |by: usize| (cell / 3 + by).saturating_sub(1).min(last);
             (0..3).map(|by| (to(by), if by == cell % 3 { 0.8 } else { 0.1 })).collect()
         });
-        Self { name, actions: 3, outcomes: outcomes.collect(), places }
+        Self { name, actions: 3, outcomes: outcomes.collect(), places, start: None }
     }
 
     /// A world without geometry: each action of each place leads to three places by chance.
@@ -93,6 +103,7 @@ impl World {
             actions: 4,
             outcomes: (0..places.len() * 4).map(&mut outcome).collect(),
             places,
+            start: None,
         }
     }
 }
@@ -117,6 +128,10 @@ impl FiniteModel for World {
 
     fn transitions(&self, s: usize, a: usize, mut outcome: impl FnMut(usize, f64)) {
         self.outcomes[s * self.actions + a].iter().for_each(|&(to, p)| outcome(to, p));
+    }
+
+    fn start(&self, s: usize) -> f64 {
+        f64::from(u8::from(self.start.is_none_or(|start| s == start)))
     }
 }
 

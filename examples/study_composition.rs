@@ -20,10 +20,9 @@ const METHODS: [&str; 6] =
 
 /// What stands below each figure.
 const REMARKS: [&str; 3] = [
-    "Sum, normalised sum, max: of the two skills' values. Compensated: the sum less what both \
-     skills are paid for.",
-    "Refined: value iteration on the product, from the compensated values. From scratch: learned \
-     without skills.",
+    "Sum, normalised sum, max: of the two skills' values. Compensated: the values, in the product, \
+     of the sum's policy.",
+    "Refined: the optimum of the product for the reward. From scratch: learned without skills.",
     "Each curve has its own order of the layouts: it says how many lose no more than so much.",
 ];
 
@@ -85,7 +84,7 @@ fn scratch(task: &Labelled, seed: u64) -> QTable {
     let settings = Settings::default().with_rewards(Rewards::progress());
     let mut learner = Learner::new(task, settings, seed);
     learner.train(&mut env, SCRATCH).expect("the same grid");
-    learner.table().clone()
+    learner.q()
 }
 
 /// One line of the table.
@@ -172,7 +171,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         "# Composition of two skills\n\n![Excess steps without traps](composition_steps.svg)\n\n\
          ![Lost safety with traps](composition_traps.svg)\n\nTwo skills that are exact optima for \
          `Progress` (γ 0.95) are composed on the paper's 8 × 10 grid. Learning from scratch takes \
-         {SCRATCH} environment steps with the default settings. P regret is the largest possible \
+         {SCRATCH} environment steps with the default settings, paid by `Progress`. P regret is the largest possible \
          P(satisfied) minus that of the greedy policy, in percent. Excess steps are E[steps given \
          success] over the fewest possible; they are negative where a policy gives up P for \
          speed. `Progress` pays for each edge, so its optimum may have neither the largest P nor \

@@ -107,8 +107,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         "# Learning curves\n\n![Learning curves](curves.svg)\n\nThe curves show the expected \
          steps of the greedy policy on `F a && F b`, computed exactly for each policy, with \
          episodes cut at {HORIZON}. They are means over {SEEDS} seeds with Student's 95 % \
-         interval. All learners explore at random. What the default settings learn is the world as \
-         it was seen, solved; the others hand out the greedy policy of their table. The optimum is 12.2002. Written by `cargo run \
+         interval. The default settings explore by coverage, the others at random. What the default \
+         learns is the world as it was seen, solved; the others hand out the greedy policy of their \
+         table. The optimum is 12.2002. Written by `cargo run \
          --release --example study_curves`.\n\n{table}"
     );
     study.publish(".svg", &chart::svg(&title, &[row], &remarks))?;

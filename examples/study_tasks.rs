@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 
 use serde::{Deserialize, Serialize};
 use serde_json::json;
-use tltl::learn::Memory;
+use tltl::learn::{Exploration, Memory};
 use tltl::prelude::*;
 use tltl::reward::End;
 use tltl_examples::places::{Place, World, worlds};
@@ -18,7 +18,7 @@ include_tltl!("tasks/places.tltl", state = tltl_examples::places::Place);
 const SEEDS: u64 = 5;
 /// Environment steps of training for each place and action: of a task that cannot be lost, of one that
 /// can, and of one that can in a world of at most 25 places, where one place is much of the mean.
-const VISITS: [u64; 3] = [5_000, 20_000, 100_000];
+const VISITS: [u64; 3] = [5_000, 20_000, 200_000];
 /// What is given away at most: of P(satisfied), and of the steps.
 const BOUNDS: [f64; 2] = [1e-3, 1e-2];
 /// The γ with which a table alone learns.
@@ -41,6 +41,18 @@ fn tasks() -> Vec<Box<dyn Monitor<Place> + Send + Sync>> {
         Box::new(places::both_and_safe()),
     ]
 }
+
+/// Ways to explore: how, whether all episodes start at one place, and one of how many steps is taken.
+const EXPLORED: [(Exploration, bool, u64); 5] = {
+    use Exploration::{Coverage, Random};
+    [
+        (Coverage, false, 1),
+        (Coverage, false, 16),
+        (Random, false, 16),
+        (Coverage, true, 16),
+        (Random, true, 16),
+    ]
+};
 
 /// Ways to choose a policy on the world as it was seen, and how many steps' worth of P each takes.
 const WAYS: [(&str, Price); 7] = [
@@ -96,6 +108,29 @@ struct Case {
     ways: Vec<Vec<Regret>>,
     /// Of the table alone, at one seed.
     table: Regret,
+    /// For each way to explore but the first, the default, one for each seed.
+    explored: Vec<Vec<Regret>>,
+}
+
+/// What is learned of `task` by a way to explore, one for each seed.
+fn explored(
+    world: &World,
+    task: &Labelled,
+    training: u64,
+    (exploration, one_start, part): (Exploration, bool, u64),
+) -> Vec<Regret> {
+    let world = if one_start { world.from_the_last() } else { world.clone() };
+    let mut env = ModelEnv::new(&world).expect("a model");
+    let problem = Problem::new(env.dynamics(), task).expect("its world");
+    let optimum = problem.optimum(&Rewards::default());
+    let settings = Settings::default().with_exploration(exploration);
+    let learn = |seed| {
+        let mut learner = Learner::new(task, settings, seed);
+        learner.train(&mut env, training / part).expect("its world");
+        let worth = optimum.certify(&learner.policy()).expect("its task");
+        (worth.regret_satisfied, worth.regret_steps)
+    };
+    (0..SEEDS).map(learn).collect()
 }
 
 fn case(world: &World, task: &dyn Monitor<Place>) -> Case {
@@ -130,7 +165,8 @@ fn case(world: &World, task: &dyn Monitor<Place>) -> Case {
     let alone = Settings::default().with_memory(Memory::None).with_rewards(slow);
     let (satisfied, steps) = (optimum.best().mean_satisfied(), optimum.best().mean_steps());
     let table = regret(&train(alone, 0).policy());
-    Case { training, can_be_lost, satisfied, steps, learned, ways, table }
+    let explored = EXPLORED[1..].iter().map(|&way| explored(world, &task, training, way)).collect();
+    Case { training, can_be_lost, satisfied, steps, learned, ways, table, explored }
 }
 
 /// The worst of some regrets; in steps, of those that succeed.
@@ -237,6 +273,34 @@ fn alternatives(cases: &[Case]) -> String {
     text
 }
 
+/// What each way to explore gives away, on all tasks.
+fn explorations(cases: &[Case]) -> String {
+    let mut text = "| exploration | starts | steps | P regret, worst % | steps regret, worst % | \
+                    over 0.1 % of P | over 1 % of the steps |\n\
+                    | --- | --- | --- | --- | --- | --- | --- |\n"
+        .to_owned();
+    for (i, (exploration, one_start, part)) in EXPLORED.into_iter().enumerate() {
+        let found = |case: &Case| match i.checked_sub(1) {
+            None => worst(&case.learned),
+            Some(i) => worst(&case.explored[i]),
+        };
+        let each: Vec<[f64; 2]> = cases.iter().map(found).collect();
+        let of = |j: usize| each.iter().map(|worst| worst[j]).fold(f64::NEG_INFINITY, f64::max);
+        let over = |j: usize| each.iter().filter(|worst| worst[j] > BOUNDS[j]).count();
+        let starts = if one_start { "one" } else { "all" };
+        let steps = if part == 1 { "as above".to_owned() } else { format!("1/{part} of that") };
+        let _ = writeln!(
+            text,
+            "| {exploration:?} | {starts} | {steps} | {} | {} | {} | {} |",
+            percent(of(0), 3),
+            percent(of(1), 1),
+            over(0),
+            over(1)
+        );
+    }
+    text
+}
+
 fn document(cases: &[Case]) -> String {
     let lost = cases.iter().filter(|case| case.can_be_lost).count();
     let mut text = format!(
@@ -275,12 +339,19 @@ fn document(cases: &[Case]) -> String {
          together.\n\n{}",
         alternatives(cases)
     );
+    let _ = writeln!(
+        text,
+        "## Exploration\n\nAll {} cells, learned by chance and by coverage, with all starts and with \
+         one, the last empty place.\n\n{}",
+        cases.len(),
+        explorations(cases)
+    );
     text
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (worlds, tasks) = (worlds(), tasks());
-    let study = Study::new("tasks", &(SEEDS, VISITS, GAMMA, WAYS, worlds.len()));
+    let study = Study::new("tasks", &(SEEDS, VISITS, GAMMA, WAYS, EXPLORED, worlds.len()));
     let count = tasks.len();
     let cases = study.run((worlds.len() * count) as u64, |number| {
         let (world, task) = (number as usize / count, number as usize % count);

@@ -57,10 +57,11 @@ impl Skill {
     }
 }
 
-/// The world that is composed on: that of a solution, which is exact, or what all learners have seen.
-fn world_of(skills: &[Skill]) -> PyResult<Dynamics> {
+/// The world that is composed on, and whether it was counted: that of a solution, which is exact, or what
+/// all learners have seen.
+fn world_of(skills: &[Skill]) -> PyResult<(Dynamics, bool)> {
     if let Some(world) = skills.iter().find_map(|skill| skill.world.clone()) {
-        return Ok(world);
+        return Ok((world, false));
     }
     let mut all: Option<Experience> = None;
     for seen in skills.iter().filter_map(|skill| skill.seen.as_ref()) {
@@ -70,7 +71,8 @@ fn world_of(skills: &[Skill]) -> PyResult<Dynamics> {
         }
     }
     let all = all.ok_or_else(|| wrong("skills: none of the learners remembers what it saw"))?;
-    Dynamics::new(&all).map_err(|error| wrong(error.to_string()))
+    let seen = Dynamics::new(&all).map_err(|error| wrong(error.to_string()))?;
+    Ok((seen, true))
 }
 
 /// Composes skills (Algorithm 2 of the paper) without a step in the world: the conjunction (`"and"`),
@@ -101,13 +103,14 @@ pub(crate) fn compose(
     if skills.iter().any(|skill| skill.rewards != first.rewards) {
         return Err(wrong("skills: their values are for different rewards, and cannot be added"));
     }
-    let world = world_of(&skills)?;
+    let (world, is_counted) = world_of(&skills)?;
     let rewards = first.rewards;
     let steps = py.detach(|| {
         let tables: Vec<&QTable> = skills.iter().map(|skill| &skill.q).collect();
         let composed = Composed::of(operator, &tables, rewards, BUDGET);
         let composed = composed.map_err(|error| error.to_string())?;
-        composed.run(&world, Combine::Sum).map_err(|error| error.to_string())
+        let run = if is_counted { Composed::run_on_seen } else { Composed::run };
+        run(&composed, &world, Combine::Sum).map_err(|error| error.to_string())
     });
     let steps = steps.map_err(|error: String| wrong(error))?;
     Ok(Composition { steps, rewards, horizon: first.horizon })

@@ -92,7 +92,7 @@ def test_settings_are_checked_by_name(lake: FiniteModel) -> None:
         rewards=Rewards("progress", gamma=0.9),
         epsilon=Schedule.linear(1.0, 0.1, 1000),
         alpha=0.5,
-        exploration="coverage",
+        exploration="random",
         horizon=50,
         counterfactual=False,
         initial=1.0,
@@ -100,9 +100,10 @@ def test_settings_are_checked_by_name(lake: FiniteModel) -> None:
     learner = Learner(lake, "F goal", cells, settings=settings)
     assert learner.settings == settings and settings.rewards.gamma == 0.9
     assert (settings.alpha.at(7), settings.epsilon.at(500)) == (0.5, 0.55)
-    assert (settings.exploration, settings.horizon, settings.initial) == ("coverage", 50, 1.0)
+    assert (settings.exploration, settings.horizon, settings.initial) == ("random", 50, 1.0)
     assert settings.remember and not settings.counterfactual
-    assert not Settings.paper().remember and Settings.paper().alpha.at(0) == 0.1
+    assert Settings().exploration == "coverage" and not Settings.paper().remember
+    assert Settings.paper().exploration == "random" and Settings.paper().alpha.at(0) == 0.1
     for wrong, message in (
         ({"alpha": 0.0}, "`alpha` is 0, not in"),
         ({"epsilon": 1.5}, "`epsilon` is 1.5, not in"),

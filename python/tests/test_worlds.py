@@ -13,7 +13,7 @@ import pytest
 from gymnasium.utils.env_checker import check_env
 from gymnasium.vector import AsyncVectorEnv, AutoresetMode, SyncVectorEnv
 
-from tltl import FiniteModel, Learner, Settings, Task, solve
+from tltl import FiniteModel, Learner, Task, solve
 from tltl.gymnasium import TaskEnv
 from tltl.vector import TaskVectorEnv
 
@@ -104,8 +104,7 @@ def test_what_is_learned_is_certified(name: str, steps: int) -> None:
     world, options, formula, labels = WORLDS[name]
     model = FiniteModel.from_env(gym.make(world, **options))
     best = solve(model, formula, labels)
-    settings = Settings(exploration="coverage")
-    worth = Learner(model, formula, labels, settings=settings, seed=1).train(steps).certify(best)
+    worth = Learner(model, formula, labels, seed=1).train(steps).certify(best)
     assert worth.regret_satisfied < 1e-3 and (worth.regret_steps or 0.0) < 1e-2
 
 

@@ -16,9 +16,9 @@ use crate::reward::Rewards;
 /// step what every automaton state would have learned; `docs/studies/curves.md` has the difference.
 ///
 /// None is updated where nobody would read the values: where all actions explore
-/// [by coverage](Exploration::Coverage) and the [experience](Memory::Experience) is kept, no action is chosen
-/// for its value, and what the experience tells replaces them. So there a step costs the same for any
-/// number of automaton states.
+/// ([ε](Settings::epsilon) is 1) and the [experience](Memory::Experience) is kept, no action is chosen for
+/// its value, and what the experience tells replaces them. So there, by default, a step costs the same for
+/// any number of automaton states.
 ///
 /// ```
 /// use tltl::learn::{Memory, Settings, Updates};
@@ -30,7 +30,7 @@ use crate::reward::Rewards;
 /// let mut env = ModelEnv::new(row)?;
 /// let task = Labelled::of_env(&env, &tltl! { |s: &usize| ({ *s } == 4) T ({ *s } == 0) })?;
 /// let known = [Updates::Current, Updates::Counterfactual].map(|updates| {
-///     let settings = Settings::default().with_updates(updates);
+///     let settings = Settings::default().with_memory(Memory::None).with_updates(updates);
 ///     let mut learner = Learner::new(&task, settings, 1);
 ///     learner.train(&mut env, 30).unwrap();
 ///     learner.table().values().iter().filter(|value| **value > 0.0).count()
@@ -299,7 +299,7 @@ impl Settings {
     /// that they could tell.
     #[inline]
     pub(super) fn updates_values(&self) -> bool {
-        !(self.covers() && self.only_explores() && self.remembers())
+        !(self.only_explores() && self.remembers())
     }
 
     /// Whether each step is the paper's: a random action, one update of a constant size, no memory.
@@ -327,14 +327,15 @@ impl Default for Settings {
     /// Learns what the task wants: [`Rewards::acceptance`], and the experience is kept, so that the
     /// [policy](crate::learn::Learner::policy) has the largest P(satisfied) and then the fewest steps.
     ///
-    /// Exploration is [random](Exploration::Random), in episodes of at most 200 steps. The table learns from each step what
+    /// All actions explore, by [coverage](Exploration::Coverage), in episodes of at most 200 steps, so no
+    /// step updates a value. With a smaller ε, or without experience, the table learns from each step what
     /// every automaton state would have learned, with a step size that falls with the visits, so that
     /// values converge instead of rattling at the width of α.
     fn default() -> Self {
         Self {
             alpha: Schedule::known_harmonic(1.0, 8.0),
             epsilon: Schedule::known(1.0),
-            exploration: Exploration::Random,
+            exploration: Exploration::Coverage,
             horizon: 200,
             updates: Updates::Counterfactual,
             initial: 0.0,

@@ -3,6 +3,7 @@
 mod world;
 
 use tltl::compose::{Operator, Stage, Steps};
+use tltl::model::FiniteModel as _;
 use tltl::prelude::*;
 use tltl::product::Operand;
 use tltl::reward::Mode;
@@ -157,4 +158,37 @@ fn skills_of_different_worlds_are_refused() {
     let skills = [&small, &large];
     let error = Composition::of(Operator::Conjunction, &skills, near_one(), 100).unwrap_err();
     assert!(error.to_string().starts_with("a skill of a world of 25 states"), "{error}");
+}
+
+/// A factored task is a skill like any other: each stage is worth what it is of the same task in one piece.
+#[test]
+fn factored_skills_compose_like_others() {
+    let cells = || (0..20).map(|s| SMALL.state(s));
+    let actions = || (0..5).map(|a| SMALL.action_name(a));
+    let whole = tltl! { |s: &Cell|
+        F (s.x == 1 && s.y == 1) && F (s.x == 2 && s.y == 3)
+            && (!(s.x == 0 && s.y == 4) U (s.x == 3 && s.y == 0))
+    };
+    let parts = tltl! { #[factored] |s: &Cell|
+        F (s.x == 1 && s.y == 1) && F (s.x == 2 && s.y == 3)
+            && (!(s.x == 0 && s.y == 4) U (s.x == 3 && s.y == 0))
+    };
+    let other = label(&avoid(Cell { x: 3, y: 0 }, Cell { x: 2, y: 3 }));
+    let skills = [label(&whole), Labelled::of_factored(cells(), actions(), &parts, 1_000).unwrap()];
+    for rewards in [near_one(), Rewards::progress()] {
+        let second = problem(&other).optimal_q(&rewards);
+        for operator in OPERATORS {
+            let [one, two] = skills.each_ref().map(|skill| {
+                let first = problem(skill).optimal_q(&rewards);
+                let composition =
+                    Composition::of(operator, &[&first, &second], rewards, 1_000).unwrap();
+                composition.run(&Dynamics::new(&SMALL).unwrap(), Combine::Sum).unwrap()
+            });
+            for (one, two) in one.all().iter().zip(two.all()) {
+                let difference = one.certificate.satisfied - two.certificate.satisfied;
+                assert!(difference.abs() < 1e-9, "{operator:?} {one:?}");
+            }
+            assert_eq!(one.best().stage, two.best().stage, "{operator:?}");
+        }
+    }
 }

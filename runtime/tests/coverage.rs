@@ -56,17 +56,13 @@ impl FiniteEnv for Corridor {
     }
 }
 
-fn covering() -> Settings {
-    Settings::default().with_exploration(Exploration::Coverage)
-}
-
 /// Each action is the one of the smallest number, as the docs say how the numbers come about.
 #[test]
 fn the_nearest_to_what_is_new_is_tried() {
     let mut env = corridor(12);
     let task =
         Labelled::of_env(&env, &tltl! { |s: &usize| ({ *s } != 0) U ({ *s } == 11) }).unwrap();
-    let mut learner = Learner::new(&task, covering(), 1);
+    let mut learner = Learner::new(&task, Settings::default(), 1);
     learner.train(&mut env, 3_000).unwrap();
     let mut numbers: BTreeMap<(usize, usize), u32> = BTreeMap::new();
     let number = |numbers: &BTreeMap<_, _>, s, a| numbers.get(&(s, a)).copied().unwrap_or(0);
@@ -104,7 +100,7 @@ fn exploration_goes_farther_than_chance() {
 fn some_actions_explore() {
     let mut env = corridor(12);
     let task = Labelled::of_env(&env, &tltl! { |s: &usize| F ({ *s } == 11) }).unwrap();
-    let settings = covering().with_epsilon(Schedule::constant(0.25).unwrap()).unwrap();
+    let settings = Settings::default().with_epsilon(Schedule::constant(0.25).unwrap()).unwrap();
     let settings = settings.with_rewards(Rewards::progress());
     let mut learner = Learner::new(&task, settings, 1);
     learner.train(&mut env, 20_000).unwrap();

@@ -269,7 +269,8 @@ fn shaping_leaves_the_optimal_policies_of_acceptance() {
 #[test]
 fn rewards_that_are_no_numbers_stop_learning() {
     let task = Labelled::of_env(&falling(), &climb()).unwrap();
-    let mut learner = Learner::new(&task, Settings::default(), 1);
+    let settings = Settings::default().with_memory(Memory::None);
+    let mut learner = Learner::new(&task, settings, 1);
     let mut env = Falling { reward: f64::NAN, ..falling() };
     let error = learner.train(&mut env, 1_000).unwrap_err();
     assert_eq!(error, TrainError::Reward(env.env.steps()), "at once");

@@ -5,6 +5,7 @@ mod world;
 use std::num::NonZero;
 
 use tltl::augmented::Augmented;
+use tltl::compose::Operator;
 use tltl::controller::Hierarchy;
 use tltl::learn::{Checkpoint, Memory, Schedule, seeds, seeds_on};
 use tltl::prelude::*;
@@ -94,10 +95,11 @@ fn what_is_paid_is_finished() {
     for rewards in [Rewards::progress(), impatient.with_step_penalty(0.1).unwrap()] {
         assert_eq!(learn(rewards).q(), seen.optimal_q(&rewards));
     }
-    // Without experience the table is all there is.
+    // Without experience the table is all there is; with it, no value guides an action, and none is learned.
     let settings = Settings::default().with_memory(Memory::None);
     let forgetful = trained(&task, settings, 1, 100_000);
-    assert_eq!((&forgetful.q(), forgetful.table()), (learner.table(), learner.table()));
+    assert_eq!(&forgetful.q(), forgetful.table());
+    assert!(forgetful.table().max(0, 0) > 0.5 && *learner.table() == QTable::zeros(&task));
     assert_eq!(Learner::new(&task, Settings::default(), 1).q(), QTable::zeros(&task));
 }
 
@@ -234,6 +236,39 @@ fn composition_of_learned_skills() {
     let certificate = problem(&task).optimum(&first.rewards()).certify(&refined.policy()).unwrap();
     assert!(certificate.satisfied > 0.999);
     assert!(certificate.regret_steps.unwrap() < 0.01, "{certificate:?}");
+}
+
+/// Skills that can be lost, composed from what was seen: P is known up to sampling, and to follow its last
+/// digit takes ways that are longer for nothing.
+#[test]
+fn composition_of_learned_skills_keeps_out_of_the_trap() {
+    let (phi1, phi2) = (avoid(C, A), avoid(C, B));
+    let (one, two) = (on_paper(&phi1), on_paper(&phi2));
+    let worth = seeds(0..10, |seed| {
+        let skills = [(&one, seed), (&two, seed + 100)]
+            .map(|(task, seed)| trained(task, Settings::default(), seed, 3_000_000));
+        let mut seen = skills[0].experience().clone();
+        seen.extend(skills[1].experience()).unwrap();
+        let (seen, rewards) = (Dynamics::new(&seen).unwrap(), skills[0].rewards());
+        let q = skills.each_ref().map(Learner::q);
+        let composition =
+            Composition::of(Operator::Conjunction, &q.each_ref(), rewards, 100).unwrap();
+        let optimum = problem(composition.task()).optimum(&rewards);
+        let refined = composition.refined(&seen, &composition.initial(Combine::Sum)).unwrap();
+        let steps = composition.run_on_seen(&seen, Combine::Sum).unwrap();
+        assert_eq!(steps.policy(), &refined.policy());
+        let literal = composition.run(&seen, Combine::Sum).unwrap();
+        [steps, literal].map(|steps| optimum.certify(steps.policy()).unwrap())
+    });
+    let worst = |i: usize| {
+        let regrets = worth.iter().map(|worth| &worth[i]);
+        regrets.fold([0.0_f64; 2], |[p, steps], worth| {
+            [p.max(worth.regret_satisfied), steps.max(worth.regret_steps.unwrap())]
+        })
+    };
+    let [[p, steps], literal] = [worst(0), worst(1)];
+    assert!(p < 1e-3 && steps < 1e-2, "{p} {steps}, to the last digit {literal:?}");
+    assert!(literal[1] > 1e-2, "to the last digit {literal:?}");
 }
 
 #[test]

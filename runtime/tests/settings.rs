@@ -4,7 +4,7 @@
 use serde_json::{Value, json};
 use tltl::OutOfRange;
 use tltl::estimate::Trials;
-use tltl::learn::{Memory, Schedule, Updates};
+use tltl::learn::{Exploration, Memory, Schedule, Updates};
 use tltl::prelude::*;
 use tltl::reward::{Arrival, Arrivals, End, Ends, Mode};
 
@@ -103,7 +103,8 @@ fn earlier_defaults_keep_their_meaning() {
         "remember": true,
     });
     let read: Settings = serde_json::from_value(earlier).unwrap();
-    assert_eq!(read, Settings::default().with_rewards(Rewards::progress()));
+    let then = Settings::default().with_rewards(Rewards::progress());
+    assert_eq!(read, then.with_exploration(Exploration::Random));
 }
 
 /// A row of moves pays what each of them pays, under every mode.

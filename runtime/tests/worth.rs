@@ -121,6 +121,20 @@ fn reports_have_the_worst_starts_first() {
     let text = report.to_string();
     assert!(text.contains("P(satisfied in 30 steps)"), "{text}");
     assert_eq!(text.lines().filter(|line| line.starts_with("state ")).count(), 5, "{text}");
+    assert!(
+        text.ends_with("78 of 80 starts lose something: at most 0.999978 of P(satisfied)."),
+        "{text}"
+    );
+    // Where nothing is lost but steps, by how many.
+    let task = on_paper(&both(A, B));
+    let optimum = problem(&task).optimum(&Rewards::default());
+    let best = optimum.best().policy();
+    let lazy = |q, s| if (q, s) == (0, 0) { 4 } else { best.act(q, s) };
+    let report = optimum.report(&Policy::from_fn(&task, lazy).unwrap()).unwrap();
+    let lost = report.starts.iter().filter(|start| start.optimal_steps > Some(0.0));
+    let part = lost.map(|start| start.steps.unwrap() / start.optimal_steps.unwrap() - 1.0);
+    let end = format!("at most {:.2} % of the steps.", 100.0 * part.fold(0.0, f64::max));
+    assert!(report.to_string().ends_with(&end), "{report}{end}");
 }
 
 /// A regret below what is shown is not shown as none, and what never succeeds has no steps.

@@ -109,7 +109,7 @@ struct Survey;
 
 impl Recipe for Survey {
     fn settings() -> Settings {
-        Settings::default().with_exploration(Exploration::Coverage)
+        Settings::default()
     }
     const VALUES: bool = false;
     const ALL: bool = false;
@@ -302,8 +302,7 @@ impl<M: FiniteModel> Case<'_, M> {
         let start = seconds();
         let learner = self.library::<Survey>(&mut env, &task, 1);
         let trained = seconds() - start;
-        let seen = Problem::new(&Dynamics::new(learner.experience()).unwrap(), &task).unwrap();
-        let policy = seen.best().policy().clone();
+        let policy = learner.policy();
         let total = seconds() - start;
         let problem = Problem::new(env.dynamics(), &task).unwrap();
         let worth = problem.optimum(&learner.rewards()).certify(&policy).unwrap();

@@ -1211,7 +1211,7 @@ class Settings:
         rewards: Rewards | None = None,
         alpha: Schedule | float | None = None,
         epsilon: Schedule | float | None = None,
-        exploration: Literal["random", "coverage"] = "random",
+        exploration: Literal["random", "coverage"] = "coverage",
         horizon: int = 200,
         counterfactual: bool = True,
         initial: float = 0.0,

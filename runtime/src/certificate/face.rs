@@ -60,7 +60,7 @@ impl Face {
         };
         face.below = format!(
             "Computed from the model, mean over the starts{errors}.\n{:.2} % of the actions are best for \
-             the reward.",
+             the reward, to within 1e-6 of it.",
             100.0 * certificate.fraction_optimal
         );
         face
@@ -118,7 +118,18 @@ pub(super) fn starts(report: &Report, f: &mut fmt::Formatter<'_>) -> fmt::Result
             [start.steps, start.optimal_steps].map(|steps| duration(steps, *steps_error));
         face.row(&format!("state {}", start.state), [own, optimal, steps, fewest]);
     }
-    face.below = format!("{worse} of {} starts lose something.", starts.len());
+    // The starts that lose most of P come first; where none does, all lose steps alone.
+    let (satisfied, _) = starts[0].losses();
+    let most = if satisfied > NOTHING {
+        format!("{} of P(satisfied)", small(satisfied, 1.0, DIGITS))
+    } else {
+        let part = |start: &Start| {
+            Some(start.losses().1 / start.optimal_steps.filter(|steps| *steps > 0.0)?)
+        };
+        let largest = starts.iter().filter_map(part).fold(0.0, f64::max);
+        format!("{} % of the steps", small(largest, 100.0, 2))
+    };
+    face.below = format!("{worse} of {} starts lose something: at most {most}.", starts.len());
     write!(f, "{face}")
 }
 

@@ -102,7 +102,7 @@ impl Learner {
     /// let mut learner = Learner::new(&task, Settings::default(), 1);
     /// for total in [1_000, 2_000, 3_000] {
     ///     learner.train(&mut env, total)?;
-    ///     println!("after {} steps: V = {:.3}", learner.steps(), learner.table().max(0, 0));
+    ///     println!("after {} steps: V = {:.3}", learner.steps(), learner.q().max(0, 0));
     /// }
     /// let mut at_once = Learner::new(&task, Settings::default(), 1);
     /// at_once.train(&mut env, 3_000)?;
@@ -294,7 +294,8 @@ impl Learner {
     }
 
     /// The table that training updates, as it is: what exploration is greedy in, and all that there is
-    /// without experience.
+    /// without experience. Where neither is so, as by default, no step
+    /// [updates](super::Updates) it.
     #[must_use]
     #[inline]
     pub const fn table(&self) -> &QTable {

@@ -12,10 +12,11 @@
 //! worlds. What lies beside a trap must be visited often: where an action was tried 5,000 times, a risk
 //! of 4 % is known to ±0.28 %.
 //!
-//! On the way a table is updated. A world's step does not depend on q, so each one updates *every* live
-//! automaton state (counterfactual updates, Toro Icarte et al. 2018), and the step size falls with the
-//! visits. It is what an exploration with ε < 1 goes by, and all that there is without experience.
-//! [`Settings::paper`] is the paper's recipe, and its policy the greedy one of that table.
+//! On the way no value is needed: actions explore, [towards what was tried least](Exploration::Coverage).
+//! With ε < 1, or without experience, a table is updated. A world's step does not depend on q, so each one
+//! updates *every* live automaton state (counterfactual updates, Toro Icarte et al. 2018), and the step
+//! size falls with the visits. [`Settings::paper`] is the paper's recipe, and its policy the greedy one of
+//! that table.
 
 mod checkpoint;
 mod coverage;
