@@ -5,7 +5,7 @@
 //! keeps the same counts and makes the same updates; it must give the same table and the same counts, to the last
 //! bit. It knows the task and the number of actions, and no settings. Runs alternate, and the fastest
 //! of each counts, for what else the machine does can only add. The library must reach 0.9 of the
-//! floor in the paper's recipe and 0.75 in all others (0.8 to 0.95 where nothing else runs).
+//! floor in the paper's recipe and 0.8 in all others (0.85 or more, measured beside much other work).
 //!
 //! The last line is what all of it is for: 100 × 100 cells and 16 automaton states, learned by coverage and
 //! solved as they were seen, and what the policy is worth.
@@ -474,5 +474,5 @@ fn main() {
     act(&paper);
     case("coverage, 100 x 100 cells, 16 q", &hundred, &goals, 1_000_000).learned();
     assert!(recipe >= 0.9, "the paper's recipe is at {recipe:.2} of the loop by hand");
-    assert!(others.iter().all(|&ratio| ratio >= 0.75), "{others:.2?} of the loops by hand");
+    assert!(others.iter().all(|&ratio| ratio >= 0.8), "{others:.2?} of the loops by hand");
 }

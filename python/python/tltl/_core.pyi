@@ -1186,14 +1186,13 @@ class Schedule:
 
 @final
 class Settings:
-    """How a table is learned. The default learns what the task wants: it pays for acceptance, explores at
-    random, updates all automaton states with each step, and keeps its experience, so that the policy
-    is that of the world as it was seen, solved.
+    """How a table is learned. The default learns what the task wants: it pays for acceptance, explores
+    towards what was tried least, and keeps its experience, so that the policy is that of the world as it
+    was seen, solved.
 
     - `alpha`: the step size, at the number of earlier updates of the same entry.
     - `epsilon`: the probability of an action that explores, at the number of earlier steps.
-    - `exploration`: `"random"`, or `"coverage"`, towards what was tried least: through a world whose
-      episodes start in one place.
+    - `exploration`: `"coverage"`, towards what was tried least, or `"random"`.
     - `horizon`: steps after which an episode is cut.
     - `counterfactual`: whether a step updates all automaton states, or only the one it was taken in.
     - `initial`: the value that entries start from.
