@@ -109,8 +109,12 @@ pub(crate) fn compose(
         let tables: Vec<&QTable> = skills.iter().map(|skill| &skill.q).collect();
         let composed = Composed::of(operator, &tables, rewards, BUDGET);
         let composed = composed.map_err(|error| error.to_string())?;
-        let run = if is_counted { Composed::run_on_seen } else { Composed::run };
-        run(&composed, &world, Combine::Sum).map_err(|error| error.to_string())
+        let steps = if is_counted {
+            composed.run_on_seen(&world, Combine::Sum)
+        } else {
+            composed.run(&world, Combine::Sum)
+        };
+        steps.map_err(|error| error.to_string())
     });
     let steps = steps.map_err(|error: String| wrong(error))?;
     Ok(Composition { steps, rewards, horizon: first.horizon })
