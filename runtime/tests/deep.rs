@@ -271,6 +271,25 @@ fn a_composition_reaches_the_optimum_without_a_step() {
         Composition::new(&product, &skills, AsGiven, combine, settings, &device, 3).unwrap()
     };
     let mut refined = compose(Combine::Sum, 8_000);
+    // Steps 3–5 are the values of the sum's policy in the product, as those of tables are.
+    let mut compensated = compose(Combine::Sum, 3_000);
+    compensated.compensate(3_000).unwrap();
+    let skill = |task: &dyn Monitor<i32>| {
+        let task = Labelled::of_env(&env, task).unwrap();
+        Problem::new(env.dynamics(), &task).unwrap().optimal_q(&rewards())
+    };
+    let (one, two, task) = (skill(&left), skill(&right), Labelled::of_env(&env, &product).unwrap());
+    let tables = compose::Composition::new(&product, &task, &[&one, &two], rewards()).unwrap();
+    let exact = tables.compensated(env.dynamics()).unwrap();
+    let both = (0..product.states()).find(|&q| product.components(q) == [0, 0]).unwrap();
+    // States at an end have been read, and are met by no step.
+    for s in 1..5 {
+        for (own, exact) in
+            compensated.values(both, &s).unwrap().iter().zip(exact.row(both, s as usize))
+        {
+            assert!((f64::from(*own) - exact).abs() < 4e-2, "{own} {exact} at {s}");
+        }
+    }
     // Step 2 is the sum: where one skill alone is pending, that skill's values.
     let pending = (0..product.states()).find(|&q| product.components(q)[1] == 1).unwrap();
     let sum = refined.values(pending, &3).unwrap();

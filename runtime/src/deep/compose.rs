@@ -1,7 +1,7 @@
 //! Composition of learned networks (paper, Algorithm 2), without a step in the world.
 //!
-//! As for [tables](crate::compose): step 2 adds up the skills' values, steps 3–5 subtract what that
-//! counts too much, step 6 makes the result the optimum of the product. What the skills have seen,
+//! As for [tables](crate::compose): step 2 adds up the skills' values, steps 3–5 make of that the values of
+//! its greedy policy in the product, step 6 makes the result the optimum of the product. What the skills have seen,
 //! relabelled with every state of the product's automaton, is all that is learned from. The skills'
 //! networks stay as they are; one further network, with a head for each live state of the
 //! product, is added to their sum, and it alone is trained: from zero in
@@ -119,10 +119,8 @@ impl<S> Features<S> for Joint<'_, S> {
 /// Its network lies on the device, and what it is scaled by is known.
 struct Ready<'a, S> {
     features: &'a (dyn Features<S> + Sync),
-    task: &'a (dyn Monitor<S> + Sync),
     model: Model,
     heads: Heads,
-    moves: Moves,
     scale: f32,
 }
 
@@ -234,11 +232,9 @@ impl<'a, S: Clone, G: Relabel<S>> Composition<'a, S, G> {
         let mut replay = Replay::new(seen);
         skills.iter().for_each(|skill| replay.extend(skill.experience));
         let ready = |skill: &Learned<'a, S>| {
-            let (features, task) = (skill.features, skill.task);
-            let moves = Moves::new(task, rewards);
-            let heads = Heads::new(&moves, task.states());
-            let model = Model::new(&skill.network, device);
-            Ready { features, task, model, heads, moves, scale: 1.0 }
+            let heads = Heads::new(&Moves::new(skill.task, rewards), skill.task.states());
+            let (features, model) = (skill.features, Model::new(&skill.network, device));
+            Ready { features, model, heads, scale: 1.0 }
         };
         let paid = worst(&replay, rewards.environment());
         let mut composition = Self {
@@ -325,10 +321,9 @@ impl<S: Clone, G: Relabel<S>> Compose for Composition<'_, S, G> {
     type State = S;
     type Error = Error;
 
-    /// Trains the further network to be what the plain sum counts too much, negated, under the sum's
-    /// greedy policy (Eq. 3C10, trap-aware).
+    /// Trains the further network until the whole is the values, in the product, of the sum's greedy
+    /// policy, as [tables](crate::compose::Composition::compensated) have it.
     fn compensate(&mut self, updates: u64) -> Result<(), Error> {
-        assert_eq!(self.combine, Combine::Sum, "compensation is of the plain sum");
         self.learn(updates, true)
     }
 
@@ -415,7 +410,7 @@ fn combined<S>(
 /// What the further network is to learn beside the skills.
 ///
 /// Steps 3–5 evaluate the sum's greedy policy, which is fixed; step 6 improves the policy of sum and
-/// network together. The two differ in what is paid, who chooses, and what bounds the values.
+/// network together. The two differ in who chooses.
 struct Base<'a, S> {
     product: &'a Product<'a, S>,
     parts: &'a [Ready<'a, S>],
@@ -430,24 +425,11 @@ struct Base<'a, S> {
 
 impl<S> Objective<S> for Base<'_, S> {
     fn read(&self, q: u32, step: &Step<S>) -> Result<Move, task::Error> {
-        let mut read = self.moves.read(self.product, q, step)?;
-        if self.evaluates {
-            for (i, at) in active(self.product, self.parts, q) {
-                let part = &self.parts[i];
-                read.reward -= part.moves.read(part.task, at, step)?.reward;
-            }
-        }
-        Ok(read)
+        self.moves.read(self.product, q, step)
     }
 
     fn bounds(&self, q: u32) -> (f64, f64) {
-        let (least, most) = self.bounds[q as usize];
-        if !self.evaluates {
-            return (least, most);
-        }
-        // The sum of the skills may be above the product's values by what each of them can get.
-        let parts = self.parts.len() as f64;
-        (parts * least - parts * most, parts * (most - least))
+        self.bounds[q as usize]
     }
 
     fn base(&self, states: &[S]) -> Result<Option<Vec<f32>>, Error> {

@@ -124,8 +124,8 @@ pub(super) trait Objective<S> {
         0.0
     }
 
-    /// Whether the policy is the greedy one of the base, not of base and network: then the network
-    /// *evaluates* it.
+    /// Whether the policy is the greedy one of the base, not of base and network: then the two together
+    /// *evaluate* it.
     fn evaluates(&self) -> bool {
         false
     }
@@ -372,8 +372,7 @@ impl Trainer {
     /// What the network should say of each step, indexed `row * heads + head`.
     ///
     /// With base and network B and f, and Q = B + f, the target of Q is
-    /// `r + γ Q(s', π(s')) + α (Q(s, a) − Q(s, π(s)))`; π is greedy for Q, or, if the network evaluates
-    /// it, for B, and then what B adds to the target is left out of r.
+    /// `r + γ Q(s', π(s')) + α (Q(s, a) − Q(s, π(s)))`; π is greedy for Q, or, if it is evaluated, for B.
     fn targets<S, O: Objective<S>>(
         &self,
         sample: &Sample<S>,
@@ -382,35 +381,36 @@ impl Trainer {
         let (heads, actions) = (self.heads.states.len(), self.model.shape().actions);
         // Of a composition two passes through the networks of all skills; of a single task nothing.
         let (base, own) = (objective.base(&sample.after)?, objective.base(&sample.before)?);
-        let (chooses, base) = match base {
-            Some(base) if objective.evaluates() => (base, None),
-            base => (sum(self.values(&self.model, &self.after), base.as_deref()), base),
+        let (base, own) = (base.as_deref(), own.as_deref());
+        let fixed = |base| objective.evaluates().then_some(base).flatten();
+        let improved;
+        let chooses = match fixed(base) {
+            Some(base) => base,
+            None => {
+                improved = sum(self.values(&self.model, &self.after), base);
+                &improved
+            }
         };
         let target = self.target.outputs(&self.after);
         let share = objective.advantage_learning();
-        let before =
-            (share > 0.0).then(|| sum(self.values(&self.target, &self.before), own.as_deref()));
-        let own = own.as_deref();
+        let before = (share > 0.0).then(|| sum(self.values(&self.target, &self.before), own));
         let wanted = sample.returns.iter().enumerate().map(|(i, found)| {
             let mut wanted = found.reward;
             if found.discount > 0.0 {
                 let next = i / heads * heads + found.head;
                 let best = argmax(&chooses[next * actions..][..actions]);
                 let value = self.scaled(found.head, target.value(next, best))
-                    + base.as_deref().map_or(0.0, |base| base[next * actions + best]);
+                    + base.map_or(0.0, |base| base[next * actions + best]);
                 let (least, most) = objective.bounds(self.heads.states[found.head]);
                 wanted += found.discount * f64::from(value).clamp(least, most);
             }
             let (row, action) = (i * actions, sample.actions[i / heads] as usize);
             if let Some(before) = before.as_deref() {
-                let chooses = own.filter(|_| objective.evaluates()).unwrap_or(before);
+                let chooses = fixed(own).unwrap_or(before);
                 let best = argmax(&chooses[row..row + actions]);
                 wanted += share * f64::from(before[row + action] - before[row + best]);
             }
-            match own {
-                Some(own) if !objective.evaluates() => wanted - f64::from(own[row + action]),
-                _ => wanted,
-            }
+            wanted - own.map_or(0.0, |own| f64::from(own[row + action]))
         });
         Ok(wanted.collect())
     }
