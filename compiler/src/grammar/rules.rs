@@ -63,6 +63,7 @@ pub(crate) enum Rule {
     always,
     brackets,
     operand_start,
+    infix_word,
     minus,
     quantifier,
     set,
@@ -121,7 +122,7 @@ pub(crate) enum Rule {
     character,
 }
 /// The definition of each rule, in the same order.
-pub(super) static RULES: [(Kind, Peg); 109] = [
+pub(super) static RULES: [(Kind, Peg); 110] = [
     (Pair, End),
     (Blank, Choice(&[Text(" "), Text("\t"), Text("\r"), Text("\n"), Text("\u{feff}")])),
     (
@@ -659,26 +660,31 @@ pub(super) static RULES: [(Kind, Peg); 109] = [
                         Not(
                             &Sequence(
                                 &[
-                                    Choice(
-                                        &[
-                                            Text("U"),
-                                            Text("T"),
-                                            Text("R"),
-                                            Text("W"),
-                                            Text("M"),
-                                            Text("V"),
-                                            Text("S"),
-                                            Text("and"),
-                                            Text("or"),
-                                            Text("in"),
-                                            Text("ensuring"),
-                                        ],
-                                    ),
+                                    Call(Rule::infix_word),
                                     Not(&Class(unicode_ident::is_xid_continue)),
                                 ],
                             ),
                         ),
                         Choice(&[Class(unicode_ident::is_xid_start), Text("_")]),
+                    ],
+                ),
+            ],
+        ),
+    ),
+    (
+        Silent,
+        Choice(
+            &[
+                Text("U"),
+                Text("T"),
+                Text("and"),
+                Text("or"),
+                Text("in"),
+                Text("ensuring"),
+                Sequence(
+                    &[
+                        Choice(&[Text("R"), Text("W"), Text("M"), Text("V"), Text("S")]),
+                        Not(&Sequence(&[Repeat(&Call(Rule::trivia)), Text("::")])),
                     ],
                 ),
             ],

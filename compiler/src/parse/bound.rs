@@ -50,7 +50,10 @@ impl<'t> Bracket<'t> {
     /// round one leaves the end itself out.
     fn meant(&self, end: usize) -> Option<String> {
         let inside = self.text.get(self.open.end..end)?.trim();
-        let numbers = inside.split([',', ':']).map(|end| end.trim().parse::<u64>().ok());
+        // Rust would read a sign as well.
+        let digits = |end: &&str| end.starts_with(|c: char| c.is_ascii_digit());
+        let ends = inside.split([',', ':']).map(str::trim);
+        let numbers = ends.map(|end| Some(end).filter(digits)?.parse().ok());
         let numbers: Vec<u64> = numbers.collect::<Option<_>>()?;
         let (first, last) = self.signs();
         // Round brackets on both sides are more often just another spelling.
