@@ -352,7 +352,8 @@ impl<'a> Translation<'a> {
             Formula::Literal { proposition, negated } => {
                 self.functions.literal((proposition, !negated))
             }
-            Formula::And(..) | Formula::Or(..) => unreachable!("expanded as chains"),
+            // A chain is expanded as a whole, before.
+            Formula::And(..) | Formula::Or(..) => of(self, id),
             Formula::Next(a) | Formula::Delay(1, a) => self.later(a),
             Formula::Delay(..) => self.again(id, formula),
             Formula::Within(0, a) | Formula::Throughout(0, a) => of(self, a),

@@ -124,3 +124,8 @@ def test_stored_steps_are_relabelled_by_the_states_of_a_product() -> None:
     parts = whole.components[seen.q], whole.components[seen.next_q]
     assert [p.tolist() for p in parts] == [[[0, 0], [0, 1], [1, 0]], [[1, 0], [1, 1], [1, 0]]]
     assert seen.reward.tolist() == [1.0, 1.0, 0.0] and seen.terminated.tolist() == [0, 1, 0]
+
+
+def test_a_comment_ends_with_its_operand() -> None:
+    both = product("and", quiet("F a // the first"), quiet("F b /* the second */"))
+    assert both.task.text == "F a && F b" and len(both.components) == 4

@@ -89,12 +89,12 @@ impl Steps {
                 < steps(other).unwrap_or(f64::INFINITY);
             more > EQUAL || (more >= -EQUAL && fewer)
         };
-        let mut best = if is_last_best { all.len() - 1 } else { 0 };
-        for (i, step) in all.iter().enumerate() {
-            if !is_last_best && better(&step.certificate, &all[best].certificate) {
-                best = i;
-            }
-        }
+        let best = match is_last_best {
+            true => all.len() - 1,
+            false => (0..all.len()).fold(0, |best, i| {
+                if better(&all[i].certificate, &all[best].certificate) { i } else { best }
+            }),
+        };
         Self { all, best }
     }
 }
@@ -123,9 +123,10 @@ impl Composition<'_> {
     /// never worse than any stage of it.
     ///
     /// The certificates are exact for the world that `dynamics` is: that of a model; what was seen is for
-    /// [`Self::run_on_seen`]. Where acceptance alone is paid, the last stage is the policy of the largest P(satisfied) and then of
-    /// the fewest steps ([`Problem::best`]), for that is what such rewards stand for. Other rewards are
-    /// taken at their word, and what is optimal for them may be worth less to the task than a stage before.
+    /// [`Self::run_on_seen`]. Where acceptance alone is paid, the last stage is the policy of the largest
+    /// P(satisfied) and then of the fewest steps ([`Problem::best`]), for that is what such rewards stand
+    /// for. Other rewards are taken at their word, and what is optimal for them may be worth less to the
+    /// task than a stage before.
     ///
     /// ```
     /// use tltl::compose::Stage;

@@ -69,7 +69,8 @@ impl RawProduct {
             Operator::And => " && ",
             Operator::Or => " || ",
         };
-        let text = |operand: &&Task| format!("({})", operand.entry().file().source().text());
+        // A comment ends with its line.
+        let text = |operand: &&Task| format!("({}\n)", operand.entry().file().source().text());
         let whole: Vec<String> = operands.iter().map(text).collect();
         Ok(TaskFile::of_formula(&whole.join(sign), budget).map(|file| {
             let dfas: Vec<_> = operands.iter().map(|operand| operand.dfa()).collect();
