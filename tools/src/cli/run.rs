@@ -85,16 +85,38 @@ fn reading(run: &Run, streams: &mut Streams<'_>) -> Result<Option<Reading>, Stri
     }
 }
 
-/// The columns that the user has chosen, by field: those of the file, then those of the arguments.
+/// The columns that the user has chosen, by field: those of the arguments, and those of the file for
+/// fields that no argument names.
 fn map(run: &Run, streams: &mut Streams<'_>) -> Result<Vec<(String, String)>, String> {
     let file = run.map_file.as_deref().map_or(Ok(Vec::new()), |path| streams.read_lines(path))?;
     let lines = file.iter().map(|line| line.trim()).filter(|line| !line.is_empty());
-    let lines = lines.filter(|line| !line.starts_with('#'));
-    let pair = |text: &str| match text.split_once('=').map(|(a, b)| (a.trim(), b.trim())) {
-        None | Some(("", _) | (_, "")) => Err(format!("`{text}` maps nothing: write FIELD=COLUMN")),
-        Some((field, column)) => Ok((field.to_owned(), column.to_owned())),
-    };
-    lines.chain(run.map.iter().map(String::as_str)).map(pair).collect()
+    let file = pairs(lines.filter(|line| !line.starts_with('#')))?;
+    let mut map = pairs(run.map.iter().map(String::as_str))?;
+    let is_new = |(field, _): &(String, String)| map.iter().all(|(other, _)| other != field);
+    let added: Vec<_> = file.into_iter().filter(is_new).collect();
+    map.extend(added);
+    Ok(map)
+}
+
+/// Pairs of a field and its column, each written `FIELD=COLUMN`, each field once.
+fn pairs<'a>(texts: impl Iterator<Item = &'a str>) -> Result<Vec<(String, String)>, String> {
+    let mut pairs: Vec<(String, String)> = Vec::new();
+    for text in texts {
+        let (field, column) = match text.split_once('=').map(|(a, b)| (a.trim(), b.trim())) {
+            None | Some(("", _) | (_, "")) => {
+                return Err(format!("`{text}` maps nothing: write FIELD=COLUMN"));
+            }
+            Some(pair) => pair,
+        };
+        match pairs.iter().find(|(known, _)| known == field) {
+            Some((_, other)) if other != column => {
+                return Err(format!("`{field}` is mapped to `{other}` and to `{column}`"));
+            }
+            Some(_) => {}
+            None => pairs.push((field.to_owned(), column.to_owned())),
+        }
+    }
+    Ok(pairs)
 }
 
 /// The columns to look for: one for each input of the task, and that of the episode.
@@ -109,8 +131,7 @@ fn places<'a>(
             return Err(format!("the task does not read `{field}`; it reads {}", names.join(", ")));
         }
     }
-    // The last one counts: an argument after the file.
-    let chosen = |name: &str| map.iter().rfind(|(field, _)| field == name);
+    let chosen = |name: &str| map.iter().find(|(field, _)| field == name);
     let place = |input: &'a Input| {
         let column = chosen(&input.name).map(|(_, column)| column.as_str());
         Place::new(Some(input), column)

@@ -21,8 +21,8 @@ use super::sum::{Notation, Sum};
 /// unordered goals have half as many, which are 50 MB of JSON.
 pub const MOST_PRODUCTS: usize = 1 << 20;
 
-/// The most edges that are counted to say how many there are: about a second.
-const MOST_COUNTED: usize = 1 << 26;
+/// The most edges that are counted to say how many there are at least: some hundredths of a second.
+const MOST_COUNTED: usize = 1 << 22;
 
 /// The bytes that are put together before they are written.
 const PIECE: usize = 1 << 15;
