@@ -8,6 +8,9 @@
 use std::hint::black_box;
 use std::time::Instant;
 
+use regex_automata::Anchored;
+use regex_automata::dfa::{Automaton, dense};
+use regex_automata::util::syntax;
 use tltl::Acceptor;
 
 mod signals;
@@ -23,6 +26,7 @@ fn main() {
         at_every_instant(&trajectory);
     }
     many(&samples(1_000_000));
+    in_threads(&samples(10_000_000));
     let trajectory = samples(4_000);
     online(&trajectory);
     steps(&trajectory);
@@ -142,11 +146,11 @@ fn many(states: &[Sample]) {
         || by_hand::until(black_box(states)),
         || task.robustness_on(threads, black_box(states)).unwrap(),
     );
-    in_threads(threads, states);
 }
 
 /// What threads gain: the left column is one thread here.
-fn in_threads(threads: usize, states: &[Sample]) {
+fn in_threads(states: &[Sample]) {
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
     println!("{:<34}{:>9}{:>10}{:>10}{:>8}", "", "", "1 thread", threads, "gain");
     let gain = |name: &str, [one, several]: [f64; 2]| {
         println!("{name:<34}{:>9}{one:>10.2}{several:>10.2}{:>8.2}", states.len(), one / several);
@@ -241,6 +245,7 @@ fn steps(trajectory: &[Sample]) {
             all
         },
     );
+    beside_bytes(trajectory);
     let (x, y): (Vec<f64>, Vec<f64>) = trajectory.iter().map(|s| (s.x, s.y)).unzip();
     let [mut q, mut r] = [vec![0; n], vec![0; n]];
     compare(
@@ -274,6 +279,52 @@ fn steps(trajectory: &[Sample]) {
         all
     };
     compare("step, 8 predicates", wide.len(), || by_hand::chain(black_box(&wide)), run);
+}
+
+/// A step from a state of the world beside a byte of `regex-automata`, to which somebody has turned
+/// the state into a byte before: bit 0 for `x > 0.999`, bit 1 for `y > 2.999`.
+fn beside_bytes(trajectory: &[Sample]) {
+    let pattern = r"(?s-u).*[\x01\x03][\x02\x03][\x01\x03]";
+    let syntax = syntax::Config::new().utf8(false);
+    let dfa = dense::Builder::new().syntax(syntax).build(pattern).expect("it is a pattern");
+    let start = dfa.universal_start_state(Anchored::Yes).expect("the pattern looks at bytes only");
+    let byte = |s: &Sample| u8::from(s.x > 0.999) | u8::from(s.y > 2.999) << 1;
+    let task = thrice();
+
+    let long = samples(1_000_000);
+    let mut run = task.run();
+    let here = long.iter().position(|sample| {
+        run.step(sample).expect("no sample is NaN");
+        task.is_accepting(run.state())
+    });
+    let mut q = start;
+    let there = long.iter().map(byte).position(|byte| {
+        q = dfa.next_state(q, byte);
+        dfa.is_match_state(q)
+    });
+    assert!(here.is_some());
+    // Such a machine says so one byte later.
+    assert_eq!(here.map(|at| at + 1), there);
+
+    let bytes: Vec<u8> = trajectory.iter().map(byte).collect();
+    let regex = || {
+        let (mut q, mut all) = (start, 0_u64);
+        for &byte in black_box(&bytes) {
+            q = dfa.next_state(q, byte);
+            all += u64::from(q.as_u32());
+        }
+        all
+    };
+    let next = || {
+        let (mut q, mut all) = (0, 0_u64);
+        for sample in black_box(trajectory) {
+            q = task.next(q, sample).unwrap();
+            all += u64::from(q);
+        }
+        all
+    };
+    let [by_bytes, here] = in_turns(trajectory.len(), regex, next);
+    print("step, beside a byte of a regex", trajectory.len(), by_bytes, here);
 }
 
 /// The same, as one writes it who knows the formula.
