@@ -11,7 +11,9 @@ use std::process::{Command, Stdio};
 use serde_json::Value;
 use tltl::estimate::{Estimate, Interval};
 use tltl::network::policy::{NetworkDocument, NetworkPolicy, NetworkPolicyError, NetworkTraining};
-use tltl::network::{Activation, Dense, Form, Network, NetworkError, Scale, Shape};
+use tltl::network::{
+    Activation, Controls, Dense, Form, Network, NetworkError, Scale, Shape, Squash,
+};
 use tltl::policy::States;
 use tltl::reward::End;
 use tltl::solve::Basis;
@@ -164,6 +166,9 @@ fn broken(row: &Value) -> String {
         json.as_object_mut().unwrap().remove(field).unwrap();
     } else if let Some(field) = row["add"].as_str() {
         json[field] = row["is"].clone();
+    } else if let Some(field) = row["later"].as_str() {
+        json["version"] = 1.into();
+        json["network"][field] = row["is"].clone();
     } else {
         *json.pointer_mut(row["at"].as_str().unwrap()).unwrap() = row["is"].clone();
     }
@@ -236,7 +241,15 @@ fn formed(network: &Network, choices: &mut impl Choices) -> Network {
         last.weights = rows.flat_map(|row| row[..width].to_vec()).collect();
         last.bias.truncate(width);
     }
-    Network::with_form(shape, layers, Form { activation: Activation::Tanh, scale, states }).unwrap()
+    // Every other one acts by numbers: both ways, in turn.
+    let controls = (choices.choose(2) == 0).then(|| {
+        let squash = if choices.choose(2) == 0 { Squash::Tanh } else { Squash::Clip };
+        let low: Vec<f32> = (0..shape.actions).map(|_| number(choices, 2.0)).collect();
+        let high = low.iter().map(|low| low + number(choices, 2.0).abs()).collect();
+        Controls { squash, low, high }
+    });
+    let form = Form { activation: Activation::Tanh, scale, states, controls };
+    Network::with_form(shape, layers, form).unwrap()
 }
 
 #[test]
@@ -249,11 +262,7 @@ fn a_form_must_fit_its_network() {
         |mean: Vec<f32>, deviation: f32, clip| Scale { mean, deviation: vec![deviation], clip };
     let made = |scale: Option<Scale>, states: Vec<f32>, heads| {
         let layers = vec![layer(2, 2), layer(2 * heads, heads)];
-        Network::with_form(
-            shape.clone(),
-            layers,
-            Form { activation: Activation::Relu, scale, states },
-        )
+        Network::with_form(shape.clone(), layers, Form { scale, states, ..Form::default() })
     };
     assert!(made(None, vec![], 2).is_ok() && made(None, vec![1.0; 4], 1).is_ok());
     let wrong =
@@ -266,6 +275,18 @@ fn a_form_must_fit_its_network() {
     for (deviation, clip) in [(0.0, 1.0), (f32::NAN, 1.0), (1.0, -1.0), (1.0, f32::INFINITY)] {
         let wrong = made(Some(scale(vec![0.0], deviation, clip)), vec![], 2);
         assert_eq!(wrong, Err(NetworkError::Scale));
+    }
+    let bounded = |low: &[f32], high: &[f32]| {
+        let (low, high) = (low.to_vec(), high.to_vec());
+        let controls = Some(Controls { squash: Squash::Clip, low, high });
+        let layers = vec![layer(2, 2), layer(4, 2)];
+        Network::with_form(shape.clone(), layers, Form { controls, ..Form::default() })
+    };
+    assert!(bounded(&[1.0], &[1.0]).is_ok());
+    assert_eq!(bounded(&[], &[1.0]), wrong("controls.low", 0, 1));
+    assert_eq!(bounded(&[0.0], &[1.0, 2.0]), wrong("controls.high", 2, 1));
+    for (low, high) in [(1.0, 0.5), (f32::NAN, 1.0), (0.0, f32::INFINITY), (-3e38, 3e38)] {
+        assert_eq!(bounded(&[low], &[high]), Err(NetworkError::Controls));
     }
 }
 
@@ -303,18 +324,39 @@ fn rustc(arguments: &[&str]) {
     assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
 }
 
-/// A program that reads lines `policy q features…` and answers `act values…`, all floats as bits.
+/// A program that reads lines `policy q features…` and answers `act values…`, or the numbers of an action
+/// before the values; all floats as bits.
 const DRIVER: &str = "
 macro_rules! answer {
-    ($net:ident, $q:expr, $bits:expr) => {{
+    ($net:ident, $acts:ident, $q:expr, $bits:expr) => {{
         let all: Vec<f32> = $bits.map(|b| f32::from_bits(b.parse().unwrap())).collect();
         let (inputs, entities) = all.split_at(nets::$net::INPUTS);
         let (inputs, entities) = (inputs.try_into().unwrap(), entities.try_into().unwrap());
-        print!(\"{}\", nets::$net::act($q, inputs, entities));
+        print!(\"{}\", told(nets::$net::$acts($q, inputs, entities)));
         let values = nets::$net::values($q, inputs, entities);
         values.iter().for_each(|v| print!(\" {}\", v.to_bits()));
         println!();
     }};
+}
+
+trait Told {
+    fn told(self) -> String;
+}
+
+impl Told for usize {
+    fn told(self) -> String {
+        self.to_string()
+    }
+}
+
+impl<const N: usize> Told for [f32; N] {
+    fn told(self) -> String {
+        self.map(|x| x.to_bits().to_string()).join(\" \")
+    }
+}
+
+fn told(action: impl Told) -> String {
+    action.told()
 }
 
 fn main() {
@@ -340,7 +382,8 @@ fn program(policies: &[NetworkPolicy]) -> PathBuf {
         assert!(source.lines().all(|line| line.chars().count() <= 100));
         std::fs::write(folder().join(format!("n{i}.rs")), source).unwrap();
         let _ = writeln!(library, "pub mod n{i};");
-        let _ = writeln!(arms, "\"{i}\" => answer!(n{i}, q, words),");
+        let acts = if policy.network().form().controls.is_some() { "control" } else { "act" };
+        let _ = writeln!(arms, "\"{i}\" => answer!(n{i}, {acts}, q, words),");
     }
     std::fs::write(folder().join("nets.rs"), library).unwrap();
     std::fs::write(folder().join("driver.rs"), DRIVER.replace("ARMS", &arms)).unwrap();
@@ -365,7 +408,13 @@ fn questions(policies: &[NetworkPolicy], each: usize) -> (String, String) {
             inputs.iter().chain(&entities).for_each(|f| {
                 let _ = write!(asked, " {}", f.to_bits());
             });
-            let _ = write!(answers, "{}", policy.act(q, &inputs, &entities));
+            let _ = match policy.control(q, &inputs, &entities) {
+                None => write!(answers, "{}", policy.act(q, &inputs, &entities)),
+                Some(numbers) => {
+                    let bits: Vec<_> = numbers.iter().map(|x| x.to_bits().to_string()).collect();
+                    write!(answers, "{}", bits.join(" "))
+                }
+            };
             policy.values(q, &inputs, &entities).iter().for_each(|v| {
                 assert!(v.is_finite());
                 let _ = write!(answers, " {}", v.to_bits());

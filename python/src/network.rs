@@ -92,9 +92,32 @@ impl NetworkPolicy {
     }
 
     /// The action of the largest value at `q`.
+    ///
+    /// Raises `ValueError` if an action is numbers: `control` has them.
     fn act(&self, q: i64, inputs: PyReadonlyArray1<'_, f32>) -> PyResult<usize> {
         let (q, inputs) = self.checked(q, &inputs)?;
+        if self.0.network().form().controls.is_some() {
+            return Err(wrong("an action of this policy is numbers: use `control`"));
+        }
         Ok(self.0.act(q, &inputs, &[]))
+    }
+
+    /// The numbers that the action at `q` is: float32, of shape (actions,). Only for networks of
+    /// continuous actions, as those of SAC, TD3, and PPO in a `Box`.
+    ///
+    /// Raises `ValueError` if the policy chooses among actions: `act` does.
+    fn control<'py>(
+        &self,
+        py: Python<'py>,
+        q: i64,
+        inputs: PyReadonlyArray1<'py, f32>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let (q, inputs) = self.checked(q, &inputs)?;
+        let numbers = self.0.control(q, &inputs, &[]);
+        let numbers =
+            numbers.ok_or_else(|| wrong("this policy chooses among actions: use `act`"))?;
+        let count = numbers.len();
+        shaped(py, numbers, &[count])
     }
 
     /// The formula of its task.

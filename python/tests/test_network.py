@@ -97,6 +97,28 @@ def test_a_network_of_another_form_is_its_document() -> None:
         NetworkPolicy.from_json(json.dumps(told))
 
 
+@pytest.mark.parametrize("squash", ["tanh", "clip"])
+def test_an_action_may_be_numbers(squash: str) -> None:
+    task = Task("F a && F b ensuring !c")
+    told, _ = document(task, 1)
+    low, high = np.array([-1.0, -2.0, 0.5]), np.array([1.0, 3.0, 0.5])
+    told["network"]["controls"] = {"squash": squash, "low": low.tolist(), "high": high.tolist()}
+    with pytest.raises(ValueError, match="`network.controls` is not a field of version 1"):
+        NetworkPolicy.from_json(json.dumps(told))
+    told["version"] = 2
+    policy = NetworkPolicy.from_json(json.dumps(told))
+    for x in np.random.default_rng(2).normal(size=(50, 4)).astype(np.float32):
+        values = policy.values(0, x)
+        cut = np.clip(values, low, high)
+        expected = low + (np.tanh(values) + 1) / 2 * (high - low) if squash == "tanh" else cut
+        assert np.allclose(policy.control(0, x), expected, atol=1e-6)
+    with pytest.raises(ValueError, match="is numbers: use `control`"):
+        policy.act(0, np.zeros(4, np.float32))
+    told["network"]["controls"]["high"] = [1.0, -3.0, 0.5]
+    with pytest.raises(ValueError, match="a `low` above its `high`"):
+        NetworkPolicy.from_json(json.dumps(told))
+
+
 def test_what_is_wrong_is_named() -> None:
     task = Task("F a")
     told, _ = document(task, 1)

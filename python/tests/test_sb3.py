@@ -17,6 +17,8 @@ from tltl.gymnasium import TaskEnv
 torch = pytest.importorskip("torch")
 sb3 = pytest.importorskip("stable_baselines3")
 pytestmark = pytest.mark.sb3
+# The networks are small: threads cost more than they bring.
+torch.set_num_threads(1)
 
 
 def labels(env: Any, obs: Any, info: dict[str, Any]) -> dict[str, bool]:
@@ -35,10 +37,15 @@ def cart(**options: Any) -> TaskEnv:
     return TaskEnv(gym.make("CartPole-v1"), "(x > 0.05) T (x < -0.05)", columns={"x": 0}, **options)
 
 
+def pendulum(**options: Any) -> TaskEnv:
+    return TaskEnv(gym.make("Pendulum-v1"), "(y > 0.5) T (y < -0.5)", columns={"y": 1}, **options)
+
+
 def learned(kind: str, env: Any, policy: str = "MlpPolicy", **options: Any) -> Any:
-    if kind == "dqn":
-        return sb3.DQN(policy, env, learning_starts=100, seed=0, **options).learn(600)
-    return sb3.PPO(policy, env, n_steps=128, seed=0, **options).learn(256)
+    if kind == "ppo":
+        return sb3.PPO(policy, env, n_steps=128, seed=0, **options).learn(256)
+    algorithm = {"dqn": sb3.DQN, "sac": sb3.SAC, "td3": sb3.TD3}[kind]
+    return algorithm(policy, env, learning_starts=100, seed=0, **options).learn(300)
 
 
 def test_the_checker_of_sb3_is_content() -> None:
@@ -71,49 +78,84 @@ def test_a_network_is_certified(kind: str) -> None:
     assert info["tltl"]["satisfied"] == (worth.satisfied == 1.0)
 
 
+def vectors_of(make: Any, observe: str, is_normalised: bool) -> Any:
+    from stable_baselines3.common.vec_env import DummyVecEnv, VecNormalize
+
+    vectors: Any = DummyVecEnv([lambda: make(observe=observe)])
+    if is_normalised:
+        keys = None if observe == "flat" else ["observation"]
+        vectors = VecNormalize(vectors, norm_obs_keys=keys, clip_obs=2.0)
+    return vectors
+
+
+def met(env: TaskEnv, observe: str, width: int, count: int) -> tuple[Any, Any]:
+    """Features of the environment and live automaton states: a fifth from episodes, the rest at random."""
+    rng = np.random.default_rng(1)
+    live = [q for q in range(env.task.num_states) if q != env.task.accepting]
+    q, states = rng.choice(live, count), rng.normal(size=(count, width)).astype(np.float32)
+    obs, info = env.reset(seed=1)
+    for i in range(count // 5):
+        states[i] = obs[:width] if observe == "flat" else obs["observation"]
+        q[i] = info["tltl"]["state"]
+        obs, _, terminated, truncated, info = env.step(env.action_space.sample())
+        if terminated or truncated:
+            obs, info = env.reset()
+    return states, q
+
+
+def predicted(algorithm: Any, env: TaskEnv, vectors: Any, states: Any, q: Any) -> Any:
+    seen: Any = [env.observed(obs, int(p)) for obs, p in zip(states, q, strict=True)]
+    if isinstance(seen[0], dict):
+        seen = {name: np.array([one[name] for one in seen]) for name in seen[0]}
+    else:
+        seen = np.array(seen)
+    normalized = getattr(vectors, "normalize_obs", lambda obs: obs)
+    return algorithm.predict(normalized(seen), deterministic=True)[0]
+
+
+def emitted(policy: NetworkPolicy, call: str, states: Any, q: Any, folder: Path) -> list[str]:
+    """What the emitted function says for each of the states, compiled and run."""
+    if shutil.which("rustc") is None:
+        pytest.skip("there is no rustc: the emitted file was not compiled")
+    policy.emit_rust(folder / "policy.rs")
+    states.tofile(folder / "states")
+    q.astype(np.uint8).tofile(folder / "q")
+    (folder / "main.rs").write_text(
+        """#[allow(dead_code)] mod policy;
+        fn main() {
+            let (states, q) = (std::fs::read("states").unwrap(), std::fs::read("q").unwrap());
+            for (row, q) in states.chunks(4 * policy::INPUTS).zip(q) {
+                let mut x = [0.0; policy::INPUTS];
+                for (x, bytes) in x.iter_mut().zip(row.chunks(4)) {
+                    *x = f32::from_ne_bytes(bytes.try_into().unwrap());
+                }
+                println!("{:?}", CALL);
+            }
+        }""".replace("CALL", call)
+    )
+    subprocess.run(["rustc", "--edition=2024", "-O", "main.rs"], cwd=folder, check=True)
+    run = subprocess.run([folder / "main"], cwd=folder, capture_output=True, text=True, check=True)
+    return run.stdout.splitlines()
+
+
 @pytest.mark.parametrize("is_normalised", [False, True])
 @pytest.mark.parametrize("observe", ["flat", "dict"])
 @pytest.mark.parametrize("kind", ["dqn", "ppo", "relu"])
 def test_a_network_is_exported(
     kind: str, observe: Literal["flat", "dict"], is_normalised: bool, tmp_path: Path
 ) -> None:
-    from stable_baselines3.common.vec_env import DummyVecEnv, VecNormalize
     from tltl.sb3 import export
 
-    env = cart(observe=observe)
-    vectors: Any = DummyVecEnv([lambda: cart(observe=observe)])
-    if is_normalised:
-        keys = None if observe == "flat" else ["observation"]
-        vectors = VecNormalize(vectors, norm_obs_keys=keys, clip_obs=2.0)
+    env, vectors = cart(observe=observe), vectors_of(cart, observe, is_normalised)
     relu = {"activation_fn": torch.nn.ReLU, "net_arch": [32, 16]}
     options: Any = {"policy_kwargs": relu} if kind == "relu" else {}
     form = "MlpPolicy" if observe == "flat" else "MultiInputPolicy"
-    algorithm = learned(kind, vectors, form, **options)
+    algorithm = learned("dqn" if kind == "dqn" else "ppo", vectors, form, **options)
     policy = export(algorithm, env.task, actions=["left", "right"])
     policy.save(tmp_path / "policy.json")
     assert NetworkPolicy.load(tmp_path / "policy.json") == policy
-    rng = np.random.default_rng(1)
-    live = [q for q in range(env.task.num_states) if q != env.task.accepting]
-    q = rng.choice(live, 10_000)
-    states = rng.normal(size=(10_000, 4)).astype(np.float32)
-    met: list[tuple[Any, int]] = []
-    obs, info = env.reset(seed=1)
-    while len(met) < 2_000:
-        base = obs[:4] if observe == "flat" else obs["observation"]
-        met.append((base, info["tltl"]["state"]))
-        obs, _, terminated, truncated, info = env.step(env.action_space.sample())
-        if terminated or truncated:
-            obs, info = env.reset()
-    states[: len(met)] = [base for base, _ in met]
-    q[: len(met)] = [state for _, state in met]
-    seen: Any = [env.observed(obs, int(p)) for obs, p in zip(states, q, strict=True)]
-    if observe == "dict":
-        seen = {name: np.array([one[name] for one in seen]) for name in seen[0]}
-    seen = np.array(seen) if observe == "flat" else seen
-    theirs, _ = algorithm.predict(
-        vectors.normalize_obs(seen) if is_normalised else seen, deterministic=True
-    )
-    differ = 0
+    states, q = met(env, observe, 4, 10_000)
+    theirs, differ = predicted(algorithm, env, vectors, states, q), 0
     for row, p, action in zip(states, q.tolist(), theirs, strict=True):
         values = np.sort(policy.values(p, row))
         if policy.act(p, row) != action:
@@ -121,29 +163,34 @@ def test_a_network_is_exported(
             assert values[-1] - values[-2] < 1e-4 * max(1.0, abs(values[-1]))
             differ += 1
     assert differ < 100
-    if shutil.which("rustc") is None:
-        pytest.skip("there is no rustc: the emitted file was not compiled")
-    policy.emit_rust(tmp_path / "policy.rs")
-    states.tofile(tmp_path / "states")
-    q.astype(np.uint8).tofile(tmp_path / "q")
-    (tmp_path / "main.rs").write_text(
-        """#[allow(dead_code)] mod policy;
-        fn main() {
-            let (states, q) = (std::fs::read("states").unwrap(), std::fs::read("q").unwrap());
-            for (row, q) in states.chunks(16).zip(q) {
-                let mut x = [0.0; 4];
-                for (x, bytes) in x.iter_mut().zip(row.chunks(4)) {
-                    *x = f32::from_ne_bytes(bytes.try_into().unwrap());
-                }
-                println!("{}", policy::act(q.into(), &x, &[]));
-            }
-        }"""
-    )
-    subprocess.run(["rustc", "--edition=2024", "main.rs"], cwd=tmp_path, check=True)
-    out = subprocess.run(
-        [tmp_path / "main"], cwd=tmp_path, capture_output=True, text=True, check=True
-    ).stdout
-    assert out.split() == [str(policy.act(p, row)) for p, row in zip(q.tolist(), states, strict=True)]
+    own = [str(policy.act(p, row)) for p, row in zip(q.tolist(), states, strict=True)]
+    assert emitted(policy, "policy::act(q.into(), &x, &[])", states, q, tmp_path) == own
+
+
+@pytest.mark.parametrize("is_normalised", [False, True])
+@pytest.mark.parametrize("observe", ["flat", "dict"])
+@pytest.mark.parametrize("kind", ["sac", "td3", "ppo"])
+def test_actions_of_numbers_are_exported(
+    kind: str, observe: Literal["flat", "dict"], is_normalised: bool, tmp_path: Path
+) -> None:
+    from tltl.sb3 import export
+
+    env, vectors = pendulum(observe=observe), vectors_of(pendulum, observe, is_normalised)
+    form = "MlpPolicy" if observe == "flat" else "MultiInputPolicy"
+    options: Any = {} if kind == "ppo" else {"policy_kwargs": {"net_arch": [32, 16]}}
+    algorithm = learned(kind, vectors, form, **options)
+    policy = export(algorithm, env.task, actions=["torque"], inputs=["cos", "sin", "speed"])
+    assert NetworkPolicy.from_json(policy.to_json()) == policy
+    states, q = met(env, observe, 3, 10_000)
+    theirs = predicted(algorithm, env, vectors, states, q)
+    own = np.array([policy.control(p, row) for p, row in zip(q.tolist(), states, strict=True)])
+    assert own.shape == theirs.shape == (10_000, 1) and np.ptp(theirs) > 0
+    # Torques are from -2 to 2.
+    assert np.abs(own - theirs).max() < 1e-4
+    said = emitted(policy, "policy::control(q.into(), &x, &[])[0].to_bits()", states, q, tmp_path)
+    assert list(map(int, said)) == own[:, 0].view(np.uint32).tolist()
+    with pytest.raises(ValueError, match="is numbers: use `control`"):
+        policy.act(0, states[0])
 
 
 def test_a_network_without_hidden_layers_is_exported() -> None:
@@ -168,6 +215,12 @@ def test_what_cannot_be_exported_is_named() -> None:
     )
     with pytest.raises(ValueError, match=r"a layer ELU.*: a document has Linear layers with ReLU or"):
         export(smooth, env.task)
+    with pytest.raises(ValueError, match="among actions: use `act`"):
+        export(learned("dqn", env), env.task).control(0, np.zeros(4, np.float32))
+    bits = gym.make("Pendulum-v1")
+    bits.action_space = gym.spaces.MultiBinary(1)
+    with pytest.raises(ValueError, match=r"wanted are Discrete from 0 on, or a Box with one axis and"):
+        export(sb3.PPO("MlpPolicy", bits, n_steps=64, seed=0), env.task)
     by_name = cart(observe="dict", key="mode")
     many = sb3.DQN("MultiInputPolicy", by_name, seed=0)
     with pytest.raises(ValueError, match="or a Dict in which `task_state` is"):

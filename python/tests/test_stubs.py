@@ -34,7 +34,10 @@ def definitions(text: str) -> Iterator[tuple[Definition, Any]]:
             for member in node.body if isinstance(node, ast.ClassDef) else ():
                 if isinstance(member, ast.FunctionDef) and not member.name.startswith("__"):
                     if member.name not in seen:
-                        yield member, inspect.getattr_static(own, member.name)
+                        thing = inspect.getattr_static(own, member.name)
+                        # The documentation is that of the function, not of what makes it static.
+                        is_static = isinstance(thing, staticmethod | classmethod)
+                        yield member, getattr(own, member.name) if is_static else thing
                     seen.add(member.name)
 
 

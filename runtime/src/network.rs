@@ -24,7 +24,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::q::argmax;
 
-pub use form::{Activation, Form, Scale};
+pub use form::{Activation, Controls, Form, Scale, Squash};
 
 /// What a network sees of a state of type `S`.
 ///
@@ -262,6 +262,8 @@ pub enum NetworkError {
     /// The normalisation of inputs has a deviation or a clip that is not positive, or a number that is
     /// not finite.
     Scale,
+    /// A control has no range: a bound is not finite, or the smallest is above the largest.
+    Controls,
     /// There is no network of that shape.
     Shape {
         /// The size that does not go with the others.
@@ -290,6 +292,9 @@ impl fmt::Display for NetworkError {
             Self::Scale => f.write_str(
                 "`network.scale` has a deviation or a clip that is not positive, or a number that is \
                  not finite",
+            ),
+            Self::Controls => f.write_str(
+                "`network.controls` has a bound that is not finite, or a `low` above its `high`",
             ),
             Self::NotFinite { layer } => {
                 write!(f, "layer {layer} has a weight that is not a finite number")
@@ -529,6 +534,8 @@ struct Unchecked {
     scale: Option<Scale>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     states: Vec<f32>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    controls: Option<Controls>,
     layers: Vec<Dense>,
 }
 
@@ -544,8 +551,8 @@ impl TryFrom<Unchecked> for Network {
 
     #[inline]
     fn try_from(network: Unchecked) -> Result<Self, NetworkError> {
-        let Unchecked { shape, activation, scale, states, layers } = network;
-        Self::with_form(shape, layers, Form { activation, scale, states })
+        let Unchecked { shape, activation, scale, states, controls, layers } = network;
+        Self::with_form(shape, layers, Form { activation, scale, states, controls })
     }
 }
 
@@ -553,7 +560,8 @@ impl TryFrom<Unchecked> for Network {
 impl From<Network> for Unchecked {
     #[inline]
     fn from(network: Network) -> Self {
-        let Network { shape, layers, form: Form { activation, scale, states } } = network;
-        Self { shape, activation, scale, states, layers }
+        let Network { shape, layers, form } = network;
+        let Form { activation, scale, states, controls } = form;
+        Self { shape, activation, scale, states, controls, layers }
     }
 }

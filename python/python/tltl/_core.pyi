@@ -154,24 +154,19 @@ class Task:
     def __new__(cls, formula: str, /, *, budget: Budget | None = None) -> Task: ...
     @staticmethod
     def from_hoa(text: str, /, *, name: str = "automaton") -> Task:
-        """staticmethod(function) -> method
+        """The task of an automaton that another tool wrote in the HOA format (Spot, Owl, ltlf2dfa). It
+        must be deterministic, and accept for good once it accepts.
 
-        Convert a function to be a static method.
+        There is no formula: `text` is the name in the file, and `robustness` that of the best run
+        through the automaton. States are given by the names of the propositions, as for a bare
+        formula.
 
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
+        Raises `CompileError` if the text is not such an automaton.
 
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
-
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
+        >>> from tltl import Task
+        >>> theirs = Task.from_hoa(Task("!wet U home").to_hoa())
+        >>> theirs.fingerprint == Task("!wet U home").fingerprint
+        True
         """
     @property
     def text(self) -> str:
@@ -426,25 +421,7 @@ class TaskFile:
     """A task file, compiled."""
     @staticmethod
     def from_text(text: str, /, *, name: str = "text", budget: Budget | None = None) -> TaskFile:
-        """staticmethod(function) -> method
-
-        Convert a function to be a static method.
-
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
-
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
-
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
-        """
+        """The file of this text, which messages call `name`."""
     @property
     def tasks(self) -> dict[str, tuple[Parameter, ...]]:
         """The names of its tasks, each with its parameters."""
@@ -614,24 +591,12 @@ class FiniteModel:
         origin: Sequence[int] | None = None,
         event: tuple[Hashable, ...] | None = None,
     ) -> FiniteModel:
-        """staticmethod(function) -> method
+        """The world of sparse rows (CSR): row s * actions + a are the outcomes of action a in state s.
 
-        Convert a function to be a static method.
+        `ends` says of each outcome whether the episode is over there, `starts` how probable each state
+        is at first (equally, if left out), and `horizon` after how many steps an episode is cut.
 
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
-
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
-
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
+        Raises `ValueError` if the outcomes of an action are not a distribution.
         """
     @staticmethod
     def from_experience(
@@ -644,24 +609,16 @@ class FiniteModel:
         terminated: ArrayLike | None = None,
         starts: ArrayLike | None = None,
     ) -> FiniteModel:
-        """staticmethod(function) -> method
+        """The world as stored steps show it, with frequencies as probabilities: step i is from `states[i]`
+        under `actions[i]` to `next_states[i]`, all of shape (n,), and ends the episode where
+        `terminated[i]`. `starts`, of any length, are first states of episodes; without them each state
+        that was met is a start alike.
 
-        Convert a function to be a static method.
+        An action that was never tried in a state stays there. The order of the steps does not matter,
+        so they may come from any policy and any task: `solve` and `compose` on this world are learning
+        and composition from stored experience.
 
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
-
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
-
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
+        Raises `ValueError` if a state or an action is out of range.
         """
     @staticmethod
     def from_transitions(
@@ -671,45 +628,16 @@ class FiniteModel:
         events: EventFn | None = None,
         horizon: int | None = None,
     ) -> FiniteModel:
-        """staticmethod(function) -> method
+        """The world of Gymnasium's tables: `P[state][action]` are outcomes (probability, next state,
+        reward, done), for states and actions numbered from 0.
 
-        Convert a function to be a static method.
-
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
-
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
-
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
+        With `events`, a function of (state, action, next state, reward), a next state is split by what
+        happened on the way to it, and labels may depend on that.
         """
     @staticmethod
     def from_env(env: Any, *, events: EventFn | None = None) -> FiniteModel:
-        """staticmethod(function) -> method
-
-        Convert a function to be a static method.
-
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
-
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
-
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
+        """The world of a Gymnasium environment that has its tables (`env.unwrapped.P`), with its starts
+        and its time limit.
         """
     @property
     def num_states(self) -> int:
@@ -883,24 +811,9 @@ class Policy:
     """
     @staticmethod
     def from_json(text: str) -> Policy:
-        """staticmethod(function) -> method
+        """The policy of a document, as `to_json` writes it.
 
-        Convert a function to be a static method.
-
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
-
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
-
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
+        Raises `ValueError` if it is not one; the message names the field.
         """
     def to_json(self) -> str:
         """The document of the policy, which `tltlc policy` reads too."""
@@ -911,24 +824,9 @@ class Policy:
         """
     @staticmethod
     def load(path: _Path) -> Policy:
-        """staticmethod(function) -> method
+        """The policy that `save` wrote.
 
-        Convert a function to be a static method.
-
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
-
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
-
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
+        Raises `ValueError` if the file holds no policy, and `OSError` if it cannot be read.
         """
     def emit_rust(self, path: _Path | None = None) -> str:
         """The policy as Rust source that needs no standard library and nothing of this package; with a
@@ -982,24 +880,9 @@ class NetworkPolicy:
     """
     @staticmethod
     def from_json(text: str) -> NetworkPolicy:
-        """staticmethod(function) -> method
+        """The policy of a document, as `to_json` writes it.
 
-        Convert a function to be a static method.
-
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
-
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
-
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
+        Raises `ValueError` if it is not one; the message names the field.
         """
     def to_json(self) -> str:
         """The document of the policy, which `tltlc policy` reads too."""
@@ -1007,25 +890,7 @@ class NetworkPolicy:
         """Writes the document to a file, which is replaced as a whole."""
     @staticmethod
     def load(path: _Path) -> NetworkPolicy:
-        """staticmethod(function) -> method
-
-        Convert a function to be a static method.
-
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
-
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
-
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
-        """
+        """The policy that `save` wrote."""
     def emit_rust(self, path: _Path | None = None) -> str:
         """The policy as Rust source that needs no standard library and nothing of this package; with a
         `path` it is written there too.
@@ -1037,7 +902,16 @@ class NetworkPolicy:
         Raises `IndexError` if the task does not go on at `q`.
         """
     def act(self, q: int, inputs: NDArray[np.float32]) -> int:
-        """The action of the largest value at `q`."""
+        """The action of the largest value at `q`.
+
+        Raises `ValueError` if an action is numbers: `control` has them.
+        """
+    def control(self, q: int, inputs: NDArray[np.float32]) -> NDArray[np.float32]:
+        """The numbers that the action at `q` is: float32, of shape (actions,). Only for networks of
+        continuous actions, as those of SAC, TD3, and PPO in a `Box`.
+
+        Raises `ValueError` if the policy chooses among actions: `act` does.
+        """
     @property
     def formula(self) -> str:
         """The formula of its task."""
@@ -1119,67 +993,13 @@ class Schedule:
     """A number that changes while learning goes on."""
     @staticmethod
     def constant(value: float) -> Schedule:
-        """staticmethod(function) -> method
-
-        Convert a function to be a static method.
-
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
-
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
-
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
-        """
+        """Always the same."""
     @staticmethod
     def linear(start: float, end: float, steps: int) -> Schedule:
-        """staticmethod(function) -> method
-
-        Convert a function to be a static method.
-
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
-
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
-
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
-        """
+        """From one value to another in so many steps, and the other from then on."""
     @staticmethod
     def harmonic(start: float, half: float) -> Schedule:
-        """staticmethod(function) -> method
-
-        Convert a function to be a static method.
-
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
-
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
-
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
-        """
+        """`start * half / (half + n)`: half of the start after `half`."""
     def at(self, n: int) -> float:
         """The value at `n`."""
     def __eq__(self, other: object, /) -> bool: ...
@@ -1218,24 +1038,8 @@ class Settings:
     ) -> Settings: ...
     @staticmethod
     def paper() -> Settings:
-        """staticmethod(function) -> method
-
-        Convert a function to be a static method.
-
-        A static method does not receive an implicit first argument.
-        To declare a static method, use this idiom:
-
-             class C:
-                 @staticmethod
-                 def f(arg1, arg2, argN):
-                     ...
-
-        It can be called either on the class (e.g. C.f()) or on an instance
-        (e.g. C().f()). Both the class and the instance are ignored, and
-        neither is passed implicitly as the first argument to the method.
-
-        Static methods in Python are similar to those found in Java or C++.
-        For a more advanced concept, see the classmethod builtin.
+        """The recipe of the paper: `progress` with γ 0.95, α 0.1, random exploration, one update a step,
+        no memory.
         """
     @property
     def rewards(self) -> Rewards:

@@ -71,17 +71,20 @@ def export(
     actions: Sequence[str] | None = None,
     inputs: Sequence[str] | None = None,
 ) -> NetworkPolicy:
-    """The network of a DQN, or the actor of a PPO or A2C, as a `NetworkPolicy`.
+    """The network of a DQN, or the actor of a PPO, A2C, SAC, TD3 or DDPG, as a `NetworkPolicy`.
 
     It takes what the environment shows without the automaton's state, which is an argument of its own:
     `spaces.flatten` of the observation beneath `TaskEnv`, float32. With `observe="dict"` the parts stand
     in the order of their names, without `key`. Normalisation by a `VecNormalize` around the environment
-    is part of the policy. The values are those of `predict` with `deterministic=True`.
+    is part of the policy. Its actions are those of `predict` with `deterministic=True`: `act` chooses one
+    of `Discrete` actions, `control` gives the numbers of a `Box`, whose names are `actions`.
 
     Raises `ValueError` for what the document cannot say, by its name: layers other than `Linear` with
-    `ReLU` or `Tanh` between them, other feature extractors, actions that are not `Discrete`.
+    `ReLU` or `Tanh` between them, other feature extractors, actions that are neither `Discrete` nor a
+    flat, bounded `Box`.
     """
-    extractor, actor = acting(algorithm.policy)
+    extractor, actor, squash = acting(algorithm.policy)
+    controls = bounds(algorithm.action_space, squash)
     base, state = columns_of(algorithm.observation_space, extractor, task, key)
     layers, activation = dense(actor)
     own, count = [w.shape[1] for w, _ in layers[:-1]], layers[-1][0].shape[1]
@@ -102,6 +105,7 @@ def export(
         },
         "activation": activation,
         **scale,
+        **controls,
     }
     layers[0] = weights[base], bias
     if own:
@@ -151,19 +155,37 @@ def dense(actor: list[Any]) -> tuple[list[tuple[NDArray[np.float32], NDArray[np.
     return layers, (between or {"relu"}).pop()
 
 
-def acting(policy: Any) -> tuple[Any, list[Any]]:
-    """What makes features of an observation, and the layers from there to action values or logits."""
+def acting(policy: Any) -> tuple[Any, list[Any], str]:
+    """What makes features of an observation, the layers from there to what the network puts out, and what
+    keeps that within the bounds, where an action is numbers."""
     if hasattr(policy, "q_net"):
-        net = policy.q_net
-        extractor, rest = net.features_extractor, list(net.q_net)
-    elif hasattr(policy, "action_net"):
-        extractor = policy.features_extractor
+        return policy.q_net.features_extractor, list(policy.q_net.q_net), ""
+    if hasattr(policy, "action_net"):
         rest = [*policy.mlp_extractor.policy_net, policy.action_net]
-    else:
-        raise ValueError(f"{type(policy).__name__} has neither action values nor an actor")
-    if type(policy.action_space).__name__ != "Discrete" or policy.action_space.start != 0:
-        raise ValueError(f"actions of {policy.action_space}: wanted is Discrete from 0 on")
-    return extractor, rest
+        return policy.features_extractor, rest, "tanh" if policy.squash_output else "clip"
+    actor: Any = getattr(policy, "actor", None)
+    if hasattr(actor, "latent_pi"):
+        # SAC: the mean of a normal distribution, before the hyperbolic tangent.
+        return actor.features_extractor, [*actor.latent_pi, actor.mu], "tanh"
+    if hasattr(actor, "mu"):
+        # TD3 and DDPG: the hyperbolic tangent is the last layer.
+        *rest, last = actor.mu
+        if isinstance(last, torch.nn.Tanh):
+            return actor.features_extractor, rest, "tanh"
+    raise ValueError(f"{type(policy).__name__} has neither action values nor an actor")
+
+
+def bounds(actions: spaces.Space[Any], squash: str) -> dict[str, Any]:
+    """What the network's outputs become, for the document: nothing where it chooses among actions."""
+    if isinstance(actions, spaces.Discrete) and actions.start == 0:
+        return {}
+    if isinstance(actions, spaces.Box) and len(actions.shape) == 1 and squash:
+        ends = {"low": actions.low, "high": actions.high}
+        if np.isfinite(list(ends.values())).all():
+            return {"controls": {"squash": squash, **{name: end.tolist() for name, end in ends.items()}}}
+    raise ValueError(
+        f"actions of {actions}: wanted are Discrete from 0 on, or a Box with one axis and finite bounds"
+    )
 
 
 def columns_of(

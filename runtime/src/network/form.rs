@@ -89,14 +89,64 @@ impl Scale {
     }
 }
 
+/// What keeps a control between its bounds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
+pub enum Squash {
+    /// The hyperbolic tangent of the output, stretched from [-1, 1] to the bounds: SAC and TD3.
+    Tanh,
+    /// The output itself, cut off at the bounds: the mean of a normal distribution, as PPO has it.
+    Clip,
+}
+
+/// What outputs are where an action is not one of several, but numbers: controls.
+///
+/// ```
+/// use tltl::network::{Controls, Squash};
+///
+/// let controls = Controls { squash: Squash::Clip, low: vec![-1.0], high: vec![3.0] };
+/// assert_eq!([0.5, 7.0].map(|x| controls.of(0, x)), [0.5, 3.0]);
+/// let controls = Controls { squash: Squash::Tanh, ..controls };
+/// assert_eq!([0.0, 100.0].map(|x| controls.of(0, x)), [1.0, 3.0]);
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(Serialize, Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Controls {
+    /// What keeps them between their bounds.
+    pub squash: Squash,
+    /// The smallest of each control.
+    pub low: Vec<f32>,
+    /// The largest of each control; not below the smallest.
+    pub high: Vec<f32>,
+}
+
+impl Controls {
+    /// Control `i` of a network that puts out `x`.
+    ///
+    /// # Panics
+    /// If there is no such control.
+    #[must_use]
+    #[track_caller]
+    #[inline]
+    pub fn of(&self, i: usize, x: f32) -> f32 {
+        let (low, high) = (self.low[i], self.high[i]);
+        match self.squash {
+            Squash::Tanh => low + (tanh(x) + 1.0) * 0.5 * (high - low),
+            Squash::Clip => x.clamp(low, high),
+        }
+    }
+}
+
 /// The form of a network; the default is that of the networks that are learned here.
 ///
 /// ```
-/// use tltl::network::{Activation, Dense, Form, Network, Shape};
+/// use tltl::network::{Dense, Form, Network, Shape};
 ///
 /// // One feature, a hidden unit, two automaton states, two actions.
 /// let shape = Shape { inputs: 1, hidden: vec![1], heads: 2, actions: 2, entities: 0, channels: 0 };
-/// let form = Form { activation: Activation::Relu, scale: None, states: vec![0.0, -1.0] };
+/// let form = Form { states: vec![0.0, -1.0], ..Form::default() };
 /// let layers = [[1.0].to_vec(), [1.0, -1.0].to_vec()];
 /// let layers = layers.map(|weights| Dense { bias: vec![0.0; weights.len()], weights });
 /// let network = Network::with_form(shape, layers.to_vec(), form)?;
@@ -115,9 +165,23 @@ pub struct Form {
     /// the first hidden layer, indexed `head * units + unit`. All states then share one head. Empty where
     /// each state has a head of its own.
     pub states: Vec<f32>,
+    /// Where an action is numbers: what its outputs become. `None` where they are values of actions.
+    pub controls: Option<Controls>,
 }
 
 impl Form {
+    /// A field of a document that has it, and that a document of version 1 has not.
+    #[inline]
+    pub(super) fn later_field(&self) -> Option<&'static str> {
+        let fields = [
+            ("network.activation", self.activation != Activation::default()),
+            ("network.scale", self.scale.is_some()),
+            ("network.states", !self.states.is_empty()),
+            ("network.controls", self.controls.is_some()),
+        ];
+        fields.iter().find(|(_, is_there)| *is_there).map(|(field, _)| *field)
+    }
+
     /// The heads of the last layer.
     #[inline]
     pub(super) fn heads(&self, shape: &Shape) -> usize {
@@ -143,6 +207,14 @@ impl Form {
             let sound = mean.iter().all(|x| x.is_finite()) && deviation.iter().all(positive);
             if !sound || !positive(clip) {
                 return Err(NetworkError::Scale);
+            }
+        }
+        if let Some(Controls { low, high, .. }) = &self.controls {
+            size("controls.low", low.len(), Some(shape.actions))?;
+            size("controls.high", high.len(), Some(shape.actions))?;
+            let sound = |(low, high): (&f32, &f32)| low <= high && (high - low).is_finite();
+            if !low.iter().zip(high).all(sound) {
+                return Err(NetworkError::Controls);
             }
         }
         match self.states.iter().all(|x| x.is_finite()) {

@@ -7,7 +7,7 @@
 //!
 //! # Schema, version 2
 //! As JSON, every field required unless marked optional, unknown fields refused. Version 1 is the same
-//! without `activation`, `scale` and `states`, and is read too:
+//! without `activation`, `scale`, `states` and `controls`, and is read too:
 //! ```text
 //! {
 //!   "format": "tltl-network-policy",   these two first
@@ -49,6 +49,11 @@
 //!     },
 //!     "states": [0.0, ...],            optional: H * (first of hidden), what each live state adds to
 //!                                      the first layer; then all share one head
+//!     "controls": {                    optional: an action is A numbers; `actions` names each
+//!       "squash": "tanh",              or "clip"
+//!       "low": [-1.0, ...],            A
+//!       "high": [1.0, ...]             A, none below its `low`
+//!     },
 //!     "layers": [                      the hidden layers, then the heads
 //!       {
 //!         "weights": [0.1, ...],       indexed input * outputs + output
@@ -63,7 +68,8 @@
 //! automaton state in which the task goes on, and puts out columns `h * w..(h + 1) * w` of the last
 //! layer: values of the first A - E actions; where E > 0, one that the others have in common;
 //! and C weights, whose product with the features of its entity is added to that. So w is
-//! A - E + (1 if E > 0) + C.
+//! A - E + (1 if E > 0) + C. With `controls` what would be the value of action i is x_i, and number i of
+//! the action is low_i + (tanh x_i + 1) / 2 (high_i - low_i), or x_i cut off at low_i and high_i.
 //!
 //! Numbers are 32-bit floats, written so that they are read back exactly (with serde_json, switch
 //! on its feature `float_roundtrip`).
@@ -201,6 +207,13 @@ pub enum NetworkPolicyError {
     Format(String),
     /// It is of another version.
     Version(u32),
+    /// It has a field that its version has not.
+    Field {
+        /// The field.
+        field: &'static str,
+        /// The version that the document says it is of.
+        version: u32,
+    },
     /// A state of the automaton is out of range.
     Range {
         /// The field.
@@ -248,6 +261,9 @@ impl fmt::Display for NetworkPolicyError {
             Self::Version(found) => {
                 let version = NetworkPolicy::VERSION;
                 write!(f, "network policy version {found}; this library reads {version}")
+            }
+            Self::Field { field, version } => {
+                write!(f, "`{field}` is not a field of version {version}")
             }
             Self::Range { field, found, states } => {
                 write!(f, "`{field}` is {found}, not less than {states}")
@@ -332,6 +348,9 @@ impl NetworkDocument {
     fn check(&self) -> Result<(), NetworkPolicyError> {
         check_format(&self.format)?;
         check_version(&self.version)?;
+        if let (1, Some(field)) = (self.version, self.network.form().later_field()) {
+            return Err(NetworkPolicyError::Field { field, version: self.version });
+        }
         self.check_automaton()?;
         let shape = self.network.shape();
         let named = |field, names: &[String], expected| match names.len() {
@@ -542,7 +561,7 @@ impl NetworkPolicy {
     }
 
     /// The action of the largest value at `q`, the lowest of equals: action 0 where the task is
-    /// decided.
+    /// decided. Where an action is numbers, [`Self::control`] says them.
     ///
     /// # Panics
     /// As [`Self::values`].
@@ -551,6 +570,38 @@ impl NetworkPolicy {
     #[inline]
     pub fn act(&self, q: u32, inputs: &[f32], entities: &[f32]) -> usize {
         argmax(&self.values(q, inputs, entities))
+    }
+
+    /// The numbers that the action at `q` is, each within its bounds: those of outputs of 0 where the
+    /// task is decided. `None` if the network chooses among actions.
+    ///
+    /// ```
+    /// use tltl::network::policy::NetworkPolicy;
+    /// use tltl::network::{Controls, Dense, Form, Network, Shape, Squash};
+    /// use tltl::tltl;
+    ///
+    /// // A speed between -2 and 2, against the place.
+    /// let shape = Shape { inputs: 1, hidden: vec![], heads: 1, actions: 1, entities: 0, channels: 0 };
+    /// let controls = Controls { squash: Squash::Clip, low: vec![-2.0], high: vec![2.0] };
+    /// let form = Form { controls: Some(controls), ..Form::default() };
+    /// let layers = vec![Dense { weights: vec![-0.5], bias: vec![0.0] }];
+    /// let network = Network::with_form(shape, layers, form)?;
+    /// let task = tltl! { |x: &f64| F (-1 < { *x } < 1) };
+    /// let policy = NetworkPolicy::new(&task, vec!["speed".into()], network)?;
+    /// let found = [3.0, 9.0].map(|x| policy.control(0, &[x], &[]));
+    /// assert_eq!(found, [Some(vec![-1.5]), Some(vec![-2.0])]);
+    /// # Ok::<(), Box<dyn core::error::Error>>(())
+    /// ```
+    ///
+    /// # Panics
+    /// As [`Self::values`].
+    #[must_use]
+    #[track_caller]
+    #[inline]
+    pub fn control(&self, q: u32, inputs: &[f32], entities: &[f32]) -> Option<Vec<f32>> {
+        let controls = self.network().form().controls.as_ref()?;
+        let values = self.values(q, inputs, entities).into_iter().enumerate();
+        Some(values.map(|(i, x)| controls.of(i, x)).collect())
     }
 }
 

@@ -9,10 +9,12 @@ use std::fmt::Write as _;
 
 use tltl::estimate::{Estimate, Interval};
 use tltl::network::policy::{NetworkDocument, NetworkPolicy, NetworkTraining};
-use tltl::network::{Activation, Dense, Form, Scale, Shape};
+use tltl::network::{Controls, Dense, Scale, Shape};
 use tltl::policy::States;
 
 use super::policy::{known, paragraph};
+
+mod functions;
 
 /// The most columns of a line.
 const COLUMNS: usize = 96;
@@ -21,7 +23,7 @@ const COLUMNS: usize = 96;
 const LEARNED: &str = "#[rustfmt::skip]\n#[allow(clippy::approx_constant, reason = \"learned\")]";
 
 /// The Rust source of a network policy: one static for each layer, and the functions `values`,
-/// `act` and `is_done`.
+/// `act` (`control`, where an action is numbers) and `is_done`.
 #[must_use]
 pub fn source(policy: &NetworkPolicy) -> String {
     let (document, network) = (policy.document(), policy.network());
@@ -40,13 +42,16 @@ pub fn source(policy: &NetworkPolicy) -> String {
     if let Some(scale) = &form.scale {
         normalisation(&mut text, scale);
     }
+    if let Some(controls) = &form.controls {
+        bounds(&mut text, controls);
+    }
     let (last, hidden) = network.layers().split_last().expect("a network has heads");
     for (i, layer) in hidden.iter().enumerate() {
         let states: &[f32] = if i == 0 { &form.states } else { &[] };
         dense(&mut text, i, layer, states);
     }
     head(&mut text, if form.states.is_empty() { shape.heads } else { 1 }, last);
-    functions(&mut text, shape, form);
+    functions::write(&mut text, shape, form);
     text
 }
 
@@ -64,9 +69,11 @@ fn documentation(policy: &NetworkDocument) -> String {
         sizes(policy),
         trained(&policy.training),
         policy.estimate.as_ref().map_or("Not tried in episodes.".to_owned(), estimated),
-        "An episode: `q` is the state of the task's automaton; until `is_done(q)`, take the action \
-         `act(q, inputs, entities)`, and let the automaton read the next state of the world."
-            .to_owned(),
+        format!(
+            "An episode: `q` is the state of the task's automaton; until `is_done(q)`, take the action \
+             `{}(q, inputs, entities)`, and let the automaton read the next state of the world.",
+            if policy.network.form().controls.is_some() { "control" } else { "act" }
+        ),
     ] {
         paragraph(&mut text, &content);
     }
@@ -209,6 +216,19 @@ fn normalisation(text: &mut String, Scale { mean, deviation, clip }: &Scale) {
         write!(text, "\n/// The largest size of a normalised input.\nconst CLIP: f32 = {clip};\n");
 }
 
+/// The bounds of controls.
+fn bounds(text: &mut String, Controls { low, high, .. }: &Controls) {
+    for (name, about, numbers) in [("LOW", "smallest", low), ("HIGH", "largest", high)] {
+        let _ = write!(
+            text,
+            "\n/// The {about} of each control.\n{LEARNED}\n\
+             pub const {name}: [f32; ACTIONS.len()] = "
+        );
+        rows(text, "", numbers.iter().map(|&x| literal(x)));
+        text.push_str(";\n");
+    }
+}
+
 /// A hidden layer: weights by input, then the bias, with what each automaton state adds to it.
 fn dense(text: &mut String, i: usize, layer: &Dense, states: &[f32]) {
     let outputs = layer.bias.len();
@@ -295,158 +315,3 @@ fn rows(text: &mut String, margin: &str, entries: impl Iterator<Item = String>) 
 fn literal(weight: f32) -> String {
     format!("{weight:?}")
 }
-
-/// The forward pass of this shape: its hidden layers, and the pointing actions if it has entities.
-fn functions(text: &mut String, shape: &Shape, form: &Form) {
-    let mut trunk = String::new();
-    let first = if form.scale.is_some() { "&normalised(inputs)" } else { "inputs" };
-    let (function, activation) = match form.activation {
-        Activation::Relu => ("rectified", RECTIFIED),
-        Activation::Tanh => ("tanh", TANH),
-    };
-    for i in 0..shape.hidden.len() {
-        let from = if i == 0 { first } else { "&x" };
-        let of_state = if i == 0 && !form.states.is_empty() { "[head]" } else { "" };
-        let _ = writeln!(
-            trunk,
-            "    let x = {function}(dense({from}, &WEIGHTS_{i}, &BIAS_{i}{of_state}));"
-        );
-    }
-    let last = if shape.hidden.is_empty() { first } else { "&x" };
-    let head = if form.states.is_empty() { "head" } else { "0" };
-    let out = format!("dense({last}, &HEAD_WEIGHTS[{head}], &HEAD_BIAS[{head}])");
-    let (plain, forward) = match shape.entities {
-        0 => (String::new(), format!("{trunk}    {out}\n")),
-        _ => (
-            format!(
-                "\n/// The actions before this one point at nothing.\nconst PLAIN: usize = {};\n",
-                shape.actions - shape.entities
-            ),
-            format!("{trunk}    let out = {out};\n{POINTING}"),
-        ),
-    };
-    text.push_str(&plain);
-    let unused = if shape.entities == 0 { "_entities" } else { "entities" };
-    text.push_str(&FUNCTIONS.replace("FORWARD", &forward).replace("UNUSED", unused));
-    text.push_str(if form.scale.is_some() { NORMALISED } else { "" });
-    text.push_str(if shape.hidden.is_empty() { "" } else { activation });
-}
-
-/// The functions of the generated file; `FORWARD` and `UNUSED` are replaced.
-const FUNCTIONS: &str = "
-/// Q(s, q, ·): what each of the [`ACTIONS`] is worth in the state whose features are `inputs`, at
-/// the automaton state `q`; 0 where the task is decided.
-///
-/// `entities`, indexed `channel * ENTITIES + entity`, are the features of the entities. All
-/// features must be finite.
-///
-/// # Panics
-/// If `q` is not below [`AUTOMATON_STATES`].
-#[must_use]
-pub fn values(
-    q: usize,
-    inputs: &[f32; INPUTS],
-    entities: &[f32; CHANNELS * ENTITIES],
-) -> [f32; ACTIONS.len()] {
-    match HEAD[q] {
-        Some(head) => forward(head, inputs, entities),
-        None => [0.0; ACTIONS.len()],
-    }
-}
-
-/// The action of the largest value, an index of [`ACTIONS`], the lowest of equals: 0 where the task
-/// is decided.
-///
-/// # Panics
-/// If `q` is not below [`AUTOMATON_STATES`].
-#[must_use]
-pub fn act(q: usize, inputs: &[f32; INPUTS], entities: &[f32; CHANNELS * ENTITIES]) -> usize {
-    let values = values(q, inputs, entities);
-    let mut best = 0;
-    for (action, value) in values.iter().enumerate() {
-        if *value > values[best] {
-            best = action;
-        }
-    }
-    best
-}
-
-/// Whether an episode ends at `q`: accomplished, or lost.
-#[must_use]
-pub fn is_done(q: usize) -> bool {
-    ACCEPTING == Some(q) || TRAP == Some(q)
-}
-
-fn forward(
-    head: usize,
-    inputs: &[f32; INPUTS],
-    UNUSED: &[f32; CHANNELS * ENTITIES],
-) -> [f32; ACTIONS.len()] {
-FORWARD}
-
-/// `x W + b`; what is 0 in `x` costs nothing.
-fn dense<const I: usize, const O: usize>(
-    x: &[f32; I],
-    weights: &[[f32; O]; I],
-    bias: &[f32; O],
-) -> [f32; O] {
-    let mut y = *bias;
-    for (x, row) in x.iter().zip(weights) {
-        if *x != 0.0 {
-            for (y, w) in y.iter_mut().zip(row) {
-                *y += x * w;
-            }
-        }
-    }
-    y
-}
-";
-
-/// The end of the forward pass where actions point at entities: the head gives a query, and the
-/// value of pointing is its product with the features of the entity.
-const POINTING: &str = "    let mut values = [out[PLAIN]; ACTIONS.len()];
-    values[..PLAIN].copy_from_slice(&out[..PLAIN]);
-    let query = &out[PLAIN + 1..];
-    for (weight, features) in query.iter().zip(entities.chunks_exact(ENTITIES)) {
-        for (value, feature) in values[PLAIN..].iter_mut().zip(features) {
-            *value += weight * feature;
-        }
-    }
-    values
-";
-
-/// The normalisation of the inputs, as [`Scale::of`] has it.
-const NORMALISED: &str = "
-fn normalised(inputs: &[f32; INPUTS]) -> [f32; INPUTS] {
-    let mut x = *inputs;
-    for ((x, mean), deviation) in x.iter_mut().zip(&MEAN).zip(&DEVIATION) {
-        *x = ((*x - mean) / deviation).clamp(-CLIP, CLIP);
-    }
-    x
-}
-";
-
-/// The other activation function, as [`Activation::of`] has it.
-const TANH: &str = "
-/// Lambert's continued fraction at a quarter of the sum, doubled twice.
-fn tanh<const N: usize>(mut x: [f32; N]) -> [f32; N] {
-    for value in &mut x {
-        let y = value.clamp(-9.5, 9.5) * 0.25;
-        let s = y * y;
-        let t = y * (945.0 + s * (105.0 + s)) / (945.0 + s * (420.0 + s * 15.0));
-        let t = 2.0 * t / (1.0 + t * t);
-        *value = 2.0 * t / (1.0 + t * t);
-    }
-    x
-}
-";
-
-/// The activation function; a network without hidden layers has none.
-const RECTIFIED: &str = "
-fn rectified<const N: usize>(mut x: [f32; N]) -> [f32; N] {
-    for value in &mut x {
-        *value = value.max(0.0);
-    }
-    x
-}
-";
