@@ -2,13 +2,15 @@
 
 use std::borrow::Cow;
 
+use numpy::{PyArray1, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyIndexError, PyTypeError};
 use pyo3::prelude::*;
 use tltl::{Acceptor, automaton};
 use tltlc::evaluate::{self, Columns, Scratch};
 
 use super::array::{Array, shaped};
-use super::error::{not_a_number, wrong};
+use super::compiled::Compiled;
+use super::error::wrong;
 use super::labels;
 use super::states::States;
 use super::task::Task;
@@ -23,34 +25,6 @@ pub(crate) enum Letters<'a> {
 const FEW: usize = 10_000;
 
 impl Task {
-    /// Computes for each trajectory, without the GIL.
-    pub(crate) fn each<T: Send>(
-        &self,
-        py: Python<'_>,
-        states: &States<'_>,
-        compute: impl Fn(&Columns<'_>, &mut Scratch) -> Result<T, evaluate::NotANumber> + Sync,
-    ) -> PyResult<Vec<T>> {
-        let results = states.each(py, compute);
-        results.map_err(|error| not_a_number(self.names(), error))
-    }
-
-    /// An output of `width` numbers for each state.
-    pub(crate) fn by_row<'py, T: numpy::Element + Copy + Default + Send>(
-        &self,
-        states: (&Bound<'py, PyAny>, Option<&Bound<'py, PyAny>>),
-        width: Option<usize>,
-        read: impl Fn(&Columns<'_>, &mut Scratch, &mut [T]) -> Result<(), evaluate::NotANumber> + Sync,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        let py = states.0.py();
-        let states = States::new(self.inner.inputs(), states.0, states.1)?;
-        let each = self.each(py, &states, |columns, scratch| {
-            let mut out = vec![T::default(); columns.rows() * width.unwrap_or(1)];
-            read(columns, scratch, &mut out).map(|()| out)
-        })?;
-        let shape: Vec<usize> = states.shape.iter().copied().chain(width).collect();
-        shaped(py, each.concat(), &shape)
-    }
-
     pub(crate) fn states_of(&self, q: &Bound<'_, PyAny>) -> PyResult<Vec<u32>> {
         self.states_in(&Array::new(q, "q")?).map(Cow::into_owned)
     }
@@ -81,7 +55,7 @@ impl Task {
         labels: &'a Array<'_>,
         rows: usize,
     ) -> PyResult<Letters<'a>> {
-        let (shape, width) = (labels.shape(), self.names().len());
+        let (shape, width) = (labels.shape(), self.propositions().len());
         match *shape {
             [count] if count == rows => {
                 self.few_enough()?;
@@ -93,7 +67,7 @@ impl Task {
                 })
             }
             [count, own] if count == rows && own == width => {
-                labels::truths(self.names(), labels).map(Letters::Labels)
+                labels::truths(self.propositions(), labels).map(Letters::Labels)
             }
             _ => Err(wrong(format!(
                 "labels: an array of shape {shape:?}; wanted is ({rows}, {width}), truth values of \
@@ -124,26 +98,58 @@ impl Task {
         }
     }
 
-    /// The robustness of the propositions in so many rows.
-    pub(crate) fn rows_of(&self, labels: &Bound<'_, PyAny>, rows: usize) -> PyResult<Vec<f64>> {
-        let array = Array::new(labels, "labels")?;
-        let (shape, width) = (array.shape(), self.names().len());
-        if *shape != [rows, width] {
-            let wanted = format!("wanted is ({rows}, {width})");
-            return Err(wrong(format!("labels: an array of shape {shape:?}; {wanted}")));
-        }
-        let rho = array.robustness();
-        match rho.iter().position(|rho| rho.is_nan()) {
-            None => Ok(rho),
-            Some(at) => {
-                let (row, name) = (at / width, &self.names()[at % width]);
-                Err(wrong(format!("labels: `{name}` is not a number (NaN) in row {row}")))
+    /// Moves many states, as `Task.step_batch` says.
+    pub(crate) fn stepped<'py>(
+        &self,
+        q: &Bound<'py, PyAny>,
+        labels: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyArray1<u32>>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let py = q.py();
+        let labels = Array::new(labels, "labels")?;
+        if let Some(out) = out.filter(|out| out.is(q)) {
+            // In place, if that is an array of automaton states without gaps.
+            let count = out.len();
+            let letters = self.letters_in(&labels, count)?;
+            let mut target = out.try_readwrite().map_err(|_| read_only())?;
+            if let Ok(states) = target.as_slice_mut()
+                && states.iter().all(|&q| q < self.inner.states())
+            {
+                self.step_all(py, states, &letters);
+                return Ok(out.as_any().clone());
             }
         }
+        let q = Array::new(q, "q")?;
+        let states = self.states_in(&q)?;
+        let letters = self.letters_in(&labels, states.len())?;
+        let Some(out) = out else {
+            let (count, mut states) = (states.len(), states.into_owned());
+            self.step_all(py, &mut states, &letters);
+            return shaped(py, states, &[count]);
+        };
+        if out.len() != states.len() {
+            let (found, wanted) = (out.len(), states.len());
+            return Err(wrong(format!("out: {found} states; wanted are {wanted}")));
+        }
+        if let Ok(mut target) = out.try_readwrite()
+            && let Ok(target) = target.as_slice_mut()
+        {
+            target.copy_from_slice(&states);
+            self.step_all(py, target, &letters);
+            return Ok(out.as_any().clone());
+        }
+        // It has gaps, or shares its memory with what is read.
+        let mut states = states.into_owned();
+        self.step_all(py, &mut states, &letters);
+        drop(letters);
+        drop((labels, q));
+        let mut target = out.try_readwrite().map_err(|_| read_only())?;
+        target.as_array_mut().iter_mut().zip(states).for_each(|(to, q)| *to = q);
+        Ok(out.as_any().clone())
     }
 
     pub(crate) fn few_enough(&self) -> PyResult<()> {
-        let count = self.names().len();
+        let count = self.propositions().len();
         if count <= 64 {
             return Ok(());
         }
@@ -164,12 +170,12 @@ impl Task {
         if let Some(all) = ragged(states)? {
             let mut results = Vec::new();
             for states in &all {
-                let states = States::new(self.inner.inputs(), states, columns)?;
+                let states = States::new(self.evaluator().inputs(), states, columns)?;
                 results.extend(self.each(py, &states, &compute)?);
             }
             return shaped(py, results, &[all.len()]);
         }
-        let states = States::new(self.inner.inputs(), states, columns)?;
+        let states = States::new(self.evaluator().inputs(), states, columns)?;
         let results = self.each(py, &states, &compute)?;
         match &states.shape[..] {
             [] => Err(wrong("states: one state; wanted is a trajectory, an array of shape (T, d)")),
@@ -180,6 +186,10 @@ impl Task {
             [outer @ .., _] => shaped(py, results, outer),
         }
     }
+}
+
+fn read_only() -> PyErr {
+    wrong("out: the array is read-only")
 }
 
 /// The arrays of a list, if it is one of arrays with two axes each.

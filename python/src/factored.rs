@@ -2,16 +2,18 @@
 
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
-use tltl::Acceptor;
-use tltlc::evaluate::{self, Columns, Scratch};
+use tltl::reward::{End, Ends, JointEnds};
+use tltl::{Acceptor, Shared};
+use tltlc::evaluate::{Columns, Evaluator, NotANumber, Scratch};
 use tltlc::task;
 
 use super::array::{Array, shaped};
-use super::error::{not_a_number, wrong};
-use super::labels;
-use super::states::States;
+use super::compiled::Compiled;
+use super::error::wrong;
+use super::labelled::Row;
+use super::labels::{self, Names};
 use super::task::Task;
-use super::values::{Budget, Input};
+use super::values::{Budget, Run};
 
 /// A conjunction whose parts run side by side (`#[factored]` in a task file): n goals in any order are n
 /// automata of two states, and not one of 2^n.
@@ -27,22 +29,29 @@ use super::values::{Budget, Input};
 /// ([1, 0], False, True)
 #[pyclass(frozen, module = "tltl")]
 pub struct Factored {
-    inner: task::Factored,
+    pub(crate) inner: task::Factored,
     budget: Budget,
+    propositions: Vec<Shared<str>>,
+    names: Names,
+    /// Where its parts end, which rewards ask at every step.
+    pub(crate) ends: JointEnds,
+    /// The same task over rows of the robustness of its propositions.
+    pub(crate) rows: tltl::Factored<Row>,
 }
 
 impl Factored {
-    pub(crate) const fn new(inner: task::Factored, budget: Budget) -> Self {
-        Self { inner, budget }
-    }
-
-    fn names(&self) -> Vec<tltl::Shared<str>> {
-        let spec = &self.inner.entry().task().spec;
-        spec.propositions().iter().map(|one| tltl::Shared::from(one.name.clone())).collect()
+    pub(crate) fn new(inner: task::Factored, budget: Budget) -> Self {
+        let spec = &inner.entry().task().spec;
+        let propositions: Vec<Shared<str>> =
+            spec.propositions().iter().map(|one| Shared::from(one.name.clone())).collect();
+        let ends = JointEnds::new(inner.parts().iter().map(Ends::of).collect());
+        let rows = inner.monitor().with_predicates(Row);
+        let names = Names::new(&propositions);
+        Self { inner, budget, propositions, names, ends, rows }
     }
 
     /// States of shape (parts,) or (n, parts), checked, row after row, with their shape.
-    fn states_of(&self, q: &Bound<'_, PyAny>) -> PyResult<(Vec<u32>, Vec<usize>)> {
+    pub(crate) fn states_of(&self, q: &Bound<'_, PyAny>) -> PyResult<(Vec<u32>, Vec<usize>)> {
         let array = Array::new(q, "q")?;
         let (shape, count) = (array.view().shape, self.inner.parts().len());
         if !matches!(shape[..], [parts] | [_, parts] if parts == count) {
@@ -79,16 +88,35 @@ impl Factored {
         let count = all.len();
         shaped(py, all, &[count])
     }
+}
 
-    /// Computes for each trajectory, without the GIL.
-    fn each<T: Send>(
+impl Compiled for Factored {
+    fn entry(&self) -> &task::Entry {
+        self.inner.entry()
+    }
+
+    fn evaluator(&self) -> &Evaluator {
+        self.inner.evaluator()
+    }
+
+    fn propositions(&self) -> &[Shared<str>] {
+        &self.propositions
+    }
+
+    fn names(&self) -> &Names {
+        &self.names
+    }
+
+    fn parts(&self) -> Option<usize> {
+        Some(self.inner.parts().len())
+    }
+
+    fn follow(
         &self,
-        py: Python<'_>,
-        states: &States<'_>,
-        compute: impl Fn(&Columns<'_>, &mut Scratch) -> Result<T, evaluate::NotANumber> + Sync,
-    ) -> PyResult<Vec<T>> {
-        let results = states.each(py, compute);
-        results.map_err(|error| not_a_number(&self.names(), error))
+        columns: &Columns<'_>,
+        scratch: &mut Scratch,
+    ) -> Result<task::Run, NotANumber> {
+        self.inner.run(columns, scratch)
     }
 }
 
@@ -97,7 +125,7 @@ impl Factored {
     /// The formula, as it was written.
     #[getter]
     fn text(&self) -> &str {
-        &self.inner.entry().task().text
+        self.written()
     }
 
     /// Its name in the task file.
@@ -108,7 +136,8 @@ impl Factored {
 
     /// Its parts, each a task of its own.
     #[getter]
-    fn parts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+    #[pyo3(name = "parts")]
+    fn part_tasks<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         let parts = self.inner.parts().iter();
         PyTuple::new(py, parts.map(|part| Task::of(part.clone(), self.budget.clone())))
     }
@@ -116,13 +145,19 @@ impl Factored {
     /// The names of what any part reads, in the order of the columns of labels.
     #[getter]
     fn propositions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        PyTuple::new(py, self.names().iter().map(|name| name.to_string()))
+        self.listed_propositions(py)
     }
 
     /// What the predicates read from a state, in the order of the columns.
     #[getter]
     fn inputs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        PyTuple::new(py, self.inner.inputs().iter().map(Input::new))
+        self.listed_inputs(py)
+    }
+
+    /// How long a step lasts, in seconds, if the task file says it; as for `Task`.
+    #[getter]
+    fn step_seconds(&self) -> Option<f64> {
+        self.seconds()
     }
 
     /// The state before anything is read: uint32, of shape (parts,).
@@ -144,9 +179,7 @@ impl Factored {
         if shape.len() != 1 {
             return Err(wrong("q: one state is wanted; `step_batch` takes many"));
         }
-        let rho = labels::robustness(&self.names(), labels)?;
-        let row: Vec<bool> = rho.iter().map(|&rho| rho > 0.0).collect();
-        self.inner.step_batch(&mut states, &row);
+        self.inner.step_batch(&mut states, &self.row(labels)?);
         shaped(q.py(), states, &shape)
     }
 
@@ -158,27 +191,27 @@ impl Factored {
         labels: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (py, (mut states, shape)) = (q.py(), self.states_of(q)?);
-        let (names, array) = (self.names(), Array::new(labels, "labels")?);
-        let wanted = [shape[0], names.len()];
+        let array = Array::new(labels, "labels")?;
+        let wanted = [shape[0], self.propositions.len()];
         if shape.len() != 2 || array.view().shape != wanted {
             let found = array.view().shape;
             return Err(wrong(format!(
                 "labels: an array of shape {found:?}; wanted is {wanted:?}"
             )));
         }
-        let rows = labels::truths(&names, &array)?;
+        let rows = labels::truths(&self.propositions, &array)?;
         py.detach(|| self.inner.step_batch(&mut states, &rows));
         shaped(py, states, &shape)
     }
 
     /// Whether the task is satisfied at `q`, of shape (parts,), or at each of many, of shape (n, parts).
     fn is_satisfied<'py>(&self, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-        self.judged(q, |q| self.inner.monitor().is_accepting(q))
+        self.judged(q, |q| self.ends.end(q) == Some(End::Accepted))
     }
 
     /// Whether the task is lost at `q`, whatever comes after it; shapes as for `is_satisfied`.
     fn is_lost<'py>(&self, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-        self.judged(q, |q| self.inner.monitor().is_lost(q))
+        self.judged(q, |q| self.ends.end(q) == Some(End::Lost))
     }
 
     /// Which propositions hold in each of `states`; arguments as for `Task.labels`.
@@ -188,38 +221,23 @@ impl Factored {
         states: &Bound<'py, PyAny>,
         columns: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let (py, width) = (states.py(), self.names().len());
-        let states = States::new(self.inner.inputs(), states, columns)?;
-        let each = self.each(py, &states, |columns, scratch| {
-            let mut out = vec![false; columns.rows() * width];
-            self.inner.evaluator().labels(columns, scratch, &mut out).map(|()| out)
-        })?;
-        let shape: Vec<usize> = states.shape.iter().copied().chain([width]).collect();
-        shaped(py, each.concat(), &shape)
+        self.labels_of(states, columns)
+    }
+
+    /// The robustness of each proposition in each of `states`, as `labels`: float64.
+    #[pyo3(signature = (states, *, columns=None))]
+    fn rho<'py>(
+        &self,
+        states: &Bound<'py, PyAny>,
+        columns: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.rho_of(states, columns)
     }
 
     /// A trajectory of shape (T, d), followed row by row; `states` of the result has shape (T, parts).
     #[pyo3(signature = (states, *, columns=None))]
-    fn run(
-        &self,
-        py: Python<'_>,
-        states: &Bound<'_, PyAny>,
-        columns: Option<&Bound<'_, PyAny>>,
-    ) -> PyResult<super::values::Run> {
-        let states = States::new(self.inner.inputs(), states, columns)?;
-        if states.shape.len() != 1 {
-            return Err(wrong("states: one trajectory is wanted, an array of shape (T, d)"));
-        }
-        let runs = self.each(py, &states, |columns, scratch| self.inner.run(columns, scratch))?;
-        let run = runs.into_iter().next().expect("a shape of one axis is one trajectory");
-        let (verdict, since, rows) = (run.verdict().to_string(), run.since(), run.verdicts.len());
-        Ok(super::values::Run {
-            states: shaped(py, run.states, &[rows, self.inner.parts().len()])?.unbind(),
-            progress: shaped(py, run.progress, &[rows])?.unbind(),
-            robustness: run.robustness,
-            verdict,
-            since,
-        })
+    fn run(&self, states: &Bound<'_, PyAny>, columns: Option<&Bound<'_, PyAny>>) -> PyResult<Run> {
+        self.run_of(states, columns)
     }
 
     fn __reduce__<'py>(
@@ -228,7 +246,7 @@ impl Factored {
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
         let prints: Vec<_> = self.inner.parts().iter().map(task::Task::fingerprint).collect();
         let (entry, arguments) = (self.inner.entry(), self.inner.arguments());
-        super::task::reduced(py, entry, arguments, &self.budget, &prints.join(" "))
+        super::restore::reduced(py, entry, arguments, &self.budget, &prints.join(" "))
     }
 
     fn __repr__(&self) -> String {

@@ -8,7 +8,8 @@ use tltlc::task::{self, Bound as Bind, Value};
 
 use super::error::{diagnostics, mistaken, warn};
 use super::factored::Factored;
-use super::task::{Task, bound};
+use super::restore::bound;
+use super::task::Task;
 use super::values::Budget;
 
 /// A value for a parameter.

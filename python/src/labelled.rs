@@ -7,21 +7,23 @@ use tltl::augmented::Labelled;
 use tltl::reward::Rewards;
 use tltl::robustness::{NotANumber, Predicates};
 
+use super::compiled::Compiled;
 use super::error::wrong;
 use super::labels;
 use super::model::FiniteModel;
 use super::task::Task;
 
 /// The predicates of a task over rows of their own robustness.
-struct Row;
+#[derive(Clone, Copy)]
+pub(crate) struct Row;
 
-impl Predicates<Vec<f64>> for Row {
-    fn robustness(&self, i: usize, row: &Vec<f64>) -> f64 {
-        row[i]
+impl<R: AsRef<[f64]> + ?Sized> Predicates<R> for Row {
+    fn robustness(&self, i: usize, row: &R) -> f64 {
+        row.as_ref()[i]
     }
 
-    fn holds(&self, i: usize, row: &Vec<f64>) -> Result<bool, NotANumber> {
-        Ok(row[i] > 0.0)
+    fn holds(&self, i: usize, row: &R) -> Result<bool, NotANumber> {
+        Ok(row.as_ref()[i] > 0.0)
     }
 }
 
@@ -63,12 +65,12 @@ pub(crate) fn rows(
     labels: &Bound<'_, PyAny>,
 ) -> PyResult<Vec<Vec<f64>>> {
     if !labels.is_callable() {
-        let (count, width) = (states.arguments.len(), task.names().len());
-        let all = task.rows_of(labels, count)?;
+        let (count, width) = (states.arguments.len(), task.propositions().len());
+        let all = labels::rows(task.propositions(), labels, count)?;
         return Ok((0..count).map(|s| all[s * width..][..width].to_vec()).collect());
     }
     let ask = |arguments: &Bound<'_, PyTuple>| {
-        labels::robustness(task.names(), &labels.call1(arguments)?)
+        labels::robustness(task.propositions(), &labels.call1(arguments)?)
     };
     states.arguments.iter().map(ask).collect()
 }

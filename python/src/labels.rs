@@ -150,3 +150,25 @@ pub(crate) fn truths<'a>(
         wrong(format!("labels: `{name}` is not a number (NaN) in row {row}"))
     })
 }
+
+/// The robustness of the propositions in so many rows.
+pub(crate) fn rows(
+    propositions: &[Shared<str>],
+    labels: &Bound<'_, PyAny>,
+    rows: usize,
+) -> PyResult<Vec<f64>> {
+    let array = Array::new(labels, "labels")?;
+    let (shape, width) = (array.shape(), propositions.len());
+    if *shape != [rows, width] {
+        let wanted = format!("wanted is ({rows}, {width})");
+        return Err(wrong(format!("labels: an array of shape {shape:?}; {wanted}")));
+    }
+    let rho = array.robustness();
+    match rho.iter().position(|rho| rho.is_nan()) {
+        None => Ok(rho),
+        Some(at) => {
+            let (row, name) = (at / width, &propositions[at % width]);
+            Err(wrong(format!("labels: `{name}` is not a number (NaN) in row {row}")))
+        }
+    }
+}

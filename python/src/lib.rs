@@ -5,9 +5,11 @@
 //! | `array` | every NumPy array that enters, whatever its type and strides |
 //! | `states` | recorded states, as arrays or mappings, into the columns that a task reads |
 //! | `labels` | what holds in a state, as mappings, names or arrays |
-//! | `task`, `batch`, `monitor`, `file`, `product`, `factored` | tasks |
+//! | `compiled` | what tasks of either kind, plain and factored, have in common |
+//! | `task`, `batch`, `shown`, `monitor`, `product`, `factored` | tasks |
+//! | `file`, `restore` | their sources |
 //! | `rewards` | what moves pay |
-//! | `follow` | what steps of a world are for a task |
+//! | `follow`, `replay` | what steps of a world, and stored ones, are for a task |
 //! | `model`, `labelled` | finite worlds, and tasks on their states |
 //! | `solution`, `certificate`, `shield` | what is optimal, what policies are worth, what is allowed |
 //! | `settings`, `world`, `learner`, `policy`, `network` | learning, and what is learned |
@@ -23,6 +25,7 @@
 mod array;
 mod batch;
 mod certificate;
+mod compiled;
 mod composition;
 mod document;
 mod error;
@@ -37,9 +40,12 @@ mod monitor;
 mod network;
 mod policy;
 mod product;
+mod replay;
+mod restore;
 mod rewards;
 mod settings;
 mod shield;
+mod shown;
 mod solution;
 mod states;
 mod task;
@@ -66,7 +72,7 @@ mod _core {
     #[pymodule_export]
     use super::file::{Parameter, TaskFile};
     #[pymodule_export]
-    use super::follow::{follow, relabelled};
+    use super::follow::{follow, follow_all};
     #[pymodule_export]
     use super::learner::Learner;
     #[pymodule_export]
@@ -80,6 +86,10 @@ mod _core {
     #[pymodule_export]
     use super::product::{Product, product};
     #[pymodule_export]
+    use super::replay::relabelled;
+    #[pymodule_export]
+    use super::restore::{restore, restore_product};
+    #[pymodule_export]
     use super::rewards::Rewards;
     #[pymodule_export]
     use super::settings::{Schedule, Settings};
@@ -88,7 +98,7 @@ mod _core {
     #[pymodule_export]
     use super::solution::{Solution, solve};
     #[pymodule_export]
-    use super::task::{Task, restore, restore_product};
+    use super::task::Task;
     #[pymodule_export]
     use super::values::{Budget, Edge, Input, Run};
 

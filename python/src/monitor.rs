@@ -3,6 +3,7 @@
 use pyo3::prelude::*;
 use tltl::{Acceptor, Automaton};
 
+use super::compiled::Compiled;
 use super::task::Task;
 
 /// A task on its way.

@@ -5,6 +5,7 @@ use pyo3::types::PyTuple;
 use tltlc::product::Operator;
 
 use super::array::frozen;
+use super::compiled::Compiled;
 use super::error::wrong;
 use super::labelled::task_of;
 use super::task::Task;
@@ -72,6 +73,6 @@ impl Product {
     }
 
     fn __repr__(&self) -> String {
-        format!("<Product {}>", self.task.described())
+        format!("<Product {}>", self.task.written())
     }
 }

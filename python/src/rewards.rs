@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use tltl::OutOfRange;
@@ -9,6 +10,8 @@ use tltl::reward::{self, Arrivals, Mode};
 
 use super::array::{Array, shaped};
 use super::error::wrong;
+use super::factored::Factored;
+use super::follow::{Follows, with_task};
 use super::task::Task;
 
 const MODES: [(&str, Mode); 5] = [
@@ -103,63 +106,24 @@ impl Rewards {
     }
 
     /// What the move from `q` to `next_q` pays, or each of many moves: numbers, or arrays of shape
-    /// (n,).
+    /// (n,). States of a `Factored` are arrays of shape (parts,), or (n, parts).
     ///
     /// `rho` is ρ(s', D_φ^q), which the mode `robustness` needs; `reward` is what the environment pays,
     /// and `terminated` whether it ended the episode itself. Both default to nothing.
     #[pyo3(signature = (task, q, next_q, *, rho=None, reward=None, terminated=None))]
     fn pay<'py>(
         &self,
-        task: &Task,
+        task: &Bound<'py, PyAny>,
         q: &Bound<'py, PyAny>,
         next_q: &Bound<'py, PyAny>,
         rho: Option<&Bound<'py, PyAny>>,
         reward: Option<&Bound<'py, PyAny>>,
         terminated: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let py = q.py();
         if self.0.needs_robustness() && rho.is_none() {
             return Err(wrong("rho is missing, and the mode `robustness` pays it"));
         }
-        if let (Ok(q), Ok(to)) = (q.extract(), next_q.extract()) {
-            let arrival = reward::Arrival {
-                robustness: rho.map_or(Ok(0.0), |rho| rho.extract())?,
-                reward: reward.map_or(Ok(0.0), |reward| reward.extract())?,
-                terminated: terminated.map_or(Ok(false), |end| end.is_truthy())?,
-                ..reward::Arrival::at(task.state(q)?, task.state(to)?)
-            };
-            return Ok(self.0.pay(&task.ends, &arrival).into_pyobject(py)?.into_any());
-        }
-        let (q, to) = (task.states_of(q)?, task.states_of(next_q)?);
-        let count = q.len();
-        let column = |given: Option<&Bound<'py, PyAny>>, name: &str| match given {
-            None => Ok(Vec::new()),
-            Some(given) => {
-                let array = Array::new(given, name)?;
-                match *array.shape() {
-                    [own] if own == count => Ok(array.robustness()),
-                    ref shape => {
-                        Err(wrong(format!("{name}: shape {shape:?}; q has {count} states")))
-                    }
-                }
-            }
-        };
-        if to.len() != count {
-            return Err(wrong(format!("next_q: {} states; q has {count}", to.len())));
-        }
-        let (robustness, reward) = (column(rho, "rho")?, column(reward, "reward")?);
-        let terminated = column(terminated, "terminated")?;
-        let terminated: Vec<bool> = terminated.iter().map(|end| *end > 0.0).collect();
-        let arrivals = Arrivals {
-            q: &q,
-            to: &to,
-            robustness: &robustness,
-            reward: &reward,
-            terminated: &terminated,
-        };
-        let mut out = vec![0.0; count];
-        py.detach(|| self.0.pay_all(&task.ends, &arrivals, &mut out));
-        shaped(py, out, &[count])
+        with_task!(task, task => self.paid(task, [q, next_q], [rho, reward, terminated]))
     }
 
     fn __getnewargs_ex__<'py>(
@@ -191,7 +155,65 @@ impl Rewards {
     }
 }
 
+/// A column of so many numbers, or none.
+pub(crate) fn column(
+    given: Option<&Bound<'_, PyAny>>,
+    name: &str,
+    rows: usize,
+) -> PyResult<Vec<f64>> {
+    let Some(given) = given else { return Ok(Vec::new()) };
+    let array = Array::new(given, name)?;
+    match *array.shape() {
+        [own] if own == rows => Ok(array.robustness()),
+        ref shape => Err(wrong(format!("{name}: shape {shape:?}; wanted is ({rows},)"))),
+    }
+}
+
 impl Rewards {
+    /// What moves pay, one or many; the columns are ρ, the environment's reward, and its ends.
+    fn paid<'py, T: Follows>(
+        &self,
+        task: &T,
+        [q, to]: [&Bound<'py, PyAny>; 2],
+        columns: [Option<&Bound<'py, PyAny>>; 3],
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let py = q.py();
+        let ((q, rows), (to, own)) = (task.states_given(q)?, task.states_given(to)?);
+        if own != rows {
+            let count = |rows: Option<usize>| rows.map_or("one".to_owned(), |n| n.to_string());
+            return Err(wrong(format!("next_q: {} states; q has {}", count(own), count(rows))));
+        }
+        let [rho, reward, ended] = columns;
+        let number = |given: Option<&Bound<'py, PyAny>>, name: &str| match rows {
+            Some(rows) => column(given, name, rows),
+            None => given.map_or(Ok(Vec::new()), |given| Ok(vec![given.extract()?])),
+        };
+        let (robustness, reward) = (number(rho, "rho")?, number(reward, "reward")?);
+        let ended = match (rows, ended) {
+            (None, Some(ended)) => vec![f64::from(u8::from(ended.is_truthy()?))],
+            _ => number(ended, "terminated")?,
+        };
+        let terminated: Vec<bool> = ended.iter().map(|end| *end > 0.0).collect();
+        let moves = Arrivals {
+            q: &q,
+            to: &to,
+            robustness: &robustness,
+            reward: &reward,
+            terminated: &terminated,
+        };
+        let mut out = vec![0.0; rows.unwrap_or(1)];
+        match rows {
+            None => {
+                task.pay(&self.0, &moves, &mut out);
+                Ok(out[0].into_pyobject(py)?.into_any())
+            }
+            Some(rows) => {
+                py.detach(|| task.pay(&self.0, &moves, &mut out));
+                shaped(py, out, &[rows])
+            }
+        }
+    }
+
     fn numbers(&self) -> [(&'static str, f64); 5] {
         [
             ("gamma", self.0.gamma()),

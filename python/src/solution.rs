@@ -11,6 +11,7 @@ use tltl::solve::{Optimum, Problem, Report};
 
 use super::array::{frozen, shaped};
 use super::certificate::{Certificate, Mistake};
+use super::compiled::Compiled;
 use super::error::wrong;
 use super::labelled::{of_rows, rows, task_of};
 use super::model::FiniteModel;
@@ -213,7 +214,7 @@ impl Solution {
         named.set_item("rewards", Rewards(self.rewards))?;
         let solve = py.import("tltl")?.getattr("solve")?;
         let solve = py.import("functools")?.getattr("partial")?.call((solve,), Some(&named))?;
-        let rows = shaped(py, rows.concat(), &[rows.len(), task.names().len()])?;
+        let rows = shaped(py, rows.concat(), &[rows.len(), task.propositions().len()])?;
         Ok((solve, (model, task.clone(), rows).into_pyobject(py)?))
     }
 

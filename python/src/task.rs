@@ -5,36 +5,32 @@ use std::convert::Infallible;
 use std::hash::{Hash, Hasher};
 use std::sync::{Arc, OnceLock};
 
-use numpy::{PyArray1, PyArrayMethods, PyUntypedArrayMethods};
+use numpy::PyArray1;
 use pyo3::basic::CompareOp;
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyTuple};
+use pyo3::types::PyTuple;
 use tltl::automaton::ByBytes;
 use tltl::reward::Ends;
 use tltl::{Acceptor, Automaton, Shared, robustness};
 use tltl_compiler::dfa::Dfa;
 use tltl_compiler::source::Source;
-use tltlc::diff::{Side, of_definitions};
 use tltlc::emit;
-use tltlc::explain;
+use tltlc::evaluate::{Columns, Evaluator, NotANumber, Scratch};
 use tltlc::product::Operator;
-use tltlc::task::{self, Bound as Made, NotBare, RawProduct, TaskFile, Value, Verdict};
+use tltlc::task::{self, Bound as Made, NotBare, RawProduct, TaskFile, Verdict};
 
-use super::array::{Array, frozen, shaped};
+use super::array::{frozen, shaped};
 use super::certificate::preformatted;
+use super::compiled::Compiled;
 use super::error::{diagnostics, mistaken, warn, wrong};
-use super::factored::Factored;
 use super::labels::{self, Names};
-use super::states::States;
-use super::values::{Budget, Edge, Input, Run};
+use super::restore::{bound, reduced};
+use super::shown::printed;
+use super::values::{Budget, Run};
 
 /// The largest number of propositions whose table of all letters is given out: 65,536 columns.
 const TABLE: usize = 16;
-
-/// Units of time, in seconds.
-const SECONDS: [(&str, f64); 6] =
-    [("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("ns", 1e-9), ("min", 60.0), ("h", 3600.0)];
 
 /// A formula of temporal logic, compiled to its minimal automaton.
 ///
@@ -77,11 +73,6 @@ impl Task {
         self.known.bytes.get_or_init(|| self.automaton().by_bytes()).as_ref()
     }
 
-    /// The truth values of `labels`, in the order of the propositions.
-    pub(crate) fn row(&self, labels: &Bound<'_, PyAny>) -> PyResult<Vec<bool>> {
-        labels::row((self.names(), &self.known.names), labels)
-    }
-
     /// The state after `q`, which is one.
     pub(crate) fn moved(&self, q: u32, row: &[bool]) -> u32 {
         let next = self.automaton().next(q, |i| Ok::<_, Infallible>(row[i]));
@@ -108,16 +99,12 @@ impl Task {
         self.inner.entry().file().source()
     }
 
-    fn dfa(&self) -> &Dfa {
+    pub(crate) fn dfa(&self) -> &Dfa {
         self.inner.dfa()
     }
 
     pub(crate) fn automaton(&self) -> &Automaton {
         self.inner.automaton()
-    }
-
-    pub(crate) fn names(&self) -> &[Shared<str>] {
-        self.automaton().propositions()
     }
 
     /// The arguments of `product` that make a product again.
@@ -131,17 +118,6 @@ impl Task {
         PyTuple::new(py, arguments)
     }
 
-    pub(crate) fn described(&self) -> &str {
-        self.text()
-    }
-
-    fn title(&self) -> String {
-        let task = self.inner.entry().task();
-        task.name
-            .as_ref()
-            .map_or_else(|| task.text.clone(), |name| format!("{name} = {}", task.text))
-    }
-
     /// A state of the automaton, checked.
     pub(crate) fn state(&self, q: i64) -> PyResult<u32> {
         let count = self.inner.states();
@@ -151,21 +127,6 @@ impl Task {
                 "q is {q}, and the automaton has {count} states"
             ))),
         }
-    }
-
-    /// All moves, with their guards as text.
-    fn moves(&self) -> Vec<Edge> {
-        let dfa = self.dfa();
-        let mut guards = tltl_compiler::dfa::Guards::new(dfa);
-        let mut edges = Vec::new();
-        for source in dfa.states() {
-            for (target, guard) in guards.edges(source) {
-                let cubes = guards.cubes(guard);
-                let guard = emit::sum::Sum::new(&dfa.propositions, &cubes).to_string();
-                edges.push(Edge { source, target, guard });
-            }
-        }
-        edges
     }
 
     /// A product has the text of the formula that it is the automaton of.
@@ -180,6 +141,36 @@ impl Task {
         }
         let text = format!("({}) {operator} ({})", self.source().text(), other.source().text());
         Self::new(py, &text, Some(self.budget.clone()))
+    }
+}
+
+impl Compiled for Task {
+    fn entry(&self) -> &task::Entry {
+        self.inner.entry()
+    }
+
+    fn evaluator(&self) -> &Evaluator {
+        self.inner.evaluator()
+    }
+
+    fn propositions(&self) -> &[Shared<str>] {
+        self.automaton().propositions()
+    }
+
+    fn names(&self) -> &Names {
+        &self.known.names
+    }
+
+    fn parts(&self) -> Option<usize> {
+        None
+    }
+
+    fn follow(
+        &self,
+        columns: &Columns<'_>,
+        scratch: &mut Scratch,
+    ) -> Result<task::Run, NotANumber> {
+        self.inner.run(columns, scratch)
     }
 }
 
@@ -228,7 +219,7 @@ impl Task {
     /// The formula, as it was written.
     #[getter]
     fn text(&self) -> &str {
-        &self.inner.entry().task().text
+        self.written()
     }
 
     /// Its name in the task file; `None` for a bare formula.
@@ -239,14 +230,15 @@ impl Task {
 
     /// The names of what the automaton reads, in the order of the bits of a letter.
     #[getter]
-    fn propositions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        PyTuple::new(py, self.names().iter().map(|name| name.to_string()))
+    #[pyo3(name = "propositions")]
+    fn own_propositions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        self.listed_propositions(py)
     }
 
     /// What the predicates read from a state, in the order of the columns.
     #[getter]
     fn inputs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        PyTuple::new(py, self.inner.inputs().iter().map(Input::new))
+        self.listed_inputs(py)
     }
 
     /// The number of automaton states, numbered from 0.
@@ -257,19 +249,19 @@ impl Task {
 
     /// The state before anything is read.
     #[getter]
-    fn initial(&self) -> u32 {
+    pub(crate) fn initial(&self) -> u32 {
         Automaton::INITIAL
     }
 
     /// The state in which the task is satisfied, for ever; `None` if there is none.
     #[getter]
-    fn accepting(&self) -> Option<u32> {
+    pub(crate) fn accepting(&self) -> Option<u32> {
         self.automaton().accepting()
     }
 
     /// The state in which the task is lost, for ever; `None` if it cannot be lost.
     #[getter]
-    fn trap(&self) -> Option<u32> {
+    pub(crate) fn trap(&self) -> Option<u32> {
         self.automaton().trap()
     }
 
@@ -277,8 +269,7 @@ impl Task {
     /// `s`, `ms`, `us`, `ns`, `min` or `h`.
     #[getter]
     fn step_seconds(&self) -> Option<f64> {
-        let (amount, unit) = self.inner.entry().file().step()?;
-        SECONDS.iter().find(|(name, _)| *name == unit).map(|(_, seconds)| seconds * amount)
+        self.seconds()
     }
 
     /// All moves, self-loops included, each with its guard as text.
@@ -300,10 +291,10 @@ impl Task {
     /// propositions.
     #[getter]
     fn table<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
-        if self.names().len() > TABLE {
+        if self.propositions().len() > TABLE {
             return Ok(None);
         }
-        let (states, letters) = (self.inner.states(), 1_u64 << self.names().len());
+        let (states, letters) = (self.inner.states(), 1_u64 << self.propositions().len());
         let mut table: Vec<u32> = (0..states).flat_map(|q| (0..letters).map(move |_| q)).collect();
         let all: Vec<u64> = (0..states).flat_map(|_| 0..letters).collect();
         self.automaton().step_batch(&mut table, &all[..]);
@@ -313,7 +304,7 @@ impl Task {
     /// A number of 16 digits for the numbered automaton: what was learned with one automaton fits
     /// those of the same fingerprint.
     #[getter]
-    fn fingerprint(&self) -> String {
+    pub(crate) fn fingerprint(&self) -> String {
         self.inner.fingerprint()
     }
 
@@ -356,12 +347,12 @@ impl Task {
         let py = q.py();
         let rho = |q, row: &[f64]| robustness::guard(self.automaton().progress(q), |i| row[i]);
         if let Ok(q) = q.extract() {
-            let row = labels::robustness(self.names(), labels)?;
+            let row = labels::robustness(self.propositions(), labels)?;
             return Ok(rho(self.state(q)?, &row).into_pyobject(py)?.into_any());
         }
         let states = self.states_of(q)?;
-        let rows = self.rows_of(labels, states.len())?;
-        let width = self.names().len();
+        let rows = labels::rows(self.propositions(), labels, states.len())?;
+        let width = self.propositions().len();
         let row = |i: usize| &rows[i * width..][..width];
         let all = states.iter().enumerate().map(|(i, &q)| rho(q, row(i))).collect();
         shaped(py, all, &[states.len()])
@@ -374,51 +365,11 @@ impl Task {
     #[pyo3(signature = (q, labels, *, out=None))]
     fn step_batch<'py>(
         &self,
-        py: Python<'py>,
         q: &Bound<'py, PyAny>,
         labels: &Bound<'py, PyAny>,
         out: Option<&Bound<'py, PyArray1<u32>>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let labels = Array::new(labels, "labels")?;
-        if let Some(out) = out.filter(|out| out.is(q)) {
-            // In place, if that is an array of automaton states without gaps.
-            let count = out.len();
-            let letters = self.letters_in(&labels, count)?;
-            let mut target = out.try_readwrite().map_err(|_| read_only())?;
-            if let Ok(states) = target.as_slice_mut()
-                && states.iter().all(|&q| q < self.inner.states())
-            {
-                self.step_all(py, states, &letters);
-                return Ok(out.as_any().clone());
-            }
-        }
-        let q = Array::new(q, "q")?;
-        let states = self.states_in(&q)?;
-        let letters = self.letters_in(&labels, states.len())?;
-        let Some(out) = out else {
-            let (count, mut states) = (states.len(), states.into_owned());
-            self.step_all(py, &mut states, &letters);
-            return shaped(py, states, &[count]);
-        };
-        if out.len() != states.len() {
-            let (found, wanted) = (out.len(), states.len());
-            return Err(wrong(format!("out: {found} states; wanted are {wanted}")));
-        }
-        if let Ok(mut target) = out.try_readwrite()
-            && let Ok(target) = target.as_slice_mut()
-        {
-            target.copy_from_slice(&states);
-            self.step_all(py, target, &letters);
-            return Ok(out.as_any().clone());
-        }
-        // It has gaps, or shares its memory with what is read.
-        let mut states = states.into_owned();
-        self.step_all(py, &mut states, &letters);
-        drop(letters);
-        drop((labels, q));
-        let mut target = out.try_readwrite().map_err(|_| read_only())?;
-        target.as_array_mut().iter_mut().zip(states).for_each(|(to, q)| *to = q);
-        Ok(out.as_any().clone())
+        self.stepped(q, labels, out)
     }
 
     /// Which propositions hold in each of `states`, of shape (…, d): bool, of shape (…, propositions).
@@ -433,9 +384,7 @@ impl Task {
         states: &Bound<'py, PyAny>,
         columns: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        self.by_row((states, columns), Some(self.names().len()), |columns, scratch, out| {
-            self.inner.evaluator().labels(columns, scratch, out)
-        })
+        self.labels_of(states, columns)
     }
 
     /// The robustness of each proposition in each of `states`, as `labels`: float64.
@@ -445,9 +394,7 @@ impl Task {
         states: &Bound<'py, PyAny>,
         columns: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        self.by_row((states, columns), Some(self.names().len()), |columns, scratch, out| {
-            self.inner.evaluator().rho(columns, scratch, out)
-        })
+        self.rho_of(states, columns)
     }
 
     /// What holds in each of `states`, of shape (…, d), as bits: uint64, of shape (…).
@@ -490,26 +437,8 @@ impl Task {
 
     /// A trajectory of shape (T, d), followed row by row.
     #[pyo3(signature = (states, *, columns=None))]
-    fn run<'py>(
-        &self,
-        py: Python<'py>,
-        states: &Bound<'py, PyAny>,
-        columns: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Run> {
-        let states = States::new(self.inner.inputs(), states, columns)?;
-        if states.shape.len() != 1 {
-            return Err(wrong("states: one trajectory is wanted, an array of shape (T, d)"));
-        }
-        let runs = self.each(py, &states, |columns, scratch| self.inner.run(columns, scratch))?;
-        let run = runs.into_iter().next().expect("a shape of one axis is one trajectory");
-        let (verdict, since, rows) = (run.verdict().to_string(), run.since(), run.states.len());
-        Ok(Run {
-            states: shaped(py, run.states, &[rows])?.unbind(),
-            progress: shaped(py, run.progress, &[rows])?.unbind(),
-            robustness: run.robustness,
-            verdict,
-            since,
-        })
+    fn run(&self, states: &Bound<'_, PyAny>, columns: Option<&Bound<'_, PyAny>>) -> PyResult<Run> {
+        self.run_of(states, columns)
     }
 
     /// The task on its way, to be told what holds, one state after the other.
@@ -519,25 +448,12 @@ impl Task {
 
     /// The task in plain English, with shortest ways to satisfy it and to lose it.
     fn explain(&self) -> String {
-        let entry = self.inner.entry();
-        let told = match entry.is_automaton() {
-            true => explain::explain_automaton(self.dfa()),
-            false => explain::explain(&entry.task().spec, self.dfa()),
-        };
-        format!("{}\n\n{told}", self.title())
+        self.explained()
     }
 
     /// A shortest trajectory on which the two tasks differ, or that they are equal.
     fn diff(&self, other: &Self) -> String {
-        let side = |task: &'_ Self| task.inner.entry().clone();
-        let (first, second) = (side(self), side(other));
-        let module = |entry: &'_ task::Entry| entry.file().clone();
-        let (one, two) = (module(&first), module(&second));
-        of_definitions(
-            Side::Task(&one.compiled().module, first.task(), self.dfa()),
-            Side::Task(&two.compiled().module, second.task(), other.dfa()),
-        )
-        .to_string()
+        self.difference(other)
     }
 
     /// The automaton as a picture on a white ground.
@@ -559,40 +475,27 @@ impl Task {
     ///
     /// Raises `ImportError` if networkx is not installed.
     fn to_networkx<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let graph = py.import("networkx")?.call_method0("MultiDiGraph")?;
-        for q in 0..self.inner.states() {
-            let named = PyDict::new(py);
-            named.set_item("initial", q == self.initial())?;
-            named.set_item("accepting", Some(q) == self.accepting())?;
-            named.set_item("trap", Some(q) == self.trap())?;
-            graph.call_method("add_node", (q,), Some(&named))?;
-        }
-        for Edge { source, target, guard } in self.moves() {
-            let named = PyDict::new(py);
-            named.set_item("guard", guard)?;
-            graph.call_method("add_edge", (source, target), Some(&named))?;
-        }
-        Ok(graph)
+        self.graph(py)
     }
 
     /// The automaton for Graphviz.
     fn to_dot(&self) -> PyResult<String> {
-        text(emit::dot::automaton(&self.title(), self.dfa()))
+        printed(emit::dot::automaton(&self.title(), self.dfa()))
     }
 
     /// The automaton in the HOA format.
     fn to_hoa(&self) -> PyResult<String> {
-        text(emit::hoa::automaton(&self.title(), self.dfa()))
+        printed(emit::hoa::automaton(&self.title(), self.dfa()))
     }
 
     /// The automaton as JSON.
     fn to_json(&self) -> PyResult<String> {
-        text(emit::json::automaton(self.text(), self.dfa()))
+        printed(emit::json::automaton(self.text(), self.dfa()))
     }
 
     /// The automaton for Mermaid.
     fn to_mermaid(&self) -> PyResult<String> {
-        text(emit::mermaid::automaton(&self.title(), self.dfa()))
+        printed(emit::mermaid::automaton(&self.title(), self.dfa()))
     }
 
     /// The task as Rust source.
@@ -651,109 +554,4 @@ impl Task {
             Some(name) => format!("<Task {name} = {}>", self.text()),
         }
     }
-}
-
-fn read_only() -> PyErr {
-    wrong("out: the array is read-only")
-}
-
-/// A text that may be too large to be written.
-fn text(written: Result<emit::labels::Text<'_>, emit::labels::TooLarge>) -> PyResult<String> {
-    written.map(|text| text.to_string()).map_err(|error| wrong(error.to_string()))
-}
-
-/// The task of `file` with this name and these arguments.
-pub(crate) fn bound(
-    file: &TaskFile,
-    name: Option<&str>,
-    arguments: &[(String, Value)],
-) -> PyResult<Made> {
-    let entry = file.find(name).map_err(|error| wrong(error.to_string()))?;
-    let arguments: Vec<_> =
-        arguments.iter().map(|(name, value)| (name.as_str(), value.clone())).collect();
-    entry.bind(&arguments).map_err(|error| wrong(error.to_string()))
-}
-
-/// What `restore` makes a task of.
-pub(crate) fn reduced<'py>(
-    py: Python<'py>,
-    entry: &task::Entry,
-    values: &[(String, Value)],
-    budget: &Budget,
-    fingerprint: &str,
-) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-    let restore = py.import("tltl._core")?.getattr("restore")?;
-    let arguments = PyDict::new(py);
-    for (name, value) in values {
-        match value {
-            Value::Number(number) => arguments.set_item(name, number)?,
-            Value::Truth(truth) => arguments.set_item(name, truth)?,
-            Value::Text(text) => arguments.set_item(name, text)?,
-        }
-    }
-    let source = entry.file().source();
-    let form = match (entry.is_bare(), entry.is_automaton()) {
-        (true, _) => "formula",
-        (_, true) => "automaton",
-        _ => "file",
-    };
-    let source = (form, source.name(), source.text());
-    let state = (source, entry.name(), arguments.items(), budget.clone(), fingerprint);
-    Ok((restore, state.into_pyobject(py)?))
-}
-
-/// A task of yesterday: compiled again, and compared by its numbered automaton.
-#[pyfunction]
-pub(crate) fn restore(
-    py: Python<'_>,
-    source: (String, String, String),
-    name: Option<String>,
-    arguments: Vec<(String, super::file::Argument)>,
-    budget: Budget,
-    fingerprint: &str,
-) -> PyResult<Py<PyAny>> {
-    let ((form, source, text), limits) = (source, budget.limits());
-    let compiled = match &*form {
-        "formula" => TaskFile::of_formula(&text, limits),
-        "automaton" => TaskFile::of_automaton(Source::new(source, text)),
-        _ => TaskFile::new(Source::new(source, text), limits),
-    };
-    let compiled = compiled.map_err(|error| mistaken(py, &error))?;
-    let arguments: Vec<_> = arguments.into_iter().map(|(name, value)| (name, value.0)).collect();
-    match bound(&compiled, name.as_deref(), &arguments)? {
-        Made::Plain(inner) => {
-            let task = Task::of(inner, budget);
-            expect(task.text(), &task.fingerprint(), fingerprint)?;
-            Ok(task.into_pyobject(py)?.into_any().unbind())
-        }
-        Made::Factored(inner) => {
-            let prints: Vec<_> = inner.parts().iter().map(task::Task::fingerprint).collect();
-            expect(&inner.entry().task().text, &prints.join(" "), fingerprint)?;
-            Ok(Factored::new(inner, budget).into_pyobject(py)?.into_any().unbind())
-        }
-    }
-}
-
-/// An error unless the automaton is numbered as it was.
-fn expect(text: &str, found: &str, fingerprint: &str) -> PyResult<()> {
-    if found == fingerprint {
-        return Ok(());
-    }
-    Err(wrong(format!(
-        "`{text}` has another numbered automaton in this version: what was learned with it does not fit"
-    )))
-}
-
-/// A product of yesterday, made again.
-#[pyfunction]
-pub(crate) fn restore_product(
-    py: Python<'_>,
-    operator: &str,
-    operands: Vec<Bound<'_, PyAny>>,
-    fingerprint: &str,
-) -> PyResult<Task> {
-    let operands = operands.iter().map(super::labelled::task_of).collect::<PyResult<_>>()?;
-    let (task, _) = Task::product(py, super::product::operator(operator)?, operands)?;
-    expect(task.text(), &task.fingerprint(), fingerprint)?;
-    Ok(task)
 }

@@ -4,12 +4,23 @@ from __future__ import annotations
 
 import copy
 import pickle
+import warnings
+from typing import Any
 
+import gymnasium as gym
 import numpy as np
 import pytest
+from gymnasium import spaces
+from gymnasium.utils.env_checker import check_env
+from gymnasium.vector import AutoresetMode, SyncVectorEnv
+from test_gymnasium import MODES, Tape, abc
+from test_vector import many, tapes
 
 import tltl
-from tltl import Factored, Task
+from tltl import Factored, Rewards, Task
+from tltl.gymnasium import TaskEnv
+from tltl.replay import relabel
+from tltl.vector import TaskVectorEnv
 
 TEXT = """
 state S { a: bool, b: bool, x: f64, wet: bool }
@@ -87,3 +98,107 @@ def test_many_goals_need_no_product() -> None:
         assert not task.is_satisfied(q)
         q = task.step(q, {name})
     assert task.is_satisfied(q) and q.tolist() == [1] * 24
+
+
+WALKS = "state S { a: bool, b: bool, c: bool } MARK task t = F a && F b && G[1,3] !c"
+
+
+def pair() -> tuple[Factored, Task]:
+    """The same task, part by part and as one automaton."""
+    tasks = [tltl.TaskFile.from_text(WALKS.replace("MARK", mark)).task() for mark in ("#[factored]", "")]
+    factored, whole = tasks
+    assert isinstance(factored, Factored) and isinstance(whole, Task) and len(factored.parts) == 3
+    return factored, whole
+
+
+def potential(task: Factored, q: Any) -> float:
+    """The mean over the parts of how near each is, those that are done counting 1; 0 at the ends."""
+    near = []
+    for part, state in zip(task.parts, q.tolist(), strict=True):
+        if state == part.trap:
+            return 0.0
+        near.append(1 - part.distances[state] / (part.distances.max() + 1))
+    return 0.0 if all(one == 1 for one in near) else float(np.mean(near))
+
+
+@pytest.mark.parametrize("mode", MODES)
+def test_an_environment_pays_what_the_one_automaton_does(mode: str) -> None:
+    factored, whole = pair()
+    rewards = Rewards(mode, gamma=0.9, environment=0.5, step_penalty=0.25, trap_penalty=2.0)
+    eyes, ends = [np.eye(part.num_states) for part in factored.parts], set()
+    for _ in range(300):
+        letters, end = RNG.integers(0, 8, 12).tolist(), int(RNG.integers(1, 11))
+        envs = [TaskEnv(Tape(letters, end), task, abc, rewards=rewards) for task in (factored, whole)]
+        (_, info), _ = (env.reset() for env in envs)
+        over, told = False, info["tltl"]
+        q = told["state"]
+        while not over:
+            (obs, paid, over, _, info), (_, expected, is_over, _, own) = (env.step(0) for env in envs)
+            told, before, q = info["tltl"], q, info["tltl"]["state"]
+            for name in ("satisfied", "lost", "terminated", "environment"):
+                assert told[name] == own["tltl"][name]
+            hot = [eye[state] for eye, state in zip(eyes, q, strict=True)]
+            assert np.array_equal(obs[8:], np.concatenate(hot))
+            if mode == "shaped":
+                after = 0.0 if told["terminated"] else potential(factored, q)
+                expected = float(told["satisfied"]) + 0.9 * after - potential(factored, before)
+                expected -= 0.25 + 2.0 * told["lost"] + 0.5
+            assert paid == pytest.approx(expected) and over == is_over
+        ends.add((bool(told["satisfied"]), bool(told["lost"])))
+    assert ends == {(True, False), (False, True), (False, False)}
+
+
+@pytest.mark.parametrize("observe", ["flat", "dict", "none"])
+@pytest.mark.parametrize("autoreset", [AutoresetMode.NEXT_STEP, AutoresetMode.SAME_STEP])
+@pytest.mark.parametrize("mode", MODES)
+def test_rows_of_vectors_are_environments(mode: str, autoreset: AutoresetMode, observe: Any) -> None:
+    task, makes = pair()[0], tapes(1, 6)
+    options: dict[str, Any] = {"rewards": Rewards(mode, environment=0.5), "observe": observe}
+
+    def wrapped(make: Any) -> Any:
+        return lambda: TaskEnv(make(), task, abc, **options)
+
+    one = SyncVectorEnv([wrapped(make) for make in makes], autoreset_mode=autoreset)
+    base = SyncVectorEnv(makes, autoreset_mode=AutoresetMode.DISABLED)
+    ours = TaskVectorEnv(base, task, many, autoreset_mode=autoreset, **options)
+    equal: Any = np.testing.assert_equal
+    (obs, infos), (own, told) = one.reset(), ours.reset()
+    equal(own, obs)
+    ended = 0
+    for _ in range(60):
+        actions = np.zeros(6, np.int64)
+        *step, infos = one.step(actions)
+        *mine, told = ours.step(actions)
+        for theirs, here in zip(step, mine, strict=True):
+            equal(here, theirs)
+        for name in ("state", "satisfied", "lost", "progress", "distance", "labels"):
+            equal(told["tltl"][name], infos["tltl"][name])
+        ended += int((mine[2] | mine[3]).sum())
+    assert ended > 30 and told["tltl"]["state"].shape == (6, 3)
+
+
+@pytest.mark.parametrize("observe", ["flat", "dict", "none"])
+def test_the_checker_of_gymnasium_is_content(observe: Any) -> None:
+    text = "state S { x: f64, v: f64 } #[factored] task t = F x > 0.02 && F x < -0.02 && F v > 0.3"
+    task = tltl.TaskFile.from_text(text).task()
+    env = TaskEnv(gym.make("CartPole-v1"), task, columns={"x": 0, "v": 1}, observe=observe)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        check_env(env, skip_render_check=True)
+    if observe == "dict":
+        named: Any = env.observation_space
+        assert named["task_state"] == spaces.MultiDiscrete([2, 2, 2])
+
+
+def test_what_needs_one_automaton_says_so() -> None:
+    factored, whole = pair()
+    with pytest.raises(TypeError, match="wanted is a task with one automaton"):
+        relabel(factored, np.zeros((2, 3)), rewards=Rewards())  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match="a Task or a Factored is wanted"):
+        Rewards().pay("F a", 0, 1)  # type: ignore[call-overload]
+    q = np.zeros((4, 3), np.uint32)
+    with pytest.raises(ValueError, match="next_q: 2 states; q has 4"):
+        Rewards().pay(factored, q, q[:2])
+    assert Rewards("progress").pay(factored, q[0], np.array([1, 0, 0])) == 1.0
+    assert Rewards("progress").pay(factored, q, q).tolist() == [0.0] * 4
+    assert Rewards("progress").pay(whole, 0, 0) == 0.0

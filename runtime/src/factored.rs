@@ -23,7 +23,7 @@ use crate::automaton::Automaton;
 #[cfg(feature = "alloc")]
 use crate::automaton::TableError;
 use crate::monitor::Acceptor;
-use crate::robustness::{NotANumber, Predicates, letter, unreadable};
+use crate::robustness::{self, NotANumber, Predicates, letter, unreadable};
 use crate::shared::Shared;
 use crate::task::{Error, Formula, Reader, Task};
 
@@ -291,6 +291,51 @@ impl<P> Factored<P> {
         self.automata().zip(q).any(|(automaton, &q)| automaton.is_trap(q))
     }
 
+    /// The same task over other predicates, which must be numbered as these are.
+    #[must_use]
+    #[inline]
+    pub fn with_predicates<Q>(&self, predicates: Q) -> Factored<Q> {
+        let (name, formula, parts) = (self.name.clone(), self.formula.clone(), self.parts.clone());
+        Factored { name, formula, parts, joint: self.joint, predicates, is_generated: false }
+    }
+
+    /// By how much `s` makes a part move on from `q` and loses none: ρ(s, D_φ^q) of the whole; -∞ where
+    /// it is decided.
+    ///
+    /// # Errors
+    /// If a predicate is not a number.
+    ///
+    /// ```
+    /// use tltl::tltl;
+    ///
+    /// let task = tltl! { #[factored] |s: &[f64; 2]| F ({ s[0] } > 3) && F ({ s[1] } > 9) };
+    /// assert_eq!(task.progress_robustness(&[0, 0], &[5.0, 8.0]), Ok(2.0));
+    /// assert_eq!(task.progress_robustness(&[1, 0], &[5.0, 8.0]), Ok(-1.0));
+    /// ```
+    #[inline]
+    pub fn progress_robustness<S: ?Sized>(&self, q: &[u32], s: &S) -> Result<f64, Error>
+    where
+        P: Predicates<S>,
+    {
+        if self.is_accepting(q) || self.is_lost(q) {
+            return Ok(f64::NEG_INFINITY);
+        }
+        self.progress(q.iter().copied(), s)
+    }
+
+    /// For two parts (D₁ ∧ ¬τ₂) ∨ (D₂ ∧ ¬τ₁), where τᵢ is the guard into trap i: progress of one part
+    /// that loses none of the others, as in a product.
+    #[inline]
+    fn progress<S: ?Sized>(&self, q: impl Iterator<Item = u32> + Clone, s: &S) -> Result<f64, Error>
+    where
+        P: Predicates<S>,
+    {
+        robustness::progress_of_all(
+            self.readers().zip(q.clone()).map(|(part, q)| part.trap(q, s)),
+            self.readers().zip(q).map(|(part, q)| part.progress(q, s)),
+        )
+    }
+
     /// Robustness of a whole trajectory: the least of the parts'; -∞ for an empty one.
     ///
     /// # Errors
@@ -320,7 +365,7 @@ impl<P> Factored<P> {
     }
 
     #[inline]
-    fn automata(&self) -> impl Iterator<Item = &Automaton> {
+    fn automata(&self) -> impl Iterator<Item = &Automaton> + Clone {
         self.parts.iter().map(|part| &part.automaton)
     }
 

@@ -13,13 +13,18 @@
 //! `Progress`-optimal policy has 98.13 %, the `Literal`-optimal one 50.0 %.
 //! [Certificates](crate::solve::Certificate) show the difference.
 
-use alloc::vec::Vec;
-
+mod joint;
 #[cfg(feature = "serde")]
-use serde::{Deserialize, Serialize};
+mod saved;
+
+use alloc::vec::Vec;
 
 use crate::monitor::Acceptor;
 use crate::range::checked;
+
+pub use joint::{JointArrival, JointEnds};
+#[cfg(feature = "serde")]
+pub(crate) use saved::Saved;
 
 /// What a move of the automaton pays.
 ///
@@ -206,23 +211,37 @@ impl Rewards {
         }
     }
 
-    /// What the task pays for the move, the environment's own reward left aside. Penalties come last,
-    /// so that they are the same under every mode.
+    /// What the task pays for the move, the environment's own reward left aside.
     #[track_caller]
     #[inline]
     pub(crate) fn pay_for_move(&self, ends: &Ends, arrival: &Arrival) -> f64 {
         let Arrival { q, to, robustness, terminated, .. } = *arrival;
-        let entered = |end| ends.end(q).is_none() && ends.end(to) == Some(end);
-        let lost = entered(End::Lost);
-        let accepted = f64::from(u8::from(entered(End::Accepted)));
+        let entered = if ends.end(q).is_none() { ends.end(to) } else { None };
+        let left = || if terminated { 0.0 } else { ends.potential(to) };
+        self.pay_step(q != to, entered, robustness, || (ends.potential(q), left()))
+    }
+
+    /// The same, however states are called: for a step that leaves its state or not, the end that it
+    /// enters, and the potentials before and after, which only one mode asks for. Penalties come last, so
+    /// that they are the same under every mode.
+    #[inline]
+    fn pay_step(
+        &self,
+        leaves: bool,
+        entered: Option<End>,
+        robustness: f64,
+        potentials: impl FnOnce() -> (f64, f64),
+    ) -> f64 {
+        let lost = entered == Some(End::Lost);
+        let accepted = f64::from(u8::from(entered == Some(End::Accepted)));
         let paid = match self.mode {
-            Mode::Progress => f64::from(u8::from(q != to && !lost)),
-            Mode::Literal => f64::from(u8::from(q != to)),
+            Mode::Progress => f64::from(u8::from(leaves && !lost)),
+            Mode::Literal => f64::from(u8::from(leaves)),
             Mode::Acceptance => accepted,
             Mode::Robustness => robustness.clamp(-self.bound, self.bound),
             Mode::Shaped => {
-                let left = if terminated { 0.0 } else { ends.potential(to) };
-                accepted + self.gamma * left - ends.potential(q)
+                let (before, after) = potentials();
+                accepted + self.gamma * after - before
             }
         };
         paid - self.step_penalty - if lost { self.trap_penalty } else { 0.0 }
@@ -448,63 +467,5 @@ impl Arrivals<'_> {
             reward: self.reward.get(i).copied().unwrap_or_default(),
             terminated: self.terminated.get(i).copied().unwrap_or_default(),
         }
-    }
-}
-
-/// Rewards as settings save them: γ stands beside, and the bound inside of the mode.
-#[cfg(feature = "serde")]
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Saved {
-    mode: SavedMode,
-    trap_penalty: f64,
-    step_penalty: f64,
-    environment: f64,
-}
-
-#[cfg(feature = "serde")]
-#[derive(Serialize, Deserialize)]
-#[serde(rename_all = "lowercase", deny_unknown_fields)]
-enum SavedMode {
-    Progress,
-    Literal,
-    Acceptance,
-    Robustness { bound: f64 },
-    Shaped,
-}
-
-#[cfg(feature = "serde")]
-impl From<Rewards> for Saved {
-    #[inline]
-    fn from(rewards: Rewards) -> Self {
-        let Rewards { mode, bound, trap_penalty, step_penalty, environment, .. } = rewards;
-        let mode = match mode {
-            Mode::Progress => SavedMode::Progress,
-            Mode::Literal => SavedMode::Literal,
-            Mode::Acceptance => SavedMode::Acceptance,
-            Mode::Robustness => SavedMode::Robustness { bound },
-            Mode::Shaped => SavedMode::Shaped,
-        };
-        Self { mode, trap_penalty, step_penalty, environment }
-    }
-}
-
-#[cfg(feature = "serde")]
-impl Saved {
-    /// The rewards that were saved beside `gamma`.
-    #[inline]
-    pub(crate) fn with_gamma(self, gamma: f64) -> Result<Rewards, crate::range::OutOfRange> {
-        let rewards = match self.mode {
-            SavedMode::Progress => Rewards::of(Mode::Progress),
-            SavedMode::Literal => Rewards::of(Mode::Literal),
-            SavedMode::Acceptance => Rewards::of(Mode::Acceptance),
-            SavedMode::Robustness { bound } => Rewards::of(Mode::Robustness).with_bound(bound)?,
-            SavedMode::Shaped => Rewards::of(Mode::Shaped),
-        };
-        rewards
-            .with_gamma(gamma)?
-            .with_trap_penalty(self.trap_penalty)?
-            .with_step_penalty(self.step_penalty)?
-            .with_environment(self.environment)
     }
 }

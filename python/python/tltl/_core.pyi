@@ -44,6 +44,7 @@ __all__ = [
     "__version__",
     "compose",
     "follow",
+    "follow_all",
     "main",
     "product",
     "relabelled",
@@ -360,7 +361,7 @@ class Rewards:
         terminated: bool | None = None,
     ) -> float:
         """What the move from `q` to `next_q` pays, or each of many moves: numbers, or arrays of shape
-        (n,).
+        (n,). States of a `Factored` are arrays of shape (parts,), or (n, parts).
 
         `rho` is ρ(s', D_φ^q), which the mode `robustness` needs; `reward` is what the environment pays,
         and `terminated` whether it ended the episode itself. Both default to nothing.
@@ -376,6 +377,17 @@ class Rewards:
         reward: NDArray[Any] | None = None,
         terminated: NDArray[Any] | None = None,
     ) -> NDArray[np.float64]: ...
+    @overload
+    def pay(
+        self,
+        task: Factored,
+        q: NDArray[Any],
+        next_q: NDArray[Any],
+        *,
+        rho: Any = None,
+        reward: Any = None,
+        terminated: Any = None,
+    ) -> Any: ...
     def __hash__(self) -> int: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __getnewargs_ex__(self) -> tuple[tuple[str], dict[str, float]]: ...
@@ -500,6 +512,9 @@ class Factored:
     def inputs(self) -> tuple[Input, ...]:
         """What the predicates read from a state, in the order of the columns."""
     @property
+    def step_seconds(self) -> float | None:
+        """How long a step lasts, in seconds, if the task file says it; as for `Task`."""
+    @property
     def initial(self) -> NDArray[np.uint32]:
         """The state before anything is read: uint32, of shape (parts,)."""
     def step(self, q: ArrayLike, labels: Labels) -> NDArray[np.uint32]:
@@ -517,6 +532,8 @@ class Factored:
         """Whether the task is lost at `q`, whatever comes after it; shapes as for `is_satisfied`."""
     def labels(self, states: _States, *, columns: _Columns | None = None) -> NDArray[np.bool_]:
         """Which propositions hold in each of `states`; arguments as for `Task.labels`."""
+    def rho(self, states: _States, *, columns: _Columns | None = None) -> NDArray[np.float64]:
+        """The robustness of each proposition in each of `states`, as `labels`: float64."""
     def run(self, states: _States, *, columns: _Columns | None = None) -> Run:
         """A trajectory of shape (T, d), followed row by row; `states` of the result has shape (T, parts)."""
     def __reduce__(self) -> tuple[Any, ...]: ...
@@ -536,17 +553,29 @@ def main(arguments: Sequence[str]) -> int:
     code.
     """
 def follow(
-    task: Task,
+    task: Task | Factored,
     rewards: Rewards,
-    q: int,
+    q: int | NDArray[Any],
     labels: Labels,
     robust: Labels | None,
     reward: float,
     terminated: bool,
-) -> tuple[int, float, bool, dict[str, Any]]:
+) -> tuple[Any, float, bool, dict[str, Any]]:
     """What a step of the world is for the task in state `q`: the next state, what it pays, whether the
     task is decided then, and what `info["tltl"]` says. For one state of an environment, what holds in
     it is `labels`, or `robust` if the reward reads robustness.
+    """
+def follow_all(
+    task: Task | Factored,
+    rewards: Rewards,
+    q: NDArray[Any],
+    labels: NDArray[Any],
+    robust: NDArray[Any] | None,
+    reward: NDArray[Any],
+    terminated: NDArray[Any],
+) -> tuple[NDArray[np.uint32], NDArray[np.float64], dict[str, NDArray[Any]]]:
+    """The same for many environments at once: `q` of shape (n,), or (n, parts), `labels` and `robust` of
+    shape (n, propositions), `reward` and `terminated` of shape (n,).
     """
 def relabelled(
     task: Task,

@@ -7,13 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from graphlib import CycleError, TopologicalSorter
-from typing import Any, Literal
+from typing import Any, Generic, Literal, cast
 from warnings import warn
 
 import numpy as np
 from numpy.typing import NDArray
 
-from tltl._core import Rewards, Shield, Task, follow
+from tltl._core import Factored, Rewards, Shield, Task, follow
 from tltl._errors import TaskWarning
 from tltl._labels import Labels
 
@@ -24,7 +24,12 @@ try:
 except ImportError:
     raise ImportError("tltl.gymnasium needs Gymnasium: pip install 'tltl[gymnasium]'")
 
+from typing_extensions import TypeVar  # isort: skip, comes with Gymnasium
+
 __all__ = ["TaskEnv"]
+
+#: What an environment follows: a task with one automaton, unless another is given.
+Followed = TypeVar("Followed", bound=Task | Factored, default=Task)
 
 #: What holds now: of the environment that is wrapped, its observation and its info.
 LabelFn = Callable[[Any, Any, dict[str, Any]], Labels]
@@ -34,7 +39,7 @@ Columns = Mapping[str, int] | Sequence[str]
 RESETS = 100
 
 
-class TaskEnv(gym.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
+class TaskEnv(gym.Wrapper[Any, Any, Any, Any], RecordConstructorArgs, Generic[Followed]):
     """An environment with a task: the agent sees the automaton's state, and is paid for the task.
 
     `labels(env, obs, info)` says what holds, by the names of the formula; `env` is the environment
@@ -42,7 +47,8 @@ class TaskEnv(gym.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
     flat, has the numbers.
 
     - `observe`: `"flat"` appends the state of the automaton, one-hot, to the flattened observation;
-      `"dict"` gives a `Dict` with it under `key`; `"none"` leaves the observation as it is.
+      `"dict"` gives a `Dict` with it under `key`; `"none"` leaves the observation as it is. Of a
+      `Factored` task each part has a one-hot of its own, and the `Dict` an array with a state for each.
     - `terminate`: whether the episode terminates where the task is satisfied or lost.
     - `shield` (of `Solution.shield`): `action_masks()` says what it allows, which MaskablePPO of
       sb3-contrib reads, and any other action is a `ValueError`. `model_state(obs)` gives the state of
@@ -70,7 +76,7 @@ class TaskEnv(gym.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
     def __init__(
         self,
         env: gym.Env[Any, Any],
-        task: Task | str,
+        task: Followed | str,
         labels: LabelFn | None = None,
         *,
         columns: Columns | None = None,
@@ -100,7 +106,7 @@ class TaskEnv(gym.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
             raise ValueError("give `labels` or `columns`: what holds, or where the numbers are")
         if on_decided_reset not in ("resample", "raise", "keep"):
             raise ValueError(f"on_decided_reset is {on_decided_reset!r}")
-        self.task = Task(task) if isinstance(task, str) else task
+        self.task = compiled(task)
         self.rewards = Rewards(rewards) if isinstance(rewards, str) else rewards or Rewards()
         self._labels, self._columns = labels, columns
         self._terminate, self._on_decided_reset = terminate, on_decided_reset
@@ -108,7 +114,7 @@ class TaskEnv(gym.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
         self._observe, self.observation_space = observing(
             self.task, env.observation_space, observe, key
         )
-        self._q = self.task.initial
+        self._q: Any = self.task.initial
         self._last: tuple[Any, dict[str, Any]] | None = None
         self._shield, self._model_state = shield, model_state
         self._mask: NDArray[np.bool_] | None = None
@@ -174,7 +180,7 @@ class TaskEnv(gym.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
         """The discount factor that the rewards are for, which must be the learner's, if they are shaped."""
         return self.rewards.gamma if self.rewards.mode == "shaped" else None
 
-    def observed(self, obs: Any, q: int) -> Any:
+    def observed(self, obs: Any, q: Any) -> Any:
         """What the agent sees where the environment shows `obs` and the automaton is in `q`."""
         return self._observe(obs, q)
 
@@ -190,7 +196,8 @@ class TaskEnv(gym.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
         return self._mask.copy()
 
     def _check_shield(self, shield: Shield, base: spaces.Space[Any]) -> None:
-        if shield.task is None or shield.task.fingerprint != self.task.fingerprint:
+        own = self.task.fingerprint if isinstance(self.task, Task) else None
+        if shield.task is None or shield.task.fingerprint != own:
             raise ValueError(f"{shield} is for another task than `{self.task.text}`")
         if self._model_state is None and not isinstance(base, spaces.Discrete):
             raise ValueError(f"give `model_state`: observations of {base} are no states of a model")
@@ -220,22 +227,42 @@ class TaskEnv(gym.Wrapper[Any, Any, Any, Any], RecordConstructorArgs):
         return paid, decided, told
 
 
-def has_a_way_back(task: Task) -> bool:
+def compiled(task: Followed | str) -> Followed:
+    """The task, or that of a formula."""
+    return cast(Followed, Task(task) if isinstance(task, str) else task)
+
+
+def automata(task: Task | Factored) -> tuple[Task, ...]:
+    """The tasks whose automata run, one or several."""
+    return task.parts if isinstance(task, Factored) else (task,)
+
+
+def has_a_way_back(task: Task | Factored) -> bool:
     """Whether some state can be left and come back to."""
-    graph: dict[int, set[int]] = {}
-    for edge in task.edges:
-        if edge.source != edge.target:
-            graph.setdefault(edge.target, set()).add(edge.source)
-    try:
-        TopologicalSorter(graph).prepare()
-    except CycleError:
-        return True
+    for part in automata(task):
+        graph: dict[int, set[int]] = {}
+        for edge in part.edges:
+            if edge.source != edge.target:
+                graph.setdefault(edge.target, set()).add(edge.source)
+        try:
+            TopologicalSorter(graph).prepare()
+        except CycleError:
+            return True
     return False
 
 
+def one_hot(task: Task | Factored) -> Callable[[Any], NDArray[Any]]:
+    """What writes automaton states, of shape (n,) or (n, parts), as rows of zeros with a one for each
+    automaton."""
+    eyes = [np.eye(part.num_states) for part in automata(task)]
+    if isinstance(task, Task):
+        return lambda q: eyes[0][q]
+    return lambda q: np.concatenate([eye[q[:, i]] for i, eye in enumerate(eyes)], axis=1)
+
+
 def observing(
-    task: Task, base: spaces.Space[Any], observe: str, key: str
-) -> tuple[Callable[[Any, int], Any], spaces.Space[Any]]:
+    task: Task | Factored, base: spaces.Space[Any], observe: str, key: str
+) -> tuple[Callable[[Any, Any], Any], spaces.Space[Any]]:
     """How an observation and the automaton's state become one, and the space of the result."""
     if observe == "none":
         return (lambda obs, q: obs), base
@@ -247,8 +274,8 @@ def observing(
 
 
 def flat(
-    task: Task, base: spaces.Space[Any]
-) -> tuple[Callable[[Any, int], Any], spaces.Space[Any]]:
+    task: Task | Factored, base: spaces.Space[Any]
+) -> tuple[Callable[[Any, Any], Any], spaces.Space[Any]]:
     """The flattened observation with the state of the automaton, one-hot, behind it."""
     box = spaces.flatten_space(base) if is_flat(base) else None
     if not isinstance(box, spaces.Box):
@@ -257,17 +284,20 @@ def flat(
             "beneath (for MiniGrid ImgObsWrapper or FlatObsWrapper)"
         )
     dtype: Any = box.dtype if np.issubdtype(box.dtype, np.floating) else np.dtype(np.float32)
-    states = np.eye(task.num_states, dtype=dtype)
+    hots = [list(np.eye(part.num_states, dtype=dtype)) for part in automata(task)]
+    width = sum(map(len, hots))
     low, high = (
-        np.concatenate([end.astype(dtype), np.full(task.num_states, hot, dtype)])
+        np.concatenate([end.astype(dtype), np.full(width, hot, dtype)])
         for end, hot in ((box.low, 0), (box.high, 1))
     )
 
-    hot, is_box = list(states), isinstance(base, spaces.Box) and base.shape == box.shape
+    hot, is_box = hots[0], isinstance(base, spaces.Box) and base.shape == box.shape
+    is_one = isinstance(task, Task)
 
-    def joined(obs: Any, q: int) -> Any:
+    def joined(obs: Any, q: Any) -> Any:
         flattened: Any = obs if is_box else spaces.flatten(base, obs)
-        return np.concatenate((flattened, hot[q]), dtype=dtype, casting="unsafe")
+        own = (hot[q],) if is_one else [one[state] for one, state in zip(hots, q.tolist(), strict=True)]
+        return np.concatenate((flattened, *own), dtype=dtype, casting="unsafe")
 
     return joined, spaces.Box(low, high, dtype=dtype.type)
 
@@ -284,10 +314,11 @@ def is_flat(space: spaces.Space[Any]) -> bool:
 
 
 def named(
-    task: Task, base: spaces.Space[Any], key: str
-) -> tuple[Callable[[Any, int], Any], spaces.Space[Any]]:
+    task: Task | Factored, base: spaces.Space[Any], key: str
+) -> tuple[Callable[[Any, Any], Any], spaces.Space[Any]]:
     """The observation and the state of the automaton, by name."""
-    state = spaces.Discrete(task.num_states)
+    sizes = [part.num_states for part in automata(task)]
+    state: Any = spaces.Discrete(sizes[0]) if isinstance(task, Task) else spaces.MultiDiscrete(sizes)
     if not isinstance(base, spaces.Dict):
         return (
             (lambda obs, q: {"observation": obs, key: np.int64(q)}),

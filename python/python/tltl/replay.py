@@ -59,6 +59,8 @@ def relabel(
     ([0, 0, 1, 1], [0, 1, 0, 1], [1, 1, 0, 2], [0.0, 0.0, 0.0, 1.0])
     """
     task = task.task if isinstance(task, Product) else task
+    if not isinstance(task, Task):
+        raise TypeError(f"{task!r}: wanted is a task with one automaton, whose states can be listed")
     rho = np.asarray(next_labels)
     if rho.ndim != 2 or rho.shape[1] != len(task.propositions):
         wanted = f"(n, {len(task.propositions)}): {', '.join(task.propositions)}"

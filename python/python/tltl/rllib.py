@@ -9,7 +9,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from tltl.gymnasium import Columns, LabelFn, TaskEnv
+import numpy as np
+
+from tltl.gymnasium import Columns, LabelFn, TaskEnv, automata
 
 try:
     from ray.rllib.callbacks.callbacks import RLlibCallback
@@ -33,7 +35,7 @@ def register_task_env(
     `TaskEnv`; functions travel by reference, so they are defined in a module that every runner imports,
     or by value, if they are not. What differs between experiments is in `env_config`:
 
-    - `task`: a formula, compiled where the runner is, or a `Task`, which is pickled by its source; its
+    - `task`: a formula, compiled where the runner is, or a `Task` or `Factored`, which is pickled by its source; its
       fingerprint is compared there.
     - `fingerprint`: that of the task, compared if it is given.
     - `make`: a mapping of options for `make`.
@@ -50,10 +52,11 @@ def register_task_env(
         task, fingerprint = options.pop("task"), options.pop("fingerprint", None)
         made = make(**options.pop("make", {}))
         env = TaskEnv(made, task, labels, columns=columns, **options)
-        if fingerprint not in (None, env.task.fingerprint):
+        own = " ".join(part.fingerprint for part in automata(env.task))
+        if fingerprint not in (None, own):
             raise ValueError(
                 f"the automaton of `{env.task.text}` is numbered in another way here "
-                f"({env.task.fingerprint}, not {fingerprint}): install the same version everywhere"
+                f"({own}, not {fingerprint}): install the same version everywhere"
             )
         return env
 
@@ -75,5 +78,7 @@ class TaskMetrics(RLlibCallback):
         metrics_logger.log_value("tltl_satisfied", float(told["satisfied"]), reduce="mean")
         metrics_logger.log_value("tltl_lost", float(told["lost"]), reduce="mean")
         metrics_logger.log_value("tltl_episodes", 1, reduce="lifetime_sum")
-        metrics_logger.log_value(("tltl_last_q", str(int(told["state"]))), 1, reduce="lifetime_sum")
+        # Of a factored task a state for each part: 0,1,1.
+        last = ",".join(map(str, np.atleast_1d(told["state"]).tolist()))
+        metrics_logger.log_value(("tltl_last_q", last), 1, reduce="lifetime_sum")
 

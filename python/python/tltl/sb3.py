@@ -270,10 +270,12 @@ class TaskCallback(BaseCallback):
                 told = info["tltl"]
                 self.satisfied.append(bool(told["satisfied"]))
                 self.lost.append(bool(told["lost"]))
-                self.last_q.append(int(told["state"]))
                 self.logger.record("tltl/satisfied", float(np.mean(self.satisfied[-100:])))
                 self.logger.record("tltl/lost", float(np.mean(self.lost[-100:])))
-                self.logger.record("tltl/last_q", self.last_q[-1])
+                if not np.ndim(told["state"]):
+                    # A factored task has a state for each part, which is no one number.
+                    self.last_q.append(int(told["state"]))
+                    self.logger.record("tltl/last_q", self.last_q[-1])
         return True
 
 

@@ -7,15 +7,23 @@ is made with `autoreset_mode=AutoresetMode.DISABLED`, and `TaskVectorEnv` resets
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any, Literal
+from typing import Any, Generic, Literal
 from warnings import warn
 
 import numpy as np
 from numpy.typing import NDArray
 
-from tltl._core import Rewards, Task
+from tltl._core import Rewards, follow_all
 from tltl._errors import TaskWarning
-from tltl.gymnasium import RESETS, Columns, has_a_way_back, observing
+from tltl.gymnasium import (
+    RESETS,
+    Columns,
+    Followed,
+    compiled,
+    has_a_way_back,
+    observing,
+    one_hot,
+)
 
 from gymnasium import spaces  # isort: skip
 from gymnasium.vector import AutoresetMode, VectorEnv, VectorWrapper  # isort: skip
@@ -30,7 +38,7 @@ VectorLabelFn = Callable[
 Told = dict[str, NDArray[Any]]
 
 
-class TaskVectorEnv(VectorWrapper):
+class TaskVectorEnv(VectorWrapper, Generic[Followed]):
     """A vector environment with a task in each row. Options are those of `TaskEnv`.
 
     `autoreset_mode` is `NEXT_STEP` (the call after the end ignores the action of the row and returns
@@ -57,7 +65,7 @@ class TaskVectorEnv(VectorWrapper):
     def __init__(
         self,
         env: VectorEnv[Any, Any, Any],
-        task: Task | str,
+        task: Followed | str,
         labels: VectorLabelFn | None = None,
         *,
         autoreset_mode: AutoresetMode = AutoresetMode.NEXT_STEP,
@@ -77,19 +85,19 @@ class TaskVectorEnv(VectorWrapper):
             raise ValueError(f"autoreset_mode is {autoreset_mode}, not NEXT_STEP or SAME_STEP")
         if (labels is None) == (columns is None):
             raise ValueError("give `labels` or `columns`: what holds, or where the numbers are")
-        self.task = Task(task) if isinstance(task, str) else task
+        self.task = compiled(task)
         self.rewards = Rewards(rewards) if isinstance(rewards, str) else rewards or Rewards()
         self.metadata = {**env.metadata, "autoreset_mode": autoreset_mode}
         self._is_same_step = autoreset_mode == AutoresetMode.SAME_STEP
         self._labels, self._columns, self._terminate = labels, columns, terminate
         self._pays_rho = self.rewards.mode == "robustness"
-        self._moved = Rewards("progress")
         single = env.single_observation_space
         self._one, self.single_observation_space = observing(self.task, single, observe, key)
         self.observation_space = batch_space(self.single_observation_space, env.num_envs)
         self._form, self._key = observe, key
-        self._hot = np.eye(self.task.num_states)
-        self._q = np.full(env.num_envs, self.task.initial, np.uint32)
+        self._hot = one_hot(self.task)
+        self._initial = np.repeat(np.array([self.task.initial], np.uint32), env.num_envs, axis=0)
+        self._q = self._initial
         self._done = np.zeros(env.num_envs, bool)
         if self.rewards.mode == "progress" and has_a_way_back(self.task):
             warn(
@@ -122,13 +130,7 @@ class TaskVectorEnv(VectorWrapper):
             # The base refuses to step a row that is over.
             self.env.reset(options={"reset_mask": starting.copy()})
         obs, reward, terminated, truncated, infos = self.env.step(actions)
-        before = self._q
-        told = self._read(obs, infos)
-        told["terminated"], told["environment"] = terminated.copy(), np.array(reward, float)
-        rho = told.get("rho")
-        paid = self.rewards.pay(
-            self.task, before, self._q, rho=rho, reward=np.asarray(reward), terminated=terminated
-        )
+        paid, told = self._read(obs, infos, np.asarray(reward), terminated)
         terminated, truncated = terminated | self._is_over(told), truncated.copy()
         if starting.any():
             obs, infos, told = self._restart(starting, infos, told)
@@ -170,41 +172,33 @@ class TaskVectorEnv(VectorWrapper):
 
     def _start(self, obs: Any, infos: dict[str, Any], which: NDArray[np.bool_]) -> Told:
         """Reads the first state of some rows; the others stay where they are."""
-        kept = self._q
-        self._q = np.full(self.num_envs, self.task.initial, np.uint32)
-        told = self._read(obs, infos)
-        self._q = np.where(which, self._q, kept)
+        kept, nothing = self._q, np.zeros(self.num_envs)
+        self._q = self._initial
+        _, told = self._read(obs, infos, nothing, nothing)
+        self._q[~which] = kept[~which]
         told["progress"][:] = False
-        told["terminated"] = np.zeros(self.num_envs, bool)
-        told["environment"] = np.zeros(self.num_envs)
         return told
 
-    def _read(self, obs: Any, infos: dict[str, Any]) -> Told:
-        task, q = self.task, self._q
-        given: Any
+    def _read(
+        self, obs: Any, infos: dict[str, Any], reward: NDArray[Any], terminated: NDArray[Any]
+    ) -> tuple[NDArray[np.float64], Told]:
+        """Moves the automata by what holds now: what that pays, and where they are."""
+        task, given, columns = self.task, obs, self._columns
         if self._labels is None:
-            given, columns = self._flattened(obs), self._columns
+            given = self._flattened(obs)
         else:
-            given, columns = self._labels(self.env, obs, infos), None
-        told: Told = {}
+            given = self._labels(self.env, obs, infos)
+        robust = None
         if columns is not None or isinstance(given, Mapping):
             holds = task.labels(given, columns=columns)
-            robust = task.rho(given, columns=columns) if self._pays_rho else None
+            if self._pays_rho:
+                robust = task.rho(given, columns=columns)
         else:
-            robust = np.asarray(given)
-            holds = robust > 0
-        if self._pays_rho:
-            told["rho"] = task.progress_robustness(q, robust)
-        self._q = task.step_batch(q, holds)
-        return told | {
-            "state": self._q.astype(np.int64),
-            "satisfied": self._q == (-1 if task.accepting is None else task.accepting),
-            "lost": self._q == (-1 if task.trap is None else task.trap),
-            "progress": self._moved.pay(task, q, self._q) > 0,
-            "distance": task.distances[self._q],
-            "labels": holds,
-            "resampled": np.zeros(self.num_envs, np.int64),
-        }
+            holds = np.asarray(given)
+        self._q, paid, told = follow_all(
+            task, self.rewards, self._q, holds, robust, reward, terminated
+        )
+        return paid, told
 
     def _is_over(self, told: Told) -> NDArray[np.bool_]:
         return (told["satisfied"] | told["lost"]) & self._terminate
@@ -222,7 +216,7 @@ class TaskVectorEnv(VectorWrapper):
             return obs
         if self._form == "flat":
             dtype: Any = self.single_observation_space.dtype
-            return np.concatenate([self._flattened(obs), self._hot[self._q]], axis=1, dtype=dtype)
+            return np.concatenate([self._flattened(obs), self._hot(self._q)], axis=1, dtype=dtype)
         base = obs if isinstance(obs, dict) else {"observation": obs}
         return {**base, self._key: self._q.astype(np.int64)}
 

@@ -12,7 +12,7 @@ use core::fmt;
 
 use super::{Factored, Part};
 use crate::monitor::{Acceptor, Monitor};
-use crate::robustness::{self, Predicates};
+use crate::robustness::Predicates;
 use crate::shared::Shared;
 use crate::task::{Error, Formula};
 
@@ -102,7 +102,7 @@ impl<P> Numbered<P> {
     }
 
     /// The state of each part at `q`: the digits of the number.
-    pub fn parts(&self, q: u32) -> impl Iterator<Item = u32> {
+    pub fn parts(&self, q: u32) -> impl Iterator<Item = u32> + Clone {
         let mut rest = q;
         self.task.automata().map(move |automaton| {
             let states = automaton.states();
@@ -188,17 +188,11 @@ impl<S: ?Sized, P: Predicates<S>> Monitor<S> for Numbered<P> {
         Ok(self.trap.filter(|_| lost).unwrap_or(number))
     }
 
-    /// For two parts (D₁ ∧ ¬τ₂) ∨ (D₂ ∧ ¬τ₁), where τᵢ is the guard into trap i: progress of one part
-    /// that loses none of the others, as in a product.
     fn progress_robustness(&self, q: u32, s: &S) -> Result<f64, Error> {
         if self.is_terminal(q) {
             return Ok(f64::NEG_INFINITY);
         }
-        let parts = || self.task.readers().zip(self.parts(q));
-        robustness::progress_of_all(
-            parts().map(|(part, q)| part.trap(q, s)),
-            parts().map(|(part, q)| part.progress(q, s)),
-        )
+        self.task.progress(self.parts(q), s)
     }
 
     fn trap_robustness(&self, q: u32, s: &S) -> Result<f64, Error> {
