@@ -185,7 +185,7 @@ def replay() -> None:
 
 
 def learning() -> None:
-    model = FiniteModel.from_env(gym.make("Taxi-v4"))
+    model = FiniteModel.from_env(gym.make(max(name for name in gym.registry if name.startswith("Taxi-"))))
     labels: Any = lambda s: {"aboard": s // 4 % 5 == 4, "home": s // 4 % 5 == s % 4}  # noqa: E731
     learner = Learner(model, "aboard T home", labels, seed=1).train(1_000_000)
     start, before = time.perf_counter(), learner.steps

@@ -39,12 +39,18 @@ def fell(s: int, a: int, to: int, reward: float) -> str | None:
     return "cliff" if reward <= -100 else None
 
 
-#: Environment, its options, task, labels, events.
+def newest(name: str) -> str:
+    """The newest version of an environment that is registered: `Taxi-v4`; in Gymnasium 1.0 `Taxi-v3`."""
+    versions = [int(spec.version or 0) for spec in gym.registry.values() if spec.name == name]
+    return f"{name}-v{max(versions)}"
+
+
+#: Environment, its options, task, labels, events. The slippery cliff is there from Gymnasium 1.1 on.
 WORLDS: dict[str, tuple[str, dict[str, Any], str, Any, Any]] = {
     "FrozenLake": ("FrozenLake-v1", {}, "corner T goal", lake, None),
     "FrozenLake 8x8": ("FrozenLake8x8-v1", {}, "corner T goal", large_lake, None),
-    "Taxi": ("Taxi-v4", {}, "aboard T home", taxi, None),
-    "CliffWalking": ("CliffWalking-v1", {"is_slippery": True}, "!cliff U goal", cliff, fell),
+    "Taxi": (newest("Taxi"), {}, "aboard T home", taxi, None),
+    "CliffWalking": (newest("CliffWalking"), {"is_slippery": True}, "!cliff U goal", cliff, fell),
 }
 
 

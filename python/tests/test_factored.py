@@ -12,15 +12,12 @@ import numpy as np
 import pytest
 from gymnasium import spaces
 from gymnasium.utils.env_checker import check_env
-from gymnasium.vector import AutoresetMode, SyncVectorEnv
 from test_gymnasium import MODES, Tape, abc
-from test_vector import many, tapes
 
 import tltl
 from tltl import Factored, Rewards, Task
 from tltl.gymnasium import TaskEnv
 from tltl.replay import relabel
-from tltl.vector import TaskVectorEnv
 
 TEXT = """
 state S { a: bool, b: bool, x: f64, wet: bool }
@@ -146,35 +143,6 @@ def test_an_environment_pays_what_the_one_automaton_does(mode: str) -> None:
             assert paid == pytest.approx(expected) and over == is_over
         ends.add((bool(told["satisfied"]), bool(told["lost"])))
     assert ends == {(True, False), (False, True), (False, False)}
-
-
-@pytest.mark.parametrize("observe", ["flat", "dict", "none"])
-@pytest.mark.parametrize("autoreset", [AutoresetMode.NEXT_STEP, AutoresetMode.SAME_STEP])
-@pytest.mark.parametrize("mode", MODES)
-def test_rows_of_vectors_are_environments(mode: str, autoreset: AutoresetMode, observe: Any) -> None:
-    task, makes = pair()[0], tapes(1, 6)
-    options: dict[str, Any] = {"rewards": Rewards(mode, environment=0.5), "observe": observe}
-
-    def wrapped(make: Any) -> Any:
-        return lambda: TaskEnv(make(), task, abc, **options)
-
-    one = SyncVectorEnv([wrapped(make) for make in makes], autoreset_mode=autoreset)
-    base = SyncVectorEnv(makes, autoreset_mode=AutoresetMode.DISABLED)
-    ours = TaskVectorEnv(base, task, many, autoreset_mode=autoreset, **options)
-    equal: Any = np.testing.assert_equal
-    (obs, infos), (own, told) = one.reset(), ours.reset()
-    equal(own, obs)
-    ended = 0
-    for _ in range(60):
-        actions = np.zeros(6, np.int64)
-        *step, infos = one.step(actions)
-        *mine, told = ours.step(actions)
-        for theirs, here in zip(step, mine, strict=True):
-            equal(here, theirs)
-        for name in ("state", "satisfied", "lost", "progress", "distance", "labels"):
-            equal(told["tltl"][name], infos["tltl"][name])
-        ended += int((mine[2] | mine[3]).sum())
-    assert ended > 30 and told["tltl"]["state"].shape == (6, 3)
 
 
 @pytest.mark.parametrize("observe", ["flat", "dict", "none"])

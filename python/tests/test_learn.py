@@ -20,6 +20,7 @@ import numpy as np
 import pytest
 from gymnasium import spaces
 from test_solve import cells
+from toy_text import newest
 
 from tltl import (
     FiniteModel,
@@ -292,7 +293,7 @@ def test_models_solutions_and_shields_pickle(lake: FiniteModel, around: Any) -> 
 
 def test_a_model_with_events_and_endings_pickles() -> None:
     events: Any = lambda s, a, to, reward: "cliff" if reward <= -100 else None  # noqa: E731
-    model = FiniteModel.from_env(gym.make("CliffWalking-v1"), events=events)
+    model = FiniteModel.from_env(gym.make(newest("CliffWalking")), events=events)
     again = pickle.loads(pickle.dumps(model))
     assert (again.event, again.num_states) == (model.event, model.num_states)
     labels: Any = lambda s, event: {"goal": s == 47, "cliff": event == "cliff"}  # noqa: E731

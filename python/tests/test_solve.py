@@ -7,6 +7,7 @@ from typing import Any
 import gymnasium as gym
 import numpy as np
 import pytest
+from toy_text import newest
 
 from tltl import FiniteModel, Rewards, Task, solve
 
@@ -86,7 +87,7 @@ def test_nothing_is_read_after_the_end() -> None:
     lake = FiniteModel.from_env(gym.make("FrozenLake-v1"))
     best = solve(lake, "F (goal && X goal)", cells)
     assert best.certify(best.policy).optimal_satisfied == 0.0
-    cliff = FiniteModel.from_env(gym.make("CliffWalking-v1"))
+    cliff = FiniteModel.from_env(gym.make(newest("CliffWalking")))
     places = lambda s: {"goal": s == 47, "start": s == 36}  # noqa: E731
     best = solve(cliff, "goal T start", places)
     assert best.certify(best.policy).optimal_satisfied == 0.0
@@ -96,7 +97,7 @@ def test_nothing_is_read_after_the_end() -> None:
 
 
 def test_events_are_what_happens_on_the_way() -> None:
-    env = gym.make("CliffWalking-v1")
+    env = gym.make(newest("CliffWalking"))
     falls = lambda s, a, to, reward: "cliff" if reward <= -100 else None  # noqa: E731
     model = FiniteModel.from_env(env, events=falls)
     assert model.num_states == 49 and model.origin[48] == 36 and model.event[48] == "cliff"

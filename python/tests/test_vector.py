@@ -8,13 +8,19 @@ from typing import Any
 import gymnasium as gym
 import numpy as np
 import pytest
-from gymnasium.vector import AutoresetMode, SyncVectorEnv
+from test_factored import pair
 from test_gymnasium import MODES, Tape, abc
 
 from tltl import Rewards, Task, TaskWarning
 from tltl.gymnasium import TaskEnv
 from tltl.replay import relabel
-from tltl.vector import TaskVectorEnv
+
+if "CliffWalking-v1" not in gym.registry:
+    pytest.skip("vector environments need Gymnasium 1.1", allow_module_level=True)
+
+from gymnasium.vector import AsyncVectorEnv, AutoresetMode, SyncVectorEnv  # noqa: E402
+
+from tltl.vector import TaskVectorEnv  # noqa: E402
 
 NEXT, SAME = AutoresetMode.NEXT_STEP, AutoresetMode.SAME_STEP
 
@@ -103,6 +109,89 @@ def test_carts_with_labelled_starts() -> None:
         assert np.array_equal(mine, reward)
         paid += float(np.abs(mine).sum())
     assert paid > 0
+
+
+@pytest.mark.parametrize("observe", ["flat", "dict", "none"])
+@pytest.mark.parametrize("autoreset", [NEXT, SAME])
+@pytest.mark.parametrize("mode", MODES)
+def test_rows_of_factored_tasks_are_task_envs(mode: str, autoreset: AutoresetMode, observe: Any) -> None:
+    task, makes = pair()[0], tapes(1, 6)
+    options: dict[str, Any] = {"rewards": Rewards(mode, environment=0.5), "observe": observe}
+
+    def wrapped(make: Any) -> Any:
+        return lambda: TaskEnv(make(), task, abc, **options)
+
+    one = SyncVectorEnv([wrapped(make) for make in makes], autoreset_mode=autoreset)
+    base = SyncVectorEnv(makes, autoreset_mode=AutoresetMode.DISABLED)
+    ours = TaskVectorEnv(base, task, many, autoreset_mode=autoreset, **options)
+    equal: Any = np.testing.assert_equal
+    (obs, infos), (own, told) = one.reset(), ours.reset()
+    equal(own, obs)
+    ended = 0
+    for _ in range(60):
+        actions = np.zeros(6, np.int64)
+        *step, infos = one.step(actions)
+        *mine, told = ours.step(actions)
+        for theirs, here in zip(step, mine, strict=True):
+            equal(here, theirs)
+        for name in ("state", "satisfied", "lost", "progress", "distance", "labels"):
+            equal(told["tltl"][name], infos["tltl"][name])
+        ended += int((mine[2] | mine[3]).sum())
+    assert ended > 30 and told["tltl"]["state"].shape == (6, 3)
+
+
+def pole() -> Any:
+    return gym.make("CartPole-v1")
+
+
+@pytest.mark.parametrize("autoreset", [NEXT, SAME])
+def test_all_ways_of_many_carts_are_one(autoreset: AutoresetMode) -> None:
+    """SyncVectorEnv and AsyncVectorEnv of TaskEnv, TaskVectorEnv, and environments one by one.
+
+    With NEXT_STEP, TaskVectorEnv steps a row that starts anew once in vain, which draws random numbers:
+    its starts are others, so it is compared where nothing is drawn (`test_vector.py`).
+    """
+    task, columns = Task("(x < 0.03) T (v > 0.25) T (x < 0.03)"), {"x": 0, "v": 1}
+    is_same_step = autoreset == SAME
+
+    def wrapped() -> Any:
+        return TaskEnv(pole(), task, columns=columns)
+
+    count, seeds = 4, [3, 1, 4, 1]
+    many: list[Any] = [
+        SyncVectorEnv([wrapped] * count, autoreset_mode=autoreset),
+        AsyncVectorEnv([wrapped] * count, autoreset_mode=autoreset),
+    ]
+    if is_same_step:
+        base = SyncVectorEnv([pole] * count, autoreset_mode=AutoresetMode.DISABLED)
+        many.append(TaskVectorEnv(base, task, columns=columns, autoreset_mode=autoreset))
+    ones, done = [wrapped() for _ in range(count)], [False] * count
+    alone = [env.reset(seed=seed)[0] for env, seed in zip(ones, seeds, strict=True)]
+    for vector in many:
+        assert np.array_equal(vector.reset(seed=seeds)[0], alone)
+    rng, ended, paid = np.random.default_rng(2), 0, 0.0
+    for _ in range(150):
+        actions = rng.integers(0, 2, count)
+        steps = [vector.step(actions) for vector in many]
+        for i, env in enumerate(ones):
+            if done[i] and not is_same_step:
+                (alone[i], _), done[i] = env.reset(), False
+                expected = (0.0, False, False)
+            else:
+                alone[i], reward, terminated, truncated, _ = env.step(int(actions[i]))
+                done[i] = terminated or truncated
+                expected = (reward, terminated, truncated)
+                paid += abs(reward)
+                ended += done[i]
+            if done[i] and is_same_step:
+                for *_, infos in steps:
+                    assert np.array_equal(infos["final_obs"][i], alone[i])
+                alone[i], _ = env.reset()
+            for obs, rewards, terminated, truncated, _ in steps:
+                assert np.array_equal(obs[i], alone[i])
+                assert (rewards[i], terminated[i], truncated[i]) == expected
+    many[1].close()
+    assert ended > 10 and paid > 1.0
 
 
 def test_what_is_refused_says_what_to_do() -> None:

@@ -10,12 +10,12 @@ from typing import Any
 import gymnasium as gym
 import numpy as np
 import pytest
+from conftest import since_1_1
 from gymnasium.utils.env_checker import check_env
-from gymnasium.vector import AsyncVectorEnv, AutoresetMode, SyncVectorEnv
+from toy_text import newest
 
 from tltl import FiniteModel, Learner, Task, solve
 from tltl.gymnasium import TaskEnv
-from tltl.vector import TaskVectorEnv
 
 minigrid = pytest.importorskip("minigrid")
 
@@ -47,9 +47,9 @@ WORLDS: dict[str, tuple[str, dict[str, Any], str, Any]] = {
     "lake without holes": ("FrozenLake-v1", {}, "!hole U goal", small_lake),
     "large lake": ("FrozenLake8x8-v1", {}, "corner T goal", large_lake),
     "large lake, both": ("FrozenLake8x8-v1", {}, "F corner && F goal ensuring !hole", large_lake),
-    "taxi": ("Taxi-v4", {}, "aboard T home", taxi),
-    "cliff": ("CliffWalking-v1", {}, "corner T goal", cliff),
-    "slippery cliff": ("CliffWalking-v1", {"is_slippery": True}, "corner T goal", cliff),
+    "taxi": (newest("Taxi"), {}, "aboard T home", taxi),
+    "cliff": (newest("CliffWalking"), {}, "corner T goal", cliff),
+    "slippery cliff": (newest("CliffWalking"), {"is_slippery": True}, "corner T goal", cliff),
 }
 
 
@@ -79,7 +79,10 @@ def iterated(env: Any, task: Task, labels: Any, steps: int | None) -> Any:
     return value
 
 
-@pytest.mark.parametrize("name", WORLDS)
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(name, marks=since_1_1) if "slippery" in name else name for name in WORLDS],
+)
 def test_solutions_are_those_of_value_iteration(name: str) -> None:
     world, options, formula, labels = WORLDS[name]
     env, task = gym.make(world, **options), Task(formula)
@@ -99,7 +102,8 @@ def test_solutions_are_those_of_value_iteration(name: str) -> None:
 
 
 @pytest.mark.parametrize(("name", "steps"), [("lake", 300_000), ("large lake", 600_000),
-                                             ("taxi", 600_000), ("slippery cliff", 300_000)])
+                                             ("taxi", 600_000),
+                                             pytest.param("slippery cliff", 300_000, marks=since_1_1)])
 def test_what_is_learned_is_certified(name: str, steps: int) -> None:
     world, options, formula, labels = WORLDS[name]
     model = FiniteModel.from_env(gym.make(world, **options))
@@ -167,57 +171,3 @@ def test_a_key_and_a_door(name: str, formula: str) -> None:
         assert info["tltl"]["satisfied"] and paid == 1.0
         assert states == task.run(np.where(rows, 1.0, -1.0)).states.tolist()
         assert {task.initial, 1, task.accepting} <= set(states)
-
-
-def pole() -> Any:
-    return gym.make("CartPole-v1")
-
-
-@pytest.mark.parametrize("autoreset", [AutoresetMode.NEXT_STEP, AutoresetMode.SAME_STEP])
-def test_all_ways_of_many_carts_are_one(autoreset: AutoresetMode) -> None:
-    """SyncVectorEnv and AsyncVectorEnv of TaskEnv, TaskVectorEnv, and environments one by one.
-
-    With NEXT_STEP, TaskVectorEnv steps a row that starts anew once in vain, which draws random numbers:
-    its starts are others, so it is compared where nothing is drawn (`test_vector.py`).
-    """
-    task, columns = Task("(x < 0.03) T (v > 0.25) T (x < 0.03)"), {"x": 0, "v": 1}
-    is_same_step = autoreset == AutoresetMode.SAME_STEP
-
-    def wrapped() -> Any:
-        return TaskEnv(pole(), task, columns=columns)
-
-    count, seeds = 4, [3, 1, 4, 1]
-    many: list[Any] = [
-        SyncVectorEnv([wrapped] * count, autoreset_mode=autoreset),
-        AsyncVectorEnv([wrapped] * count, autoreset_mode=autoreset),
-    ]
-    if is_same_step:
-        base = SyncVectorEnv([pole] * count, autoreset_mode=AutoresetMode.DISABLED)
-        many.append(TaskVectorEnv(base, task, columns=columns, autoreset_mode=autoreset))
-    ones, done = [wrapped() for _ in range(count)], [False] * count
-    alone = [env.reset(seed=seed)[0] for env, seed in zip(ones, seeds, strict=True)]
-    for vector in many:
-        assert np.array_equal(vector.reset(seed=seeds)[0], alone)
-    rng, ended, paid = np.random.default_rng(2), 0, 0.0
-    for _ in range(150):
-        actions = rng.integers(0, 2, count)
-        steps = [vector.step(actions) for vector in many]
-        for i, env in enumerate(ones):
-            if done[i] and not is_same_step:
-                (alone[i], _), done[i] = env.reset(), False
-                expected = (0.0, False, False)
-            else:
-                alone[i], reward, terminated, truncated, _ = env.step(int(actions[i]))
-                done[i] = terminated or truncated
-                expected = (reward, terminated, truncated)
-                paid += abs(reward)
-                ended += done[i]
-            if done[i] and is_same_step:
-                for *_, infos in steps:
-                    assert np.array_equal(infos["final_obs"][i], alone[i])
-                alone[i], _ = env.reset()
-            for obs, rewards, terminated, truncated, _ in steps:
-                assert np.array_equal(obs[i], alone[i])
-                assert (rewards[i], terminated[i], truncated[i]) == expected
-    many[1].close()
-    assert ended > 10 and paid > 1.0

@@ -26,8 +26,12 @@ from tltl.gymnasium import (
 )
 
 from gymnasium import spaces  # isort: skip
-from gymnasium.vector import AutoresetMode, VectorEnv, VectorWrapper  # isort: skip
-from gymnasium.vector.utils import batch_space, iterate  # isort: skip
+
+try:
+    from gymnasium.vector import AutoresetMode, VectorEnv, VectorWrapper
+    from gymnasium.vector.utils import batch_space, iterate
+except ImportError:
+    raise ImportError("tltl.vector needs Gymnasium 1.1 or later: pip install 'gymnasium>=1.1'")
 
 __all__ = ["TaskVectorEnv"]
 
