@@ -13,6 +13,7 @@ import gymnasium as gym
 import minigrid  # noqa: F401, registers its environments
 import numpy as np
 from gymnasium import spaces
+from gymnasium.utils import RecordConstructorArgs
 from numpy.typing import NDArray
 
 from tltl.gymnasium import TaskEnv
@@ -34,10 +35,12 @@ STEPS, SEEDS, EPISODES = 30_000, 5, 50
 STUDENT = 2.776
 
 
-class Features(gym.ObservationWrapper[NDArray[np.float32], Any, Any]):
+class Features(gym.ObservationWrapper[NDArray[np.float32], Any, Any], RecordConstructorArgs):
     """What a MiniGrid shows as numbers: the agent, and where key, door and goal are."""
 
     def __init__(self, env: gym.Env[Any, Any]) -> None:
+        # So that `check_env` can make it again.
+        RecordConstructorArgs.__init__(self)
         super().__init__(env)
         self.observation_space = spaces.Box(0, 1, (15,), np.float32)
 

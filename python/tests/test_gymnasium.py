@@ -224,6 +224,22 @@ def test_the_checker_of_gymnasium_is_content(mode: str, observe: Any) -> None:
         check_env(pole, skip_render_check=True)
 
 
+@pytest.mark.parametrize("observe", ["flat", "dict", "none"])
+@pytest.mark.parametrize("mode", MODES)
+def test_the_checker_is_content_with_minigrid(mode: str, observe: Any) -> None:
+    pytest.importorskip("minigrid")
+    from doorkey_study import Features
+    from test_worlds import held
+
+    base = gym.make("MiniGrid-DoorKey-5x5-v0")
+    # An image is not made flat.
+    base = Features(base) if observe == "flat" else base
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        env = TaskEnv(base, "key T door T goal", held, rewards=mode, observe=observe)
+        check_env(env, skip_render_check=True)
+
+
 def test_what_is_refused_says_what_to_do() -> None:
     class Image(Tape):
         def __init__(self) -> None:

@@ -73,3 +73,25 @@ def test_the_kitchen_of_franka() -> None:
     rows, states = recorded(env, 30, seed=1)
     assert len(states) == 31 and states == task.run(np.where(rows, 1.0, -1.0)).states.tolist()
     assert env.observation_space.contains(env.reset(seed=2)[0])
+
+
+def test_a_ball_in_a_maze() -> None:
+    """Columns of a flattened Dict: its parts stand in the order of their names, and `observation` is last."""
+    robotics = pytest.importorskip("gymnasium_robotics")
+    gym.register_envs(robotics)
+    formula = "(x > 1.2) T (x < -1.2) ensuring y < 0"
+    columns = {"x": 4, "y": 5}
+    env = TaskEnv(gym.make("PointMaze_UMaze-v3"), formula, columns=columns, observe="dict")
+    # It is pushed to one end of the lower passage, and back to the other; or it stays at the wrong end.
+    for first, verdict in ((1.0, "satisfied"), (-1.0, "open")):
+        obs, info = env.reset(seed=1)
+        rows, states, done = [obs["observation"][:2]], [info["tltl"]["state"]], False
+        while not done:
+            push = first if len(states) < 100 or verdict == "open" else -first
+            obs, _, terminated, truncated, info = env.step(np.array([push, 0.0], np.float32))
+            rows.append(obs["observation"][:2])
+            states.append(info["tltl"]["state"])
+            done = terminated or truncated
+        run = env.task.run(np.array(rows))
+        assert (run.verdict, run.states.tolist()) == (verdict, states)
+        assert info["tltl"]["satisfied"] == (verdict == "satisfied")

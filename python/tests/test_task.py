@@ -129,6 +129,8 @@ def test_mistakes_are_underlined_and_are_data() -> None:
     assert (first.kind, first.severity) == ("unsupported-operator", "error")
     assert first.span[0] == 5, "characters, not bytes"
     assert "^" in str(error) and "◇a ∧ G b" in str(error)
+    with pytest.raises(CompileError, match="write `F a && F b ensuring c`"):
+        Task("G a")
     again = pickle.loads(pickle.dumps(error))
     assert str(again) == str(error) and again.diagnostics == error.diagnostics
     for row in rows("rejects.jsonl"):

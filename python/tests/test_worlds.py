@@ -112,6 +112,32 @@ def test_what_is_learned_is_certified(name: str, steps: int) -> None:
     assert worth.regret_satisfied < 1e-3 and (worth.regret_steps or 0.0) < 1e-2
 
 
+@pytest.mark.parametrize(
+    "name",
+    ["lake without holes", "large lake", "taxi", pytest.param("slippery cliff", marks=since_1_1)],
+)
+def test_what_is_certified_is_what_happens(name: str) -> None:
+    """Episodes in the environment itself, with its own time limit, against the exact probability."""
+    world, options, formula, labels = WORLDS[name]
+    base = gym.make(world, **options)
+    best = solve(FiniteModel.from_env(base), formula, labels)
+    policy, worth = best.policy, best.certify(best.policy, within=base.spec and base.spec.max_episode_steps or 60)
+    env = TaskEnv(base, formula, lambda env, obs, info: labels(int(obs)), observe="none", on_decided_reset="keep")
+    episodes, satisfied = 200, 0
+    obs, info = env.reset(seed=3)
+    for _ in range(episodes):
+        for _ in range(worth.within or 0):
+            obs, _, terminated, truncated, info = env.step(policy(info["tltl"]["state"], int(obs)))
+            if terminated or truncated:
+                break
+        satisfied += bool(info["tltl"]["satisfied"])
+        obs, info = env.reset()
+    p = worth.satisfied_within
+    assert p is not None
+    # Four standard deviations, and one episode.
+    assert abs(satisfied - episodes * p) <= 4 * (episodes * p * (1 - p)) ** 0.5 + 1
+
+
 def held(env: Any, obs: Any, info: dict[str, Any]) -> dict[str, bool]:
     """What holds in a room of MiniGrid with a key and a door."""
     room = env.unwrapped
