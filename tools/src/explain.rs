@@ -97,7 +97,7 @@ pub const MOST_STATES: usize = 64;
 /// ```
 #[must_use]
 pub fn explain(spec: &Spec, dfa: &Dfa) -> Explanation {
-    Explanation { words: words::retell(spec), ..explain_automaton(dfa) }
+    Explanation { words: retold(spec), ..explain_automaton(dfa) }
 }
 
 /// Explains an automaton that came without a formula: all but the words.
@@ -126,6 +126,32 @@ pub fn explain_automaton(dfa: &Dfa) -> Explanation {
         states: states.map(|q| state(dfa, &mut guards, &distances, q)).collect(),
         falls: dfa.states().filter_map(|q| Some((q, fall(dfa, &mut guards, q)?))).collect(),
     }
+}
+
+/// The task in plain English, one string a line; empty if the formula is too large to retell.
+///
+/// ```
+/// let task = tltlc::task::compile("F a", tltl_compiler::translate::Budget::default())?;
+/// assert_eq!(tltlc::explain::retold(&task.entry().task().spec), ["at some instant a"]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+pub fn retold(spec: &Spec) -> Vec<String> {
+    words::retell(spec)
+}
+
+/// The explanation of these states alone, in their order. Each costs a search for each literal.
+///
+/// ```
+/// let task = tltlc::task::compile("a T b", tltl_compiler::translate::Budget::default())?;
+/// let told = tltlc::explain::of_states(task.dfa(), &[1]);
+/// assert_eq!((told.len(), &told[0].needs[..]), (1, &["b".to_owned()][..]));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+pub fn of_states(dfa: &Dfa, states: &[State]) -> Vec<StateExplanation> {
+    let (mut guards, distances) = (Guards::new(dfa), dfa.distances());
+    states.iter().map(|&q| state(dfa, &mut guards, &distances, q)).collect()
 }
 
 /// The guard of the edge into the trap, if there is one.

@@ -16,6 +16,7 @@
 //! | [`lint`] | a source and what it compiles to | warnings about what is hardly meant |
 //! | [`format`](mod@format) | a task file | the same file, laid out |
 //! | [`online`] | states, one after the other | the robustness of the trajectory so far |
+//! | [`report`] | a task and its trajectories | a page for a browser |
 //! | [`emit`] | automata, saved policies | pictures, HOA, JSON, Graphviz, Mermaid, Rust |
 //! | [`semantics`] | a formula and a trajectory | its verdict and robustness by definition: the oracle of the tests |
 //! | [`cli`] | arguments and streams | output and an exit code |
@@ -51,6 +52,7 @@ pub mod format;
 pub mod lint;
 pub mod online;
 pub mod product;
+pub mod report;
 pub mod semantics;
 pub mod tables;
 pub mod task;

@@ -125,6 +125,12 @@ impl Online {
         }
     }
 
+    /// The robustness of the states read so far, unless it costs a pass over them.
+    #[must_use]
+    pub(crate) fn at_hand(&self) -> Option<f64> {
+        (!matches!(self.0, Way::All(_))).then(|| self.robustness() + 0.0)
+    }
+
     /// The greatest robustness of any trajectory that goes on from the states read so far, if every
     /// literal of later states may have any value; `None` where that is not known, for want of a
     /// formula or of an automaton within the budget.

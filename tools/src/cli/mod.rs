@@ -104,6 +104,9 @@ enum Command {
         /// The task of the file; may be left out if there is only one.
         #[arg(long)]
         task: Option<String>,
+        /// The form to write.
+        #[arg(long, value_enum, default_value_t = PageFormat::Text)]
+        format: PageFormat,
         #[command(flatten)]
         limits: Limits,
     },
@@ -226,6 +229,17 @@ enum RowFormat {
     Csv,
     /// One JSON object a row, and one with the verdict at the end; infinite numbers are null.
     Json,
+    /// A page for a browser: automaton, states, predicates and robustness over time, with a slider.
+    Html,
+}
+
+/// The forms of an explanation.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum PageFormat {
+    /// Text for people.
+    Text,
+    /// A page for a browser.
+    Html,
 }
 
 /// The forms of an automaton.
@@ -287,8 +301,8 @@ fn run(command: Command, streams: &mut Streams<'_>) -> Outcome {
         Command::Check { files, format, limits } => {
             input::check(&files, limits.over(Budget::EMITTED), format, streams)
         }
-        Command::Explain { subject, task, limits } => {
-            tell::explain(&subject, task.as_deref(), limits.with_guards(), streams)
+        Command::Explain { subject, task, format, limits } => {
+            tell::explain(&subject, task.as_deref(), format, limits.with_guards(), streams)
         }
         Command::Diff { first, second, limits } => {
             tell::difference(&first, &second, limits.shown(), streams)

@@ -36,7 +36,8 @@ pub(super) fn run(run: &Run, streams: &mut Streams<'_>) -> Outcome {
     for path in &run.traces {
         let name = path.display().to_string();
         let record = Record::new(&name, path, open(streams.input, path)?, &places)?;
-        let mut following = Following::new(&reading, &name, run.episode.as_deref());
+        let episode = run.episode.as_deref();
+        let mut following = Following::new(&reading, &name, episode, writer.drawn());
         following.read(record, &mut |text| streams.out.print(text), &mut writer)?;
         if following.followed.is_empty() {
             return Err(format!("{name}: a trajectory has at least one state, and this has none"));
@@ -146,6 +147,8 @@ struct Following<'a> {
     file: &'a str,
     episode: Option<&'a str>,
     followed: Vec<Followed<'a>>,
+    /// The number of further trajectories that a page shows.
+    drawn: usize,
     /// The index of each episode among them, by its name in the file.
     known: FxHashMap<String, usize>,
 }
@@ -159,8 +162,9 @@ struct Block {
 }
 
 impl<'a> Following<'a> {
-    fn new(reading: &'a Reading, file: &'a str, episode: Option<&'a str>) -> Self {
-        Self { reading, file, episode, followed: Vec::new(), known: FxHashMap::default() }
+    fn new(reading: &'a Reading, file: &'a str, episode: Option<&'a str>, drawn: usize) -> Self {
+        let (followed, known) = (Vec::new(), FxHashMap::default());
+        Self { reading, file, episode, followed, drawn, known }
     }
 
     /// Reads a record to its end, and prints the rows as `writer` writes them.
@@ -201,7 +205,10 @@ impl<'a> Following<'a> {
             Some(column) => format!("{}: {column} {episode}", self.file),
             None => self.file.to_owned(),
         };
-        self.followed.push(Followed::new(name, self.reading));
+        // A page shows no more, and a recording may have a million of them.
+        let is_drawn = self.drawn > 0;
+        self.drawn -= usize::from(is_drawn);
+        self.followed.push(Followed::new(name, self.reading, is_drawn));
         self.known.insert(episode.to_owned(), self.followed.len() - 1);
         self.followed.len() - 1
     }

@@ -2,20 +2,23 @@
 
 use std::io::{self, Write};
 
+use tltl_compiler::dfa::Dfa;
 use tltl_compiler::error::Style;
 use tltl_compiler::translate::Budget;
 
 use crate::diff::{Difference, Side, of_definitions};
 use crate::explain::{Explanation, explain as explanation, explain_automaton};
+use crate::report;
 
 use super::streams::shown;
 use super::subject::{self, Subject};
-use super::{Exit, Outcome, Output, Streams};
+use super::{Exit, Outcome, Output, PageFormat, Streams};
 
 /// Explains a task, under its formula as title.
 pub(super) fn explain(
     text: &str,
     task: Option<&str>,
+    format: PageFormat,
     budget: Budget,
     streams: &mut Streams<'_>,
 ) -> Outcome {
@@ -23,7 +26,7 @@ pub(super) fn explain(
         None => Ok(Exit::Mistaken),
         Some(Subject::Automaton(automaton)) => {
             let told = explain_automaton(&automaton.dfa);
-            told_under(&automaton.name, &told, streams)
+            shown_as(format, &automaton.name, &automaton.dfa, &told, streams)
         }
         Some(Subject::Task(entry)) => {
             let (task, automata) = (entry.task(), subject::automata(&entry)?);
@@ -31,13 +34,23 @@ pub(super) fn explain(
                 Some(name) => format!("{name} = {}", task.text),
                 None => task.text.clone(),
             };
-            told_under(&title, &explanation(&task.spec, &automata.dfa), streams)
+            let told = explanation(&task.spec, &automata.dfa);
+            shown_as(format, &title, &automata.dfa, &told, streams)
         }
     }
 }
 
 /// Prints an explanation under its title.
-fn told_under(title: &str, told: &Explanation, streams: &mut Streams<'_>) -> Outcome {
+fn shown_as(
+    format: PageFormat,
+    title: &str,
+    dfa: &Dfa,
+    told: &Explanation,
+    streams: &mut Streams<'_>,
+) -> Outcome {
+    if format == PageFormat::Html {
+        return streams.print(&report::explanation(title, dfa, told));
+    }
     let (told, style) = (format!("{title}\n\n{told}"), streams.out.style);
     streams.out.print_raw(&headed(&shown(&told), style))
 }

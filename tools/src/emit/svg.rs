@@ -36,6 +36,19 @@ pub struct Drawing {
     pub body: String,
 }
 
+/// The place of a state in a drawing, in pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Circle {
+    /// The state.
+    pub state: State,
+    /// The centre, from the left.
+    pub x: f64,
+    /// The centre, from the top.
+    pub y: f64,
+    /// The radius.
+    pub radius: f64,
+}
+
 /// The options of a drawing. The default has no title, mathematical notation, the trap, and numbers
 /// for names.
 #[derive(Clone, Copy, Debug)]
@@ -132,9 +145,27 @@ pub fn document(title: &str, drawing: &Drawing) -> String {
 /// ```
 #[must_use]
 pub fn drawing(dfa: &Dfa, options: &Options) -> Drawing {
+    placed(dfa, options).0
+}
+
+/// The same with the circles of the states, in the coordinates of the drawing, for whoever marks
+/// some of them. There are none where the automaton is too large to be drawn.
+///
+/// ```
+/// use tltl_compiler::translate::Budget;
+/// use tltlc::emit::svg::{Options, placed};
+///
+/// let task = tltlc::task::compile("a T b", Budget::default())?;
+/// let (drawing, circles) = placed(task.dfa(), &Options::default());
+/// assert_eq!(circles.iter().map(|circle| circle.state).collect::<Vec<_>>(), [0, 1, 2]);
+/// assert!(circles.iter().all(|circle| circle.x + circle.radius < drawing.width));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+pub fn placed(dfa: &Dfa, options: &Options) -> (Drawing, Vec<Circle>) {
     let size = dfa.size();
     if size.states > MOST_STATES || size.edges > MOST_EDGES {
-        return too_large(size);
+        return (too_large(size), Vec::new());
     }
     let picture = Picture::new(dfa, options);
     let layout = layout(&picture.graph());
@@ -232,7 +263,7 @@ impl<'a> Picture<'a> {
     }
 
     /// Draws everything at its place, title above and legend below.
-    fn draw(&self, layout: &Layout) -> Drawing {
+    fn draw(&self, layout: &Layout) -> (Drawing, Vec<Circle>) {
         let title = self.options.title.map(|title| text::wrap_title(title, layout.width + ARROW));
         let top = MARGIN + title.as_ref().map_or(0.0, |lines| 18.0 * lines.len() as f64 + 8.0);
         let mut body = String::new();
@@ -249,7 +280,11 @@ impl<'a> Picture<'a> {
         body.push_str("</g>\n");
         let bottom = top + layout.height + MARGIN;
         let (below, legend_width) = self.legend.draw(MARGIN, bottom, width, &mut body);
-        Drawing { width: width.max(legend_width), height: bottom + below, body }
+        let (left, radius) = (MARGIN + ARROW, self.radius);
+        let circle =
+            |(&state, &(x, y)): (&State, &_)| Circle { state, x: x + left, y: y + top, radius };
+        let circles = self.states.iter().zip(&layout.nodes).map(circle).collect();
+        (Drawing { width: width.max(legend_width), height: bottom + below, body }, circles)
     }
 
     fn draw_states(&self, layout: &Layout, body: &mut String) {
@@ -320,7 +355,7 @@ impl<'a> Picture<'a> {
 
 /// A coordinate to a tenth of a pixel, without trailing zeros: files stay small, and equal on every
 /// machine.
-fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
     let tenths = (value * 10.0).round() as i64;
     let sign = if tenths < 0 { "-" } else { "" };
     let (whole, part) = (tenths.abs() / 10, tenths.abs() % 10);

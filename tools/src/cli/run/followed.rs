@@ -1,6 +1,7 @@
 //! A trajectory that is being read.
 
 use crate::online::{Online, Recorded};
+use crate::report::{Row, Trajectory};
 use crate::task::{Running, Verdict};
 
 use super::reading::Reading;
@@ -11,6 +12,8 @@ pub(super) struct Followed<'a> {
     pub(super) name: String,
     way: Way<'a>,
     online: Online,
+    /// What a page shows of it, where one is asked for.
+    drawn: Option<Trajectory>,
 }
 
 /// How the verdict is found.
@@ -23,19 +26,20 @@ enum Way<'a> {
 }
 
 impl<'a> Followed<'a> {
-    pub(super) fn new(name: String, reading: &'a Reading) -> Self {
+    pub(super) fn new(name: String, reading: &'a Reading, is_drawn: bool) -> Self {
         let way = match &reading.automaton {
             Some(automaton) => Way::Automaton(Running::new(automaton)),
             None => Way::Formula(reading.truth(), None),
         };
-        Self { name, way, online: reading.online.clone() }
+        let drawn = is_drawn.then(|| Trajectory::new(&*name));
+        Self { name, way, online: reading.online.clone(), drawn }
     }
 
     /// Reads one state: which propositions hold, and their robustness. Returns the progress of the
     /// automaton, if there is one.
     pub(super) fn step(&mut self, labels: &[bool], rho: &[f64]) -> Option<f64> {
         self.online.step(rho);
-        match &mut self.way {
+        let progress = match &mut self.way {
             Way::Automaton(running) => Some(running.step(labels, rho)),
             Way::Formula(recorded, _) => {
                 let truths: Vec<f64> =
@@ -43,7 +47,22 @@ impl<'a> Followed<'a> {
                 recorded.step(&truths);
                 None
             }
+        };
+        let (state, online) = (self.state(), &self.online);
+        if let Some(drawn) = &mut self.drawn {
+            let (robustness, greatest) = (online.at_hand(), online.greatest());
+            drawn.push(&Row { state, holds: labels, rho, robustness, greatest });
         }
+        progress
+    }
+
+    /// What a page shows of the trajectory, which has ended; `None` if no page was asked for.
+    pub(super) fn drawn(&mut self) -> Option<Trajectory> {
+        let (verdict, since) = (self.verdict(), self.since().unwrap_or_default());
+        let robustness = Some(self.robustness());
+        let mut drawn = self.drawn.take()?;
+        drawn.end(verdict, since, robustness);
+        Some(drawn)
     }
 
     /// Finds out whether the formula is satisfied by now. Without an automaton that is a pass over

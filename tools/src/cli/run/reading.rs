@@ -1,12 +1,15 @@
 //! What a recording is read by: a task, or an automaton of another tool.
 
 use tltl::Automaton;
+use tltl_compiler::dfa::Dfa;
 use tltl_compiler::predicate;
 use tltl_compiler::spec::Spec;
 use tltl_compiler::translate::Budget;
 
 use crate::evaluate::{Columns, Evaluator, Input, InputKind, NotANumber, Scratch};
+use crate::explain::retold;
 use crate::online::{Online, Recorded};
+use crate::report::Page;
 use crate::tables;
 use crate::task::{Task, Unmade, Value};
 
@@ -16,6 +19,8 @@ use super::Foreign;
 pub(super) struct Reading {
     /// `None` if it is larger than the budget allows.
     pub(super) automaton: Option<Automaton>,
+    /// The same as the compiler has it, for whoever shows it.
+    dfa: Option<Dfa>,
     /// The names of its propositions.
     pub(super) propositions: Vec<String>,
     pub(super) inputs: Vec<Input>,
@@ -41,8 +46,8 @@ impl Reading {
     pub(super) fn of_task(task: &Task) -> Self {
         let arguments = task.arguments().iter().map(|(name, value)| (&**name, value));
         let title = title(task.entry().task(), arguments);
-        let automaton = Some(task.automaton().clone());
-        Self::of_formula(task.entry().task(), title, automaton, task.evaluator().clone())
+        let automata = Some((task.automaton().clone(), task.dfa().clone()));
+        Self::of_formula(task.entry().task(), title, automata, task.evaluator().clone())
     }
 
     /// A task without an automaton, with these values for its parameters.
@@ -58,12 +63,14 @@ impl Reading {
     fn of_formula(
         task: &predicate::Task,
         title: String,
-        automaton: Option<Automaton>,
+        automata: Option<(Automaton, Dfa)>,
         evaluator: Evaluator,
     ) -> Self {
+        let (automaton, dfa) = automata.unzip();
         let names = task.spec.propositions().iter().map(|one| one.name.clone());
         Self {
             automaton,
+            dfa,
             propositions: names.collect(),
             inputs: evaluator.inputs().to_vec(),
             title,
@@ -98,7 +105,19 @@ impl Reading {
             evaluator: None,
             online,
             spec: None,
+            dfa: Some(dfa),
         })
+    }
+
+    /// The page that shows this task, and that many trajectories.
+    pub(super) fn page(&self, of: usize) -> Page<'_> {
+        Page {
+            title: self.title.clone(),
+            words: self.spec.as_ref().map(retold).unwrap_or_default(),
+            propositions: self.propositions.clone(),
+            dfa: self.dfa.as_ref(),
+            of,
+        }
     }
 
     /// Evaluates rows of the inputs.

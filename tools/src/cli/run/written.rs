@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use crate::cli::{RowFormat, Run};
 use crate::emit::json;
+use crate::report::{MOST_TRAJECTORIES, Trajectory};
 use crate::task::Verdict;
 
 use super::followed::Followed;
@@ -13,7 +14,7 @@ use super::reading::Reading;
 
 /// Text that waits to be printed, and the verdicts so far.
 pub(super) struct Writer<'a> {
-    title: &'a str,
+    reading: &'a Reading,
     format: RowFormat,
     /// Whether trajectories are named: there are several, or there may be.
     many: bool,
@@ -25,6 +26,8 @@ pub(super) struct Writer<'a> {
     verdicts: [usize; 3],
     /// Whether the last row had a final verdict, so that only the first such row is marked.
     marked: bool,
+    /// The trajectories for the page.
+    drawn: Vec<Trajectory>,
 }
 
 /// One row as JSON.
@@ -56,13 +59,14 @@ impl<'a> Writer<'a> {
     pub(super) fn new(run: &Run, reading: &'a Reading) -> Self {
         let many = run.traces.len() > 1 || run.episode.is_some();
         let mut writer = Self {
-            title: &reading.title,
+            reading,
             format: run.format,
             many,
             text: String::new(),
             has_states: reading.automaton.is_some(),
             verdicts: [0; 3],
             marked: false,
+            drawn: Vec::new(),
         };
         writer.start();
         writer
@@ -72,7 +76,7 @@ impl<'a> Writer<'a> {
     fn start(&mut self) {
         match self.format {
             RowFormat::Text => {
-                let _ = writeln!(self.text, "{}\n", self.title);
+                let _ = writeln!(self.text, "{}\n", self.reading.title);
                 if self.has_table() {
                     let _ = writeln!(self.text, "{:>6}  {:>5}  {:>12}", "row", "state", "progress");
                 }
@@ -81,7 +85,15 @@ impl<'a> Writer<'a> {
                 self.text.push_str(if self.many { "trajectory," } else { "" });
                 self.text.push_str("row,state,progress,verdict,robustness\n");
             }
-            RowFormat::Json => {}
+            RowFormat::Json | RowFormat::Html => {}
+        }
+    }
+
+    /// The number of further trajectories that a page shows: none where no page is asked for.
+    pub(super) fn drawn(&self) -> usize {
+        match self.format {
+            RowFormat::Html => MOST_TRAJECTORIES - self.drawn.len(),
+            _ => 0,
         }
     }
 
@@ -92,7 +104,12 @@ impl<'a> Writer<'a> {
 
     /// Writes the row that a trajectory has read last. Zero has no sign here.
     pub(super) fn row(&mut self, followed: &mut Followed<'_>, progress: Option<f64>) {
-        if self.format == RowFormat::Text && !self.has_table() {
+        let is_shown = match self.format {
+            RowFormat::Text => self.has_table(),
+            RowFormat::Html => false,
+            RowFormat::Csv | RowFormat::Json => true,
+        };
+        if !is_shown {
             return;
         }
         followed.look();
@@ -119,6 +136,7 @@ impl<'a> Writer<'a> {
                 let robustness = followed.robustness();
                 self.json(&JsonRow { trajectory, row, state, progress, verdict, robustness });
             }
+            RowFormat::Html => {}
         }
     }
 
@@ -148,6 +166,7 @@ impl<'a> Writer<'a> {
                 }
             }
             RowFormat::Csv => {}
+            RowFormat::Html => self.drawn.extend(followed.drawn()),
             RowFormat::Json => {
                 let trajectory = self.many.then_some(&**name);
                 self.json(&JsonEnd { trajectory, verdict, since, robustness });
@@ -170,6 +189,10 @@ impl<'a> Writer<'a> {
                 false => format!("{open} not, and perhaps lost"),
             };
             let _ = writeln!(self.text, "\n{satisfied} of {of} satisfied, {others}");
+        }
+        if self.format == RowFormat::Html {
+            let of = self.verdicts.iter().sum();
+            self.text = self.reading.page(of).html(&self.drawn);
         }
         self.take()
     }
