@@ -111,7 +111,7 @@ const ORDER: [(&str, &str); 4] = [
     ),
     (
         "tools",
-        "semantics tables format evaluate online lint product task trace diff emit explain report cli",
+        "semantics tables format evaluate online lint product task trace diff emit explain report names lsp cli",
     ),
 ];
 

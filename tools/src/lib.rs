@@ -17,6 +17,8 @@
 //! | [`format`](mod@format) | a task file | the same file, laid out |
 //! | [`online`] | states, one after the other | the robustness of the trajectory so far |
 //! | [`report`] | a task and its trajectories | a page for a browser |
+//! | [`names`] | the names of a task file | declarations, uses, other names |
+//! | [`lsp`] | messages of an editor | diagnostics, explanations, completions |
 //! | [`emit`] | automata, saved policies | pictures, HOA, JSON, Graphviz, Mermaid, Rust |
 //! | [`semantics`] | a formula and a trajectory | its verdict and robustness by definition: the oracle of the tests |
 //! | [`cli`] | arguments and streams | output and an exit code |
@@ -50,6 +52,8 @@ pub mod evaluate;
 pub mod explain;
 pub mod format;
 pub mod lint;
+pub mod lsp;
+pub mod names;
 pub mod online;
 pub mod product;
 pub mod report;

@@ -32,6 +32,7 @@ use tltl_compiler::error::Style;
 use tltl_compiler::translate::Budget;
 
 use crate::emit::policy;
+use crate::lsp;
 
 use limits::Limits;
 
@@ -142,6 +143,10 @@ enum Command {
     },
     /// Shows the automaton of a formula, of each formula of a list, or of a task of a file.
     Automaton(Automaton),
+    /// Serves editors: diagnostics, explanations, completion, definitions, renaming, layout.
+    ///
+    /// It speaks the Language Server Protocol over the standard streams. Editors start it.
+    Lsp,
     /// Turns a saved policy into a Rust source file that stands alone.
     Policy {
         /// The policy, as JSON; `-` is the standard input.
@@ -310,6 +315,9 @@ fn run(command: Command, streams: &mut Streams<'_>) -> Outcome {
         Command::Run(arguments) => run::run(&arguments, streams),
         Command::Fmt { files, check } => layout::run(&files, check, streams),
         Command::Automaton(arguments) => automaton::run(&arguments, streams),
+        Command::Lsp => lsp::serve(streams.input, streams.out.stream)
+            .map(|ended| if ended { Exit::Success } else { Exit::Mistaken })
+            .map_err(|error| format!("the connection fails: {error}")),
         Command::Policy { file, output } => write_policy(&file, output, streams),
     }
 }

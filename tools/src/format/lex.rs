@@ -77,12 +77,13 @@ pub(super) fn lex(text: &str) -> Vec<Token<'_>> {
 
 /// The kind and the length of the token that `rest` starts with.
 fn one(rest: &str, first: char, before: &[Token<'_>]) -> (Kind, usize) {
-    let line = rest.find('\n').unwrap_or(rest.len());
+    // Asked only where it counts: a file may be one long line.
+    let line = || rest.find('\n').unwrap_or(rest.len());
     let doc = rest.starts_with("///") && !rest.starts_with("////") || rest.starts_with("//!");
     if doc {
-        (Kind::Doc, line)
+        (Kind::Doc, line())
     } else if rest.starts_with("//") {
-        (Kind::Comment, line)
+        (Kind::Comment, line())
     } else if let Some(comment) = rest.strip_prefix("/*") {
         (Kind::Comment, comment.find("*/").map_or(rest.len(), |end| end + 4))
     } else if UNIT.contains(first) && unit_goes_on(first, before) {
