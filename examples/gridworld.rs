@@ -53,7 +53,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         ("φ₁ ∧ φ₂, refined (step 6)", &automata[2], report.certificate.clone()),
         ("φ₁ ∧ φ₂, learned from scratch", &automata[2], scratch.certify(all.problem())?),
     ]);
-    println!("\nThe composition took no step in the world. Steps are means over all start cells.");
+    println!("\nThe composition took no step in the world.");
 
     // Draw the paper's Figure 2.
     let folder = Folder::of_arguments("target/gridworld")?;

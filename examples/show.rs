@@ -47,7 +47,17 @@ pub fn automata(name: &str, text: &str) -> Result<Vec<Automata>, String> {
     Ok(compiled.map_err(|errors| errors.to_string())?.automata)
 }
 
-/// Prints what policies are worth, one a line: a name, the task's automata, the certificate.
+/// What the columns of [`verdicts`] are.
+const COLUMNS: &str = "\
+states, edges  of the minimal automaton, loops included; in brackets those that a state can take
+P(sat)         how likely the policy satisfies the task, mean over all start cells
+E[steps]       how many steps that takes where it is satisfied; optimum: the fewest that any policy
+               takes which satisfies the task as likely as possible
+optimal at     the share of pairs of a live automaton state and a cell whose action is best for the
+               reward, to within 1e-6 of it";
+
+/// Prints what policies are worth, one a line: a name, the task's automata, the certificate; and
+/// what the columns are.
 pub fn verdicts(rows: &[(&str, &Automata, Certificate)]) {
     let steps = |steps: Option<f64>| steps.map_or("-".into(), |steps| format!("{steps:.4}"));
     println!(
@@ -64,6 +74,7 @@ pub fn verdicts(rows: &[(&str, &Automata, Certificate)]) {
             100.0 * certificate.fraction_optimal
         );
     }
+    println!("\n{COLUMNS}");
 }
 
 /// How big an automaton is: its states, and its edges with self-loops, first with the predicates

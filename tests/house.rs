@@ -223,3 +223,43 @@ fn no_module_knows_a_later_one() {
         assert!(order.iter().all(|module| found.contains(*module)), "{room}: {found:?}");
     }
 }
+
+/// What a registry shows of a package: all that is published says what it is, in the registry's own
+/// categories, and brings its licences.
+#[test]
+fn packages_say_what_they_are() {
+    let published = ["compiler", "macros", "runtime", "tools"];
+    let ours = std::fs::read_to_string(root().join("Cargo.toml")).unwrap();
+    let agreed = |key: &str| ours.lines().any(|line| line.starts_with(&format!("{key} = ")));
+    assert!(agreed("repository") && agreed("license") && agreed("rust-version"));
+    let keywords = ours.lines().find(|line| line.starts_with("keywords")).unwrap();
+    assert!(keywords.matches('"').count() / 2 <= 5, "a registry takes five keywords");
+    // <https://crates.io/category_slugs>
+    let known = "algorithms command-line-utilities compilers development-tools embedded no-std \
+                 parser-implementations science::robotics";
+    for room in published {
+        let folder = root().join(room);
+        let manifest = std::fs::read_to_string(folder.join("Cargo.toml")).unwrap();
+        for key in ["version", "edition", "rust-version", "license", "repository", "keywords"] {
+            assert!(manifest.contains(&format!("\n{key}.workspace = true\n")), "{room}: {key}");
+        }
+        assert!(manifest.contains("\ndescription = \""), "{room}");
+        assert!(manifest.contains("[package.metadata.docs.rs]\nall-features = true"), "{room}");
+        let value = |key: &str| {
+            let line = manifest.lines().find_map(|line| line.strip_prefix(key)).unwrap();
+            line.trim_start_matches([' ', '=']).to_owned()
+        };
+        let categories = value("categories");
+        let categories: Vec<_> = categories.split('"').skip(1).step_by(2).collect();
+        assert!((1..=5).contains(&categories.len()), "{room}");
+        assert!(categories.iter().all(|one| known.split(' ').any(|known| known == *one)), "{room}");
+        let readme = value("readme");
+        for file in [readme.trim_matches('"'), "LICENSE-MIT", "LICENSE-APACHE"] {
+            assert!(folder.join(file).is_file(), "{room}: {file}");
+        }
+    }
+    for room in ["examples", "examples/kitchen", "fuzz", "tests", "python"] {
+        let manifest = std::fs::read_to_string(root().join(room).join("Cargo.toml")).unwrap();
+        assert!(manifest.contains("\npublish = false\n"), "{room}");
+    }
+}

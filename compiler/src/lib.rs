@@ -47,6 +47,7 @@
 //! assert_eq!((size.states, size.edges, size.self_loops), (8, 19, 8));
 //! # Ok::<(), tltl_compiler::error::Errors>(())
 //! ```
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 mod arena;
 pub mod arithmetic;

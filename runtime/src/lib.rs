@@ -63,6 +63,7 @@
 //! assert!(certificate.satisfied > 0.999 && certificate.regret_steps < Some(0.01));
 //! # Ok::<(), Box<dyn core::error::Error>>(())
 //! ```
+#![cfg_attr(docsrs, feature(doc_cfg))]
 #![warn(missing_debug_implementations)]
 #![no_std]
 

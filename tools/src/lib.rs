@@ -44,6 +44,7 @@
 //! assert!(task.is_accepting(task.next(0, &[2.5, -1.0])?));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 pub mod cli;
 pub mod diff;
