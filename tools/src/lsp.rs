@@ -10,7 +10,7 @@
 //! Whatever a client sends, it gets an answer that the protocol has; only the end of the input, or
 //! `exit`, ends the server.
 //!
-//! The protocol is written out here ([`protocol`]) and not taken from a library, of which
+//! The protocol is written out here, in the module `protocol`, and not taken from a library, of which
 //! `lsp-server` and `lsp-types` are the usual ones: they are eight packages, 5.8 CPU seconds in a
 //! development build and 8.9 optimized, which everybody who builds the tool or the Python wheel
 //! would pay for two hundred lines.

@@ -61,10 +61,15 @@ fn anew(page: &str, folder: &Path) -> String {
         else {
             continue;
         };
-        let block: Vec<&str> = lines.by_ref().take_while(|line| line.trim_end() != "```").collect();
+        let is_inside = |line: &&str| line.trim_end() != "```";
+        let block: Vec<&str> = lines.by_ref().take_while(is_inside).collect();
         let text = block.concat();
         if let Some((_, name)) = language.split_once(',') {
             std::fs::write(folder.join(name), &text).unwrap();
+        }
+        if language == "rust" {
+            let long = block.iter().find(|line| line.trim_end().chars().count() > 100);
+            assert_eq!(long, None, "a page is not so wide");
         }
         if language.split(',').next() == Some("tltl") {
             let made = TaskFile::new(Source::new("block", text.as_str()), Budget::EMITTED);
@@ -102,6 +107,25 @@ fn every_command_shows_what_the_page_says() {
         }
         assert_eq!(anew.len(), page.len(), "{}: run this with UPDATE_DOCS=1", path.display());
     }
+}
+
+/// The other pages that tell how the tool is called, and show task files.
+#[test]
+fn the_lines_of_other_pages_run() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("pages");
+    std::fs::create_dir_all(&folder).unwrap();
+    let mut lines = 0;
+    for name in ["README.md", "tools/README.md", "docs/embedded.md", "editors/README.md"] {
+        let page = std::fs::read_to_string(root().join(name)).unwrap();
+        let files = anew(&page.replace("```console", "```text"), &folder);
+        assert_eq!(files.lines().count(), page.lines().count(), "{name}");
+        for line in page.lines().filter_map(|line| line.strip_prefix("cargo run -q -p tltlc -- ")) {
+            let line = line.split(" > ").next().unwrap();
+            assert!(!shown(&format!("tltlc {line}"), &root()).contains("error"), "{line}");
+            lines += 1;
+        }
+    }
+    assert_eq!(lines, 5);
 }
 
 /// Where the repository will be.
