@@ -105,7 +105,7 @@ impl<'a> Page<'a> {
         told: &[StateExplanation],
         more: &str,
     ) -> String {
-        let (title, automaton, circles) = (escaped(&self.title), self.automaton(), self.circles());
+        let (title, (automaton, circles)) = (escaped(&self.title), self.automaton());
         let first = title.lines().next().unwrap_or_default();
         let data = Data {
             propositions: self.propositions.iter().map(|name| visible(name).into_owned()).collect(),
@@ -143,43 +143,38 @@ impl<'a> Page<'a> {
         }
     }
 
-    /// The picture of the automaton beside the place for what is asked now.
-    fn automaton(&self) -> String {
+    /// The picture of the automaton beside the place for what is asked now, and its circles.
+    fn automaton(&self) -> (String, Vec<(State, f64, f64, f64)>) {
         let Some(dfa) = self.dfa else {
-            return "<p class=\"note\">Its automaton is larger than the budget allows, so there are \
-                    no states here, and what is not satisfied may be lost.</p>\n"
-                .to_owned();
+            let note = "<p class=\"note\">Its automaton is larger than the budget allows, so there \
+                        are no states here, and what is not satisfied may be lost.</p>\n";
+            return (note.to_owned(), Vec::new());
         };
-        let size = dfa.size();
-        let Size { states, edges, self_loops, .. } = size;
+        let Size { states, edges, self_loops, .. } = dfa.size();
         let trap = if dfa.trap.is_some() { ", the trap among them" } else { "" };
         let sizes = format!("{states} states{trap}; {edges} edges and {self_loops} loops");
         let aside = "<aside id=\"now\" aria-live=\"polite\" hidden></aside>";
-        if !is_drawn(size) {
-            return format!(
+        if states > MOST_DRAWN.0 || edges > MOST_DRAWN.1 {
+            let note = format!(
                 "<section class=\"beside\">\n{aside}\n</section>\n\
                  <p class=\"note\">Its automaton has {sizes}, too many for a picture here.</p>\n"
             );
+            return (note, Vec::new());
         }
-        let drawing = svg::drawing(dfa, &Options::default());
+        let (drawing, circles) = svg::placed(dfa, &Options::default());
         let [width, height] = [drawing.width, drawing.height].map(svg::number);
-        format!(
+        let shown = format!(
             "<section class=\"beside\">\n<figure id=\"automaton\">\n<div class=\"scroll\">\
              <svg width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
              aria-label=\"the automaton\">\n{}<g id=\"here\"></g></svg></div>\n\
              <figcaption>{sizes}</figcaption>\n</figure>\n{aside}\n</section>\n",
             drawing.body,
-        )
-    }
-
-    fn circles(&self) -> Vec<(State, f64, f64, f64)> {
-        let drawn = self.dfa.filter(|dfa| is_drawn(dfa.size()));
-        let circles = drawn.map(|dfa| svg::placed(dfa, &Options::default()).1);
+        );
         let rounded = |x: f64| (x * 10.0).round() / 10.0;
-        let shown = |Circle { state, x, y, radius }: &Circle| {
-            (*state, rounded(*x), rounded(*y), rounded(*radius))
-        };
-        circles.iter().flatten().map(shown).collect()
+        let circles = circles.iter().map(|&Circle { state, x, y, radius }| {
+            (state, rounded(x), rounded(y), rounded(radius))
+        });
+        (shown, circles.collect())
     }
 
     /// For each state of the trajectories the moves to the accepting state at least.
@@ -355,11 +350,6 @@ fn asked(told: &StateExplanation) -> String {
     format!(
         "<li data-state=\"{state}\"><b class=\"state {verdict}\">{state}</b><dl>{rows}</dl></li>\n"
     )
-}
-
-/// Whether the picture of an automaton of this size can be read beside the trajectories.
-fn is_drawn(size: Size) -> bool {
-    size.states <= MOST_DRAWN.0 && size.edges <= MOST_DRAWN.1
 }
 
 fn names(dfa: &Dfa) -> Vec<String> {

@@ -2,9 +2,11 @@
 
 pub mod compile;
 pub mod diff;
+pub mod editor;
 pub mod grammar;
 pub mod hoa;
 pub mod layout;
+pub mod page;
 pub mod policy;
 pub mod syntax;
 pub mod tokens;
@@ -35,12 +37,14 @@ fn tool(arguments: &[&str], mut input: &[u8]) -> (Exit, [String; 2]) {
 pub type Target = fn(&[u8]);
 
 /// All targets under the names of their binaries and corpora.
-pub const ALL: [(&str, Target); 9] = [
+pub const ALL: [(&str, Target); 11] = [
     ("compile", compile::run),
     ("diff", diff::run),
+    ("editor", editor::run),
     ("grammar", grammar::run),
     ("hoa", hoa::run),
     ("layout", layout::run),
+    ("page", page::run),
     ("policy", policy::run),
     ("syntax", syntax::run),
     ("tokens", tokens::run),
