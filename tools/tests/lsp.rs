@@ -20,7 +20,7 @@ struct Client {
 impl Client {
     fn start() -> Self {
         let mut server = Command::new(env!("CARGO_BIN_EXE_tltlc"))
-            .arg("lsp")
+            .args(["lsp", "--stdio"])
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .spawn()

@@ -146,7 +146,11 @@ enum Command {
     /// Serves editors: diagnostics, explanations, completion, definitions, renaming, layout.
     ///
     /// It speaks the Language Server Protocol over the standard streams. Editors start it.
-    Lsp,
+    Lsp {
+        /// Nothing: the standard streams are the only way. Some editors say so.
+        #[arg(long)]
+        stdio: bool,
+    },
     /// Turns a saved policy into a Rust source file that stands alone.
     Policy {
         /// The policy, as JSON; `-` is the standard input.
@@ -315,7 +319,7 @@ fn run(command: Command, streams: &mut Streams<'_>) -> Outcome {
         Command::Run(arguments) => run::run(&arguments, streams),
         Command::Fmt { files, check } => layout::run(&files, check, streams),
         Command::Automaton(arguments) => automaton::run(&arguments, streams),
-        Command::Lsp => lsp::serve(streams.input, streams.out.stream)
+        Command::Lsp { stdio: _ } => lsp::serve(streams.input, streams.out.stream)
             .map(|ended| if ended { Exit::Success } else { Exit::Mistaken })
             .map_err(|error| format!("the connection fails: {error}")),
         Command::Policy { file, output } => write_policy(&file, output, streams),

@@ -190,11 +190,7 @@ impl Document {
     /// What may be written at a byte.
     pub(super) fn completion(&mut self, at: usize) -> Value {
         let line = self.source.line(at);
-        let before = &self.text()[line.start.min(at)..at];
-        let word = before.len() - before.chars().rev().take_while(|c| is_of_name(*c)).count();
-        // A name may have letters of several bytes.
-        let word = (word..=before.len()).find(|i| before.is_char_boundary(*i)).unwrap_or(0);
-        let before = before[..word].to_owned();
+        let before = self.text()[line.start.min(at)..at].trim_end_matches(is_of_name).to_owned();
         let Some(read) = self.read() else { return Value::Null };
         let items = read.completions(&before, at);
         json!({"isIncomplete": false, "items": items})
