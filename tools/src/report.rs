@@ -230,8 +230,16 @@ pub fn explanation(title: &str, dfa: &Dfa, told: &Explanation) -> String {
     ];
     // What loses it does not satisfy it either.
     let kinds = kinds.iter().take(if told.losing.is_some() { 2 } else { 3 });
-    let traces = kinds.filter_map(|(name, trace)| Some(walked(name, dfa, trace.as_ref()?)));
-    page.written(&traces.collect::<Vec<_>>(), 0, &told.states, &falls(told))
+    let walked = |(name, trace): &(&str, &Option<_>)| Some(walked(name, dfa, trace.as_ref()?));
+    let traces: Vec<Trajectory> = kinds.filter_map(walked).collect();
+    // An explanation has the first states; these trajectories may come through others.
+    let first = told.states.len() as State;
+    let mut others: Vec<State> = traces.iter().flat_map(Trajectory::states).collect();
+    others.retain(|state| *state >= first);
+    others.sort_unstable();
+    others.dedup();
+    let states = [&told.states[..], &explain::of_states(dfa, &others)].concat();
+    page.written(&traces, 0, &states, &falls(told))
 }
 
 /// The edges into the trap.

@@ -254,5 +254,10 @@ fn explained(browser: &Browser) {
     assert_eq!(browser.read("document.querySelector('#verdict').textContent"), "satisfied");
     browser.press("#trajectory", '\u{e015}');
     assert_eq!(browser.read("document.querySelector('#verdict').textContent"), "lost");
+    // Of many states the first are explained, and those that are shown.
+    let many = (0..9).map(|i| format!("F p{i}")).collect::<Vec<_>>().join(" && ");
+    browser.open(&file("many.html", &tltlc(&["explain", &many, "--format", "html"])));
+    let asks = browser.read("document.querySelector('#now dl').textContent");
+    assert_eq!(asks, "asks fornothing: the task is satisfied");
     assert_eq!(browser.said(), json!([]));
 }

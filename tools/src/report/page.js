@@ -314,6 +314,8 @@
     const state = make("b", { class: `state ${verdictAt(at)}`, id: "state" }, String(q));
     const text = asks ? asks.querySelector("dl").cloneNode(true) : make("p", { class: "note" }, "This state is not explained: too many are.");
     now.replaceChildren(make("h2", {}, "What is still asked for in state ", state), text);
+    // Large automata have no picture.
+    if (!here) return;
     here.replaceChildren();
     const circle = data.circles.find(([state]) => state === q);
     if (!circle) return;
