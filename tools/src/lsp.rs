@@ -6,7 +6,7 @@
 //! made when no message waits, so that whoever types fast waits for none of them.
 //!
 //! All that it says comes from the modules that the command line uses, under the limits of `tltlc
-//! check`: a task of any size is an answer within a second, or the error that it is too large.
+//! check`: whatever the task, there is an answer, or the error that it is too large.
 //! Whatever a client sends, it gets an answer that the protocol has; only the end of the input, or
 //! `exit`, ends the server.
 //!
