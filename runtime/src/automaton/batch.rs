@@ -133,10 +133,18 @@ impl Automaton {
                 let mask = class.len() - 1;
                 self.walk_letters(bits.iter().map(|&bits| bits as usize & mask), walk);
             }
-            (Transitions::Table { .. }, Letters::Labels(labels)) => {
-                let letter = |row| packed(labels, row * count, count);
-                self.walk_letters((0..rows).map(letter), walk);
-            }
+            (Transitions::Table { .. }, Letters::Labels(labels)) => match count {
+                0 => self.walk_letters((0..rows).map(|_| 0), walk),
+                1 => self.walk_rows::<1>(labels, walk),
+                2 => self.walk_rows::<2>(labels, walk),
+                3 => self.walk_rows::<3>(labels, walk),
+                4 => self.walk_rows::<4>(labels, walk),
+                5 => self.walk_rows::<5>(labels, walk),
+                6 => self.walk_rows::<6>(labels, walk),
+                7 => self.walk_rows::<7>(labels, walk),
+                8 => self.walk_rows::<8>(labels, walk),
+                _ => self.walk_letters(labels.chunks_exact(count).map(letter), walk),
+            },
             (Transitions::Diagram { nodes, roots }, Letters::Bits(bits)) => {
                 let (nodes, roots): (&[[u32; 3]], &[u32]) = (nodes, roots);
                 walk.walk(bits.iter(), |q, bits| {
@@ -152,6 +160,14 @@ impl Automaton {
         }
     }
 
+    /// The same through a table, with a row of so many labels for each letter. To know how many takes
+    /// half of the time off: three labels with their step cost 0.6 ns, and 0.9 ns if their number is asked
+    /// for in each row; a letter that is given costs 0.4 ns.
+    #[inline]
+    fn walk_rows<const N: usize>(&self, labels: &[bool], walk: impl Walk) {
+        self.walk_letters(labels.as_chunks::<N>().0.iter().map(gathered), walk);
+    }
+
     /// The same through a table, which has a letter for each row. What its form is, is asked once.
     #[inline]
     fn walk_letters(&self, letters: impl Iterator<Item = usize>, walk: impl Walk) {
@@ -162,28 +178,34 @@ impl Automaton {
     }
 }
 
-/// The truth values from place `first` on as bits, `count` of them, the first as the lowest. Eight are
-/// read at once where there are so many, and gathered by one multiplication.
+/// Truth values as bits, the first as the lowest. Up to three are put together one by one; from four to
+/// eight, one multiplication gathers them, which is faster from there on.
 #[inline(always)]
-pub(super) fn packed(labels: &[bool], first: usize, count: usize) -> usize {
-    let eight = |first: usize, count: usize| {
-        let bits = match labels.get(first..first + 8).and_then(|labels| labels.first_chunk::<8>()) {
-            Some(eight) => {
-                let eight = u64::from_le_bytes(eight.map(u8::from));
-                eight.wrapping_mul(0x0102_0408_1020_4080) >> 56
-            }
-            None => {
-                let labels = labels[first..][..count].iter().rev();
-                labels.fold(0, |bits, &holds| bits << 1 | u64::from(holds))
-            }
-        };
-        bits as usize & ((1 << count) - 1)
-    };
-    if count <= 8 {
-        return eight(first, count);
+fn gathered<const N: usize>(labels: &[bool; N]) -> usize {
+    const { assert!(N <= 8, "a multiplication gathers the bits of eight bytes") };
+    if N < 4 {
+        return one_by_one(labels);
     }
-    let bytes = (0..count).step_by(8);
-    bytes.fold(0, |bits, at| bits | eight(first + at, (count - at).min(8)) << at)
+    let mut eight = [0; 8];
+    eight.iter_mut().zip(labels).for_each(|(byte, &holds)| *byte = u8::from(holds));
+    (u64::from_le_bytes(eight).wrapping_mul(0x0102_0408_1020_4080) >> 56) as usize
+}
+
+/// The same of up to eight.
+#[inline(always)]
+pub(super) fn byte(labels: &[bool]) -> usize {
+    labels.first_chunk::<8>().map_or_else(|| one_by_one(labels), gathered)
+}
+
+/// The same of any number.
+#[inline(always)]
+fn letter(labels: &[bool]) -> usize {
+    labels.chunks(8).rev().fold(0, |bits, eight| bits << 8 | byte(eight))
+}
+
+#[inline(always)]
+fn one_by_one(labels: &[bool]) -> usize {
+    labels.iter().rev().fold(0, |bits, &holds| bits << 1 | usize::from(holds))
 }
 
 /// The state that a reference of a diagram leads to. To compute the next reference's place costs

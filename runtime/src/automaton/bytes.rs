@@ -3,7 +3,7 @@
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
-use super::batch::packed;
+use super::batch::byte;
 use super::{Automaton, Letters, Transitions};
 
 /// A decision diagram as tables that are indexed by a byte of the letter: a step is one look-up for
@@ -91,7 +91,15 @@ impl ByBytes {
         letters.expect(q.len(), count);
         let is_state = q.iter().all(|&q| q < self.states);
         assert!(is_state, "states are below {}", self.states);
-        let bytes = count.div_ceil(8);
+        match count.div_ceil(8) {
+            // A loop of two look-ups, which most diagrams need, is unrolled.
+            2 => self.step_by(q, letters, 2),
+            bytes => self.step_by(q, letters, bytes),
+        }
+    }
+
+    #[inline(always)]
+    fn step_by(&self, q: &mut [u32], letters: Letters<'_>, bytes: usize) {
         match letters {
             Letters::Bits(bits) => {
                 for (q, bits) in q.iter_mut().zip(bits) {
@@ -99,10 +107,9 @@ impl ByBytes {
                 }
             }
             Letters::Labels(labels) => {
-                for (row, q) in q.iter_mut().enumerate() {
-                    *q = self.walk(*q, bytes, |byte| {
-                        let first = 8 * byte;
-                        packed(labels, row * count + first, (count - first).min(8)) as u8
+                for (q, row) in q.iter_mut().zip(labels.chunks_exact(self.propositions.max(1))) {
+                    *q = self.walk(*q, bytes, |at| {
+                        byte(&row[8 * at..self.propositions.min(8 * at + 8)]) as u8
                     });
                 }
             }
