@@ -11,7 +11,7 @@ use tltl_compiler::translate::Budget;
 use crate::emit::{c, dot, hoa, json, mermaid, rust, svg, text};
 use crate::task::{Entry, TaskFile};
 
-use super::input::{self, File, Foreign};
+use super::input;
 use super::{Automaton, Exit, Format, Outcome, Report, Streams, subject};
 
 const NO_FORMULA: &str =
@@ -47,29 +47,11 @@ pub(super) fn run(arguments: &Automaton, streams: &mut Streams<'_>) -> Outcome {
         file = subject::one(file, task, HOW)?;
     }
     match file.whole(streams)? {
-        Some(File::Tasks(file)) if arguments.format == Format::Rust => {
+        Some(file) if arguments.format == Format::Rust && !file.is_automaton() => {
             streams.print(&rust::file(file.compiled()))
         }
-        Some(File::Tasks(file)) => {
+        Some(file) => {
             write(arguments, &subject::choose(&file, arguments.task.as_deref(), HOW)?, streams)
-        }
-        Some(File::Automaton(_)) if arguments.task.is_some() => {
-            Err(format!("{} is an automaton: it has no tasks with names", path.display()))
-        }
-        Some(File::Automaton(automaton)) => {
-            let Foreign { name, dfa } = *automaton;
-            let text = || text::automaton(&name, &dfa);
-            let code = || match arguments.format {
-                Format::C => Err(Error::new(Kind::Automaton, NO_FORMULA, Span::default())),
-                _ => Ok(rust::foreign(&name, &dfa)),
-            };
-            match formatted(arguments, [&name, &name], &dfa, Span::default(), (&text, &code)) {
-                Ok(text) => streams.out.write(&text),
-                Err(error) => {
-                    streams.complain(&format!("{}: {}", path.display(), error.message()));
-                    Ok(Exit::Mistaken)
-                }
-            }
         }
         None => Ok(Exit::Mistaken),
     }
@@ -153,6 +135,11 @@ fn write(arguments: &Automaton, entry: &Entry, streams: &mut Streams<'_>) -> Out
     let automata = subject::automata(entry)?;
     match shown(arguments, entry, automata) {
         Ok(text) => streams.out.write(&text),
+        // There is no place in the text to show.
+        Err(error) if entry.is_automaton() => {
+            streams.complain(&format!("{}: {}", entry.file().source().name(), error.message()));
+            Ok(Exit::Mistaken)
+        }
         Err(error) => {
             let source = entry.file().source();
             input::judged::<()>(source, Err(error.into()), Report::Human, streams)?;
@@ -173,6 +160,10 @@ fn shown<'a>(
     let dfa = selected(arguments, automata);
     let compiled = entry.file().compiled();
     let code = || match arguments.format {
+        Format::C if entry.is_automaton() => {
+            Err(Error::new(Kind::Automaton, NO_FORMULA, Span::default()))
+        }
+        _ if entry.is_automaton() => Ok(rust::foreign(title, dfa)),
         Format::C => c::header(&compiled.module, task, dfa).map_err(|refused| {
             let kind = if let c::Refused::Large(..) = refused { Kind::Budget } else { Kind::Type };
             Error::new(kind, refused.to_string(), task.span)

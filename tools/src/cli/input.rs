@@ -4,9 +4,7 @@
 
 use std::path::{Path, PathBuf};
 
-use tltl_compiler::dfa::Dfa;
 use tltl_compiler::error::{Error, Errors};
-use tltl_compiler::hoa;
 use tltl_compiler::predicate::Module;
 use tltl_compiler::source::Source;
 use tltl_compiler::translate::Budget;
@@ -15,21 +13,6 @@ use crate::emit::json;
 use crate::task::{CompileError, TaskFile};
 
 use super::{Exit, Outcome, Report, Streams};
-
-/// A file without mistakes.
-pub(super) enum File {
-    /// A task file.
-    Tasks(TaskFile),
-    /// An automaton of another tool, in HOA.
-    Automaton(Box<Foreign>),
-}
-
-/// An automaton that came without a formula.
-pub(super) struct Foreign {
-    /// What it is called: by its own name, or by the name of its file.
-    pub(super) name: String,
-    pub(super) dfa: Dfa,
-}
 
 /// What can be made of a source.
 pub(super) enum Made<T> {
@@ -70,17 +53,14 @@ pub(super) fn file(
     task: Option<&str>,
     budget: Budget,
     streams: &mut Streams<'_>,
-) -> Result<Made<File>, String> {
+) -> Result<Made<TaskFile>, String> {
     let source = Source::new(path.display().to_string(), streams.read(path)?);
-    if let Some(automaton) = automaton(path, &source) {
-        let read = judged(&source, automaton, Report::Human, streams)?;
-        return Ok(read.map_or(Made::Mistaken, Made::Whole));
-    }
-    let tasks = match task {
+    let file = match task {
+        _ if is_automaton(path, &source) => TaskFile::of_automaton(source),
         Some(task) => TaskFile::with_task(source, task, budget),
         None => TaskFile::new(source, budget),
     };
-    made(tasks, streams)?.map(|tasks| Ok(File::Tasks(tasks)))
+    made(file, streams)
 }
 
 /// Reports mistakes, or warnings if there are none, but not that an automaton is too large.
@@ -107,25 +87,19 @@ pub(super) fn check(
     let mut all_well = true;
     for path in paths {
         let source = Source::new(path.display().to_string(), streams.read(path)?);
-        all_well &= match automaton(path, &source) {
-            Some(automaton) => judged(&source, automaton, report, streams)?.is_some(),
-            None => reported(TaskFile::new(source, budget), report, streams)?.is_some(),
+        let file = match is_automaton(path, &source) {
+            true => TaskFile::of_automaton(source),
+            false => TaskFile::new(source, budget),
         };
+        all_well &= reported(file, report, streams)?.is_some();
     }
     Ok(Exit::of(all_well))
 }
 
-/// The automaton that a file is, if it begins with `HOA:` or is called so.
-fn automaton(path: &Path, source: &Source) -> Option<Result<File, Errors>> {
+/// Whether a file is an automaton of another tool: it begins with `HOA:`, or is called so.
+fn is_automaton(path: &Path, source: &Source) -> bool {
     let start = source.text().trim_start_matches('\u{feff}').trim_start();
-    if !start.starts_with("HOA:") && path.extension().is_none_or(|extension| extension != "hoa") {
-        return None;
-    }
-    let stem = || path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    let named =
-        |read: hoa::Automaton| Foreign { name: read.name.unwrap_or_else(stem), dfa: read.dfa };
-    let read = hoa::read(source).map_err(Errors::from);
-    Some(read.map(named).map(Box::new).map(File::Automaton))
+    start.starts_with("HOA:") || path.extension().is_some_and(|extension| extension == "hoa")
 }
 
 /// Reports mistakes, or warnings if there are none; `None` if there are mistakes.

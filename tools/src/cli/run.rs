@@ -14,10 +14,10 @@ use rustc_hash::FxHashMap;
 use crate::evaluate::{Input, Scratch};
 use crate::task::{Bound, Unmade};
 
-use super::input::{Foreign, Made};
+use super::input::Made;
 use super::record::{At, Place, Record};
 use super::streams::open;
-use super::subject::{self, Subject};
+use super::subject;
 use super::{Exit, Outcome, Run, Streams, arguments};
 
 use followed::Followed;
@@ -59,8 +59,7 @@ fn reading(run: &Run, streams: &mut Streams<'_>) -> Result<Option<Reading>, Stri
     let given = given.unwrap_or_default();
     match subject::read_any(subject, name, run.limits.with_guards(), streams)? {
         Made::Mistaken => Ok(None),
-        Made::Whole(Subject::Automaton(automaton)) => Reading::of_automaton(*automaton).map(Some),
-        Made::Whole(Subject::Task(entry)) => {
+        Made::Whole(entry) => {
             subject::automata(&entry)?;
             let parameters = entry.parameters();
             let named = arguments::named(entry.name(), &parameters, &given)?;

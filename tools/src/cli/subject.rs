@@ -12,15 +12,7 @@ use tltl_compiler::translate::Budget;
 use crate::task::{Entry, NoSuchTask, TaskFile, Unmade};
 
 use super::Streams;
-use super::input::{self, File, Foreign, Made};
-
-/// A subject that was read.
-pub(super) enum Subject {
-    /// A task of a file, or a formula.
-    Task(Entry),
-    /// An automaton in HOA.
-    Automaton(Box<Foreign>),
-}
+use super::input::{self, Made};
 
 /// Reads `FILE`, `FILE:TASK` or a formula, and reports its mistakes; `None` if it has any. A task
 /// that declares a budget has that one.
@@ -29,7 +21,7 @@ pub(super) fn read(
     task: Option<&str>,
     budget: Budget,
     streams: &mut Streams<'_>,
-) -> Result<Option<Subject>, String> {
+) -> Result<Option<Entry>, String> {
     read_any(text, task, budget, streams)?.whole(streams)
 }
 
@@ -39,13 +31,13 @@ pub(super) fn read_any(
     task: Option<&str>,
     budget: Budget,
     streams: &mut Streams<'_>,
-) -> Result<Made<Subject>, String> {
+) -> Result<Made<Entry>, String> {
     let (path, named) = split(text);
     if looks_like_file(path) || task.is_some() {
         return file(path, once(named, task)?, budget, streams);
     }
     let formula = input::made(TaskFile::of_formula(text, budget), streams)?;
-    formula.map(|formula| choose(&formula, None, "").map(Subject::Task))
+    formula.map(|formula| choose(&formula, None, ""))
 }
 
 /// `FILE:TASK` in its two parts; any other text is the first of them. Arguments may follow the task
@@ -89,15 +81,10 @@ fn file(
     name: Option<&str>,
     budget: Budget,
     streams: &mut Streams<'_>,
-) -> Result<Made<Subject>, String> {
+) -> Result<Made<Entry>, String> {
     let how = " as FILE:TASK";
-    one(input::file(Path::new(path), name, budget, streams)?, name, how)?.map(|file| match file {
-        File::Tasks(file) => choose(&file, name, how).map(Subject::Task),
-        File::Automaton(_) if name.is_some() => {
-            Err(format!("{path} is an automaton: it has no tasks with names"))
-        }
-        File::Automaton(automaton) => Ok(Subject::Automaton(automaton)),
-    })
+    one(input::file(Path::new(path), name, budget, streams)?, name, how)?
+        .map(|file| choose(&file, name, how))
 }
 
 /// A file of which one task is meant. If the automaton of some task is too large, it must be that
@@ -111,6 +98,10 @@ pub(super) fn one<T>(made: Made<T>, name: Option<&str>, how: &str) -> Result<Mad
 
 /// The task of that name, or the only one if no name is given. `how` tells how to name one.
 pub(super) fn choose(file: &TaskFile, name: Option<&str>, how: &str) -> Result<Entry, String> {
+    if file.is_automaton() && name.is_some() {
+        let path = file.source().name();
+        return Err(format!("{path} is an automaton: it has no tasks with names"));
+    }
     file.find(name).map_err(|error| missing(&error, how))
 }
 

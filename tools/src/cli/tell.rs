@@ -9,9 +9,10 @@ use tltl_compiler::translate::Budget;
 use crate::diff::{Difference, Side, of_definitions};
 use crate::explain::{Explanation, explain as explanation, explain_automaton};
 use crate::report;
+use crate::task::Entry;
 
 use super::streams::shown;
-use super::subject::{self, Subject};
+use super::subject;
 use super::{Exit, Outcome, Output, PageFormat, Streams};
 
 /// Explains a task, under its formula as title.
@@ -24,17 +25,16 @@ pub(super) fn explain(
 ) -> Outcome {
     match subject::read(text, task, budget, streams)? {
         None => Ok(Exit::Mistaken),
-        Some(Subject::Automaton(automaton)) => {
-            let told = explain_automaton(&automaton.dfa);
-            shown_as(format, &automaton.name, &automaton.dfa, &told, streams)
-        }
-        Some(Subject::Task(entry)) => {
+        Some(entry) => {
             let (task, automata) = (entry.task(), subject::automata(&entry)?);
             let title = match &task.name {
                 Some(name) => format!("{name} = {}", task.text),
                 None => task.text.clone(),
             };
-            let told = explanation(&task.spec, &automata.dfa);
+            let told = match entry.is_automaton() {
+                true => explain_automaton(&automata.dfa),
+                false => explanation(&task.spec, &automata.dfa),
+            };
             shown_as(format, &title, &automata.dfa, &told, streams)
         }
     }
@@ -98,14 +98,13 @@ impl Write for Once<'_> {
 }
 
 /// A subject as a side of a comparison, with its automaton after arithmetic.
-fn side(subject: &Subject) -> Result<Side<'_>, String> {
-    Ok(match subject {
-        Subject::Task(entry) => {
-            let module = &entry.file().compiled().module;
-            Side::Task(module, entry.task(), &subject::automata(entry)?.dfa)
-        }
-        Subject::Automaton(automaton) => Side::Automaton(&automaton.dfa),
-    })
+fn side(subject: &Entry) -> Result<Side<'_>, String> {
+    let dfa = &subject::automata(subject)?.dfa;
+    if subject.is_automaton() {
+        return Ok(Side::Automaton(dfa));
+    }
+    let module = &subject.file().compiled().module;
+    Ok(Side::Task(module, subject.task(), dfa))
 }
 
 /// The text with its headings in bold on a terminal. Headings are the lines that are not indented.

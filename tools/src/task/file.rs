@@ -144,7 +144,8 @@ impl TaskFile {
     }
 
     /// Reads an automaton of another tool, in the [HOA format](hoa): a file with one task, which has
-    /// no name, no parameters and no formula. Its inputs are its propositions, given by their
+    /// no name, no parameters and no formula; what stands in the formula's place is the automaton's own
+    /// name, or that of its file. Its inputs are its propositions, given by their
     /// robustness, and its robustness is that of the [best run](tltl::robustness::best_run).
     ///
     /// # Errors
@@ -164,7 +165,8 @@ impl TaskFile {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn of_automaton(source: Source) -> Result<Self, CompileError> {
-        let compiled = hoa::read(&source).map(foreign::compiled).map_err(Errors::from);
+        let compiled = hoa::read(&source).map(|read| foreign::compiled(read, source.name()));
+        let compiled = compiled.map_err(Errors::from);
         Self::compiled_from(source, compiled, Form::Automaton, None)
     }
 
@@ -202,6 +204,12 @@ impl TaskFile {
         &self.source
     }
 
+    /// Whether it is an automaton, without a formula.
+    #[must_use]
+    pub fn is_automaton(&self) -> bool {
+        self.form == Form::Automaton
+    }
+
     /// How long a step lasts, as the source says it: `step 0.1 s` is 0.1 and `s`.
     ///
     /// ```
@@ -236,7 +244,7 @@ impl TaskFile {
     /// Some cost a search, so they are made on demand, and not when the file is compiled.
     #[must_use]
     pub fn warnings(&self) -> Vec<Error> {
-        if self.form == Form::Automaton {
+        if self.is_automaton() {
             return Vec::new();
         }
         let warnings = lint::warnings(&self.source, &self.compiled);
@@ -365,7 +373,7 @@ impl Entry {
     /// Whether it came as an automaton, without a formula.
     #[must_use]
     pub fn is_automaton(&self) -> bool {
-        self.file.form == Form::Automaton
+        self.file.is_automaton()
     }
 
     /// Whether its parts run side by side. It then has no automaton of its own.

@@ -1,5 +1,7 @@
 //! Automata of other tools as compiled sources, so that they are tasks like any other.
 
+use std::path::Path;
+
 use tltl_compiler::compile::Compiled;
 use tltl_compiler::dfa::Automata;
 use tltl_compiler::hoa;
@@ -7,10 +9,11 @@ use tltl_compiler::predicate::{Condition, Module, Options, Predicate, PredicateI
 use tltl_compiler::source::Span;
 use tltl_compiler::spec::Spec;
 
-/// An automaton as the task of a module without declarations, as a bare formula is one. The formula
-/// of its spec means nothing, and nobody reads it.
-pub(super) fn compiled(read: hoa::Automaton) -> Compiled {
+/// An automaton as the task of a module without declarations, as a bare formula is one. It is called by
+/// its name, or by that of its file. The formula of its spec means nothing, and nobody reads it.
+pub(super) fn compiled(read: hoa::Automaton, file: &str) -> Compiled {
     let hoa::Automaton { name, dfa } = read;
+    let stem = || Path::new(file).file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let mut module = Module::default();
     for proposition in &dfa.propositions {
         let name = proposition.name.clone();
@@ -25,7 +28,7 @@ pub(super) fn compiled(read: hoa::Automaton) -> Compiled {
         docs: Vec::new(),
         span: Span::default(),
         parameters: Vec::new(),
-        text: name.unwrap_or_else(|| "automaton".to_owned()),
+        text: name.unwrap_or_else(stem),
         spec: Spec::new(dfa.propositions.clone()),
         predicates: (0..module.predicates.len() as u32).map(PredicateId).collect(),
         parts: None,

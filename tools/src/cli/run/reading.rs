@@ -1,4 +1,4 @@
-//! What a recording is read by: a task, or an automaton of another tool.
+//! What a recording is read by: a task, whose automaton may be too large.
 
 use tltl::Automaton;
 use tltl_compiler::dfa::Dfa;
@@ -6,14 +6,11 @@ use tltl_compiler::predicate;
 use tltl_compiler::spec::Spec;
 use tltl_compiler::translate::Budget;
 
-use crate::evaluate::{Columns, Evaluator, Input, InputKind, NotANumber, Scratch};
+use crate::evaluate::{Columns, Evaluator, Input, NotANumber, Scratch};
 use crate::explain::retold;
 use crate::online::{Online, Recorded};
 use crate::report::Page;
-use crate::tables;
 use crate::task::{Task, Unmade, Value};
-
-use super::Foreign;
 
 /// An automaton, and the numbers that its propositions are read from.
 pub(super) struct Reading {
@@ -26,8 +23,8 @@ pub(super) struct Reading {
     pub(super) inputs: Vec<Input>,
     /// The task as its author wrote it, with its arguments.
     pub(super) title: String,
-    /// The predicates; `None` where the numbers themselves are the robustness of the propositions.
-    evaluator: Option<Evaluator>,
+    /// The predicates.
+    evaluator: Evaluator,
     /// The robustness of a trajectory that has no state yet.
     pub(super) online: Online,
     /// The formula; `None` for an automaton of another tool.
@@ -47,7 +44,12 @@ impl Reading {
         let arguments = task.arguments().iter().map(|(name, value)| (&**name, value));
         let title = title(task.entry().task(), arguments);
         let automata = Some((task.automaton().clone(), task.dfa().clone()));
-        Self::of_formula(task.entry().task(), title, automata, task.evaluator().clone())
+        let of_formula = match task.entry().is_automaton() {
+            true => (Online::of_automaton(task.automaton()), None),
+            false => of_formula(&task.entry().task().spec),
+        };
+        let evaluator = task.evaluator().clone();
+        Self::new(task.entry().task(), title, automata, evaluator, of_formula)
     }
 
     /// A task without an automaton, with these values for its parameters.
@@ -57,14 +59,16 @@ impl Reading {
         arguments: &[(&str, Value)],
     ) -> Self {
         let arguments = arguments.iter().map(|(name, value)| (*name, value));
-        Self::of_formula(unmade.task(), title(unmade.task(), arguments), None, evaluator)
+        let (task, title) = (unmade.task(), title(unmade.task(), arguments));
+        Self::new(task, title, None, evaluator, of_formula(&task.spec))
     }
 
-    fn of_formula(
+    fn new(
         task: &predicate::Task,
         title: String,
         automata: Option<(Automaton, Dfa)>,
         evaluator: Evaluator,
+        (online, spec): (Online, Option<Spec>),
     ) -> Self {
         let (automaton, dfa) = automata.unzip();
         let names = task.spec.propositions().iter().map(|one| one.name.clone());
@@ -74,39 +78,15 @@ impl Reading {
             propositions: names.collect(),
             inputs: evaluator.inputs().to_vec(),
             title,
-            evaluator: Some(evaluator),
-            online: Online::new(&task.spec, Budget::EMITTED),
-            spec: Some(task.spec.clone()),
+            evaluator,
+            online,
+            spec,
         }
     }
 
     /// The truth of the formula on a trajectory without states.
     pub(super) fn truth(&self) -> Recorded {
         Recorded::new(self.spec.as_ref().expect("without an automaton there is a formula"))
-    }
-
-    /// An automaton without a formula, over the columns that are called like its propositions, as a
-    /// bare formula is read.
-    pub(super) fn of_automaton(Foreign { name, dfa }: Foreign) -> Result<Self, String> {
-        let input = |name: &str| Input {
-            name: name.to_owned(),
-            kind: InputKind::Proposition,
-            unit: None,
-            values: Vec::new(),
-        };
-        let automaton = tables::automaton(&dfa).map_err(|error| error.to_string())?;
-        let online = Online::of_automaton(&automaton);
-        let propositions: Vec<_> = dfa.propositions.iter().map(|one| one.name.clone()).collect();
-        Ok(Self {
-            automaton: Some(automaton),
-            inputs: propositions.iter().map(|name| input(name)).collect(),
-            propositions,
-            title: name,
-            evaluator: None,
-            online,
-            spec: None,
-            dfa: Some(dfa),
-        })
     }
 
     /// The page that shows this task, and that many trajectories.
@@ -127,10 +107,7 @@ impl Reading {
         rows: usize,
         scratch: &mut Scratch,
     ) -> Result<Read, NotANumber> {
-        let Some(evaluator) = &self.evaluator else {
-            let labels = values.iter().map(|rho| *rho > 0.0).collect();
-            return Ok(Read { labels, rho: values.to_vec(), width: self.inputs.len() });
-        };
+        let evaluator = &self.evaluator;
         let columns =
             Columns::of_rows(rows, self.inputs.len(), values).expect("whole rows were read");
         let width = evaluator.propositions();
@@ -139,6 +116,11 @@ impl Reading {
         evaluator.rho(&columns, scratch, &mut rho)?;
         Ok(Read { labels, rho, width })
     }
+}
+
+/// What a formula is followed by, and itself.
+fn of_formula(spec: &Spec) -> (Online, Option<Spec>) {
+    (Online::new(spec, Budget::EMITTED), Some(spec.clone()))
 }
 
 /// A task as its author wrote it, with its arguments.
