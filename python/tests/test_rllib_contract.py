@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import os
+import re
 import sys
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import gymnasium as gym
@@ -157,3 +159,18 @@ def test_what_is_wrong_is_shown_where_it_is_driven(
     assert message in text
     if "task" in wrong:
         assert "1 | corner T G goal" in text and "^" in text
+
+
+def test_the_page_trains(capsys: pytest.CaptureFixture[str]) -> None:
+    page = (Path(__file__).parents[1] / "docs" / "rllib.md").read_text(encoding="utf-8")
+    [code] = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
+    # Ray runs already.
+    code = code.replace("ray.init(num_cpus=3)", "pass")
+
+    def door(env: Any, obs: Any, info: dict[str, Any]) -> dict[str, bool]:
+        return {"key": obs == 1, "door": obs == 2, "goal": obs == 15}
+
+    trained: dict[str, Any] = {"make": make, "labels": door}
+    exec(compile(code, "rllib.md", "exec"), trained)
+    trained["algorithm"].stop()
+    assert 0 <= float(capsys.readouterr().out.split()[-1]) <= 1

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import subprocess
 from pathlib import Path
@@ -307,6 +308,15 @@ def test_another_discount_factor_is_warned_of() -> None:
     with pytest.warns(TaskWarning, match="gamma is 0.9, and the shaped rewards are for 0.99"):
         algorithm.learn(200, callback=callback)
     assert len(callback.last_q) == len(callback.lost) > 0 and set(callback.last_q) <= {0, 1, 2}
+
+
+def test_the_page_does_what_it_prints() -> None:
+    page = (Path(__file__).parents[1] / "docs" / "sb3.md").read_text(encoding="utf-8")
+    [code] = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
+    assert "50_000" in code
+    learned_there: dict[str, Any] = {"env": lake()}
+    exec(compile(code.replace("50_000", "400"), "sb3.md", "exec"), learned_there)
+    assert learned_there["model"].replay_buffer.pos == 800
 
 
 def test_no_masked_action_is_taken() -> None:
