@@ -12,6 +12,8 @@ nb_execution_mode = "force"
 nb_execution_raise_on_error = True
 nb_execution_timeout = 120
 myst_enable_extensions = ["colon_fence"]
+# In the documentation of functions, as in the sources in Rust, `…` is code.
+default_role = "literal"
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"
 # They are large, and the reference needs none of what they do.

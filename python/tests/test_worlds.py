@@ -114,15 +114,17 @@ def test_what_is_learned_is_certified(name: str, steps: int) -> None:
 
 @pytest.mark.parametrize(
     "name",
-    ["lake without holes", "large lake", "taxi", pytest.param("slippery cliff", marks=since_1_1)],
+    ["lake", "lake without holes", "large lake", "taxi", pytest.param("slippery cliff", marks=since_1_1)],
 )
 def test_what_is_certified_is_what_happens(name: str) -> None:
     """Episodes in the environment itself, with its own time limit, against the exact probability."""
     world, options, formula, labels = WORLDS[name]
     base = gym.make(world, **options)
     best = solve(FiniteModel.from_env(base), formula, labels)
-    policy, worth = best.policy, best.certify(best.policy, within=base.spec and base.spec.max_episode_steps or 60)
-    env = TaskEnv(base, formula, lambda env, obs, info: labels(int(obs)), observe="none", on_decided_reset="keep")
+    limit = base.spec.max_episode_steps if base.spec else None
+    policy, worth = best.policy, best.certify(best.policy, within=limit or 60)
+    seen: Any = lambda env, obs, info: labels(int(obs))  # noqa: E731
+    env = TaskEnv(base, formula, seen, observe="none", on_decided_reset="keep")
     episodes, satisfied = 200, 0
     obs, info = env.reset(seed=3)
     for _ in range(episodes):
