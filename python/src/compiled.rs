@@ -32,7 +32,7 @@ pub(crate) trait Compiled: Sync {
     fn follow(&self, columns: &Columns<'_>, scratch: &mut Scratch)
     -> Result<task::Run, NotANumber>;
 
-    /// The formula, as it was written.
+    /// The formula, without comments and laid out anew.
     fn written(&self) -> &str {
         &self.entry().task().text
     }

@@ -122,7 +122,7 @@ impl Compiled for Factored {
 
 #[pymethods]
 impl Factored {
-    /// The formula, as it was written.
+    /// The formula, without comments and laid out anew.
     #[getter]
     fn text(&self) -> &str {
         self.written()

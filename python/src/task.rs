@@ -139,7 +139,7 @@ impl Task {
         if [self, other].iter().any(|task| !task.inner.entry().is_bare()) {
             return Err(wrong(NotBare.to_string()));
         }
-        let text = format!("({}) {operator} ({})", self.source().text(), other.source().text());
+        let text = format!("({}) {operator} ({})", self.written(), other.written());
         Self::new(py, &text, Some(self.budget.clone()))
     }
 }
@@ -216,7 +216,7 @@ impl Task {
         }
     }
 
-    /// The formula, as it was written.
+    /// The formula, without comments and laid out anew.
     #[getter]
     fn text(&self) -> &str {
         self.written()

@@ -129,3 +129,5 @@ def test_stored_steps_are_relabelled_by_the_states_of_a_product() -> None:
 def test_a_comment_ends_with_its_operand() -> None:
     both = product("and", quiet("F a // the first"), quiet("F b /* the second */"))
     assert both.task.text == "F a && F b" and len(both.components) == 4
+    one, other = quiet("F a // the first"), quiet("F b")
+    assert (one & other).text == "F a && F b" and (other | one).text == "F b || F a"

@@ -171,7 +171,7 @@ class Task:
         """
     @property
     def text(self) -> str:
-        """The formula, as it was written."""
+        """The formula, without comments and laid out anew."""
     @property
     def name(self) -> str | None:
         """Its name in the task file; `None` for a bare formula."""
@@ -498,7 +498,7 @@ class Factored:
     """
     @property
     def text(self) -> str:
-        """The formula, as it was written."""
+        """The formula, without comments and laid out anew."""
     @property
     def name(self) -> str | None:
         """Its name in the task file."""

@@ -160,9 +160,9 @@ impl Automaton {
         }
     }
 
-    /// The same through a table, with a row of so many labels for each letter. To know how many takes
-    /// half of the time off: three labels with their step cost 0.6 ns, and 0.9 ns if their number is asked
-    /// for in each row; a letter that is given costs 0.4 ns.
+    /// The same through a table, with a row of so many labels for each letter. The loop knows how many:
+    /// if that is asked for in each row, three labels and their step take twice the time
+    /// (`python/benches/bench.py`, rows of bool).
     #[inline]
     fn walk_rows<const N: usize>(&self, labels: &[bool], walk: impl Walk) {
         self.walk_letters(labels.as_chunks::<N>().0.iter().map(gathered), walk);
