@@ -54,7 +54,7 @@ tests() {
     shift
     cp -r tests examples docs README.md "$place/$name/"
     mkdir -p "$place/tests" && cp -r ../tests/data "$place/tests/"
-    (cd "$place/$name" && PYTHONPATH=examples:tests bin/python -m pytest -q -rs -p no:cacheprovider --import-mode=append "$@")
+    (cd "$place/$name" && PYTHONPATH=examples:tests bin/python -m pytest -q -rs -p no:cacheprovider -W ignore::pytest.PytestUnknownMarkWarning --import-mode=append "$@")
 }
 
 wheel() {

@@ -11,8 +11,12 @@ from conftest import since_1_1
 
 @pytest.mark.parametrize(
     ("name", "steps"),
-    [("FrozenLake", 300_000), ("FrozenLake 8x8", 600_000), ("Taxi", 600_000), 
-     pytest.param("CliffWalking", 300_000, marks=since_1_1)],
+    [
+        ("FrozenLake", 300_000),
+        ("FrozenLake 8x8", 600_000),
+        ("Taxi", 600_000),
+        pytest.param("CliffWalking", 300_000, marks=since_1_1),
+    ],
 )
 def test_what_is_learned_is_certified(name: str, steps: int) -> None:
     from toy_text import certified

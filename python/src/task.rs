@@ -195,7 +195,7 @@ impl Task {
     /// The task of an automaton that another tool wrote in the HOA format (Spot, Owl, ltlf2dfa). It
     /// must be deterministic, and accept for good once it accepts.
     ///
-    /// There is no formula: `text` is the name in the file, and `robustness` that of the best run
+    /// There is no formula: `text` is its own name or `name`, and `robustness` that of the best run
     /// through the automaton. States are given by the names of the propositions, as for a bare
     /// formula.
     ///
