@@ -104,8 +104,9 @@ baselines() {
     fi
     environment sb3 stable-baselines3 sb3-contrib minigrid
     env -u PIP_QUIET "$place/sb3/bin/pip" list | grep -iE 'torch|baselines|gymnasium|numpy'
-    # The examples of the first minute are the first three of the README.
-    tests sb3 --durations=8 tests/test_sb3.py tests/test_readme.py examples/test_examples.py
+    # Those of the first minute are among them: how long each takes.
+    tests sb3 --durations=0 -vv tests/test_readme.py
+    tests sb3 tests/test_sb3.py examples/test_examples.py
 }
 
 runners() {
