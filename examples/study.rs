@@ -280,6 +280,18 @@ impl Progress {
     }
 }
 
+/// A share in percent, with no minus before what rounds to 0; `never` where there is none.
+#[must_use]
+pub fn percent(share: f64, digits: usize, never: &str) -> String {
+    let value = 100.0 * share;
+    let least = 0.5 * 0.1_f64.powi(digits as i32);
+    if value.is_finite() {
+        format!("{:.digits$}", if value.abs() < least { 0.0 } else { value })
+    } else {
+        never.to_owned()
+    }
+}
+
 /// Mean of some numbers.
 #[must_use]
 pub fn mean(values: &[f64]) -> f64 {

@@ -11,7 +11,7 @@ use tltl::prelude::*;
 use tltl::reward::{End, Mode};
 use tltl_examples::grid::Cell;
 use tltl_examples::spread::{Panel, Spread};
-use tltl_examples::study::{FAMILIES, GRID, PAPER, Study, at, layout, mean, quantile};
+use tltl_examples::study::{self, FAMILIES, GRID, PAPER, Study, at, layout, mean, quantile};
 
 const LAYOUTS: u64 = 100;
 /// Steps that are learned from, and from how many where the certificate then says that more than 0.1 %
@@ -114,7 +114,7 @@ fn case(i: usize, cells: [Cell; 3]) -> Case {
 }
 
 fn percent(value: f64) -> String {
-    if value.is_finite() { format!("{:.3}", 100.0 * value) } else { "never".to_owned() }
+    study::percent(value, 3, "never")
 }
 
 /// The regrets in P(satisfied) and the excess steps of setting `i`.

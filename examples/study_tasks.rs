@@ -11,7 +11,7 @@ use tltl::learn::{Exploration, Memory};
 use tltl::prelude::*;
 use tltl::reward::End;
 use tltl_examples::places::{Place, World, worlds};
-use tltl_examples::study::Study;
+use tltl_examples::study::{self, Study};
 
 include_tltl!("tasks/places.tltl", state = tltl_examples::places::Place);
 
@@ -55,15 +55,23 @@ const EXPLORED: [(Exploration, bool, u64); 5] = {
 };
 
 /// Ways to choose a policy on the world as it was seen, and how many steps' worth of P each takes.
-const WAYS: [(&str, Price); 7] = [
+const WAYS: [(&str, Price); 9] = [
     ("none: the largest P, then the fewest steps", Price::Nothing),
     ("0.00001 a step", Price::Step(1e-5)),
     ("0.0001 a step", Price::Step(1e-4)),
     ("0.001 for all steps", Price::All(1e-3)),
     ("0.002 for all steps", Price::All(2e-3)),
-    ("0.004 for all steps, the default", Price::All(4e-3)),
+    ("0.004 for all steps", Price::All(4e-3)),
+    ("0.006 for all steps, the default", Price::All(6e-3)),
+    ("0.008 for all steps", Price::All(8e-3)),
     ("0.01 for all steps", Price::All(1e-2)),
 ];
+
+/// The price of a step at which the largest P is had with hardly more than the fewest steps.
+const FIRST: f64 = 1e-6;
+
+/// The one of them that finishes learning.
+const DEFAULT: usize = 6;
 
 /// What P(satisfied) is given for fewer steps.
 #[derive(Clone, Copy, Debug)]
@@ -80,15 +88,32 @@ impl Price {
     /// The policy on `seen`.
     fn policy(self, seen: &Problem) -> Policy {
         let best = seen.best();
-        let steps = best.mean_steps().unwrap_or(1.0).max(1.0);
-        let step = match self {
-            Self::Nothing => return best.policy().clone(),
-            Self::Step(price) => price,
-            Self::All(price) => price / steps,
+        let at = |price: f64| {
+            let rewards = Rewards::acceptance().with_gamma(1.0 - price).expect("less than 1");
+            seen.optimal_q(&rewards)
         };
-        let rewards = Rewards::acceptance().with_gamma(1.0 - step).expect("less than 1");
-        seen.optimal_q(&rewards).policy()
+        match self {
+            Self::Nothing => best.policy().clone(),
+            Self::Step(price) => at(price).policy(),
+            Self::All(price) => {
+                let satisfied = best.mean_satisfied();
+                let taken = satisfied - mean(&at(FIRST), seen);
+                at((price * satisfied * FIRST / taken).min(price)).policy()
+            }
+        }
     }
+}
+
+/// The mean of the values over the starts; 1 where the task is satisfied at once.
+fn mean(q: &QTable, problem: &Problem) -> f64 {
+    let task = problem.task();
+    let starts = problem.dynamics().starts().iter().enumerate();
+    let worth = |(s, weight): (usize, &f64)| match task.end(task.start(s)) {
+        Some(End::Accepted) => *weight,
+        Some(End::Lost) => 0.0,
+        None => weight * q.max(task.start(s), s),
+    };
+    starts.map(worth).sum()
 }
 
 /// Regret in P(satisfied), and in steps where it ever succeeds.
@@ -106,6 +131,8 @@ struct Case {
     learned: Vec<Regret>,
     /// For each seed one for each of the ways.
     ways: Vec<Vec<Regret>>,
+    /// The same where the world is known and not only seen.
+    known: Vec<Regret>,
     /// Of the table alone, at one seed.
     table: Regret,
     /// For each way to explore but the first, the default, one for each seed.
@@ -158,15 +185,21 @@ fn case(world: &World, task: &dyn Monitor<Place>) -> Case {
         if can_be_lost {
             let seen = Dynamics::new(learner.experience()).expect("it was trained");
             let seen = Problem::new(&seen, &task).expect("its world");
-            ways.push(WAYS.iter().map(|(_, price)| regret(&price.policy(&seen))).collect());
+            let found: Vec<Regret> =
+                WAYS.iter().map(|(_, price)| regret(&price.policy(&seen))).collect();
+            let (own, same) = (learned[learned.len() - 1], found[DEFAULT]);
+            assert!((own.0 - same.0).abs() < 1e-6, "the default is another way: {own:?}, {same:?}");
+            ways.push(found);
         }
     }
+    let known = optimum.problem();
+    let known = WAYS.iter().map(|(_, price)| regret(&price.policy(known))).collect();
     let slow = Rewards::acceptance().with_gamma(GAMMA).expect("less than 1");
     let alone = Settings::default().with_memory(Memory::None).with_rewards(slow);
     let (satisfied, steps) = (optimum.best().mean_satisfied(), optimum.best().mean_steps());
     let table = regret(&train(alone, 0).policy());
     let explored = EXPLORED[1..].iter().map(|&way| explored(world, &task, training, way)).collect();
-    Case { training, can_be_lost, satisfied, steps, learned, ways, table, explored }
+    Case { training, can_be_lost, satisfied, steps, learned, ways, known, table, explored }
 }
 
 /// The worst of some regrets; in steps, of those that succeed.
@@ -178,14 +211,7 @@ fn worst<'a>(regrets: impl IntoIterator<Item = &'a Regret>) -> [f64; 2] {
 }
 
 fn percent(value: f64, digits: usize) -> String {
-    // No minus before what rounds to 0.
-    let value = 100.0 * value;
-    let least = 0.5 * 0.1_f64.powi(digits as i32);
-    if value.is_finite() {
-        format!("{:.digits$}", if value.abs() < least { 0.0 } else { value })
-    } else {
-        "–".to_owned()
-    }
+    study::percent(value, digits, "–")
 }
 
 /// What was learned in each world, task by task.
@@ -252,8 +278,9 @@ fn formulas(cases: &[Case]) -> String {
 
 /// What each way to choose a policy gives away, on the tasks that can be lost.
 fn alternatives(cases: &[Case]) -> String {
-    let mut text = "| what P gives for fewer steps | P regret, worst % | steps regret, worst % | \
-                    over 0.1 % of P | over 1 % of the steps |\n| --- | --- | --- | --- | --- |\n"
+    let mut text = "| what P gives for fewer steps | P regret where the world is known, worst % | \
+                    P regret, worst % | steps regret, worst % | over 0.1 % of P | over 1 % of the \
+                    steps |\n| --- | --- | --- | --- | --- | --- |\n"
         .to_owned();
     let lost: Vec<&Case> = cases.iter().filter(|case| case.can_be_lost).collect();
     for (i, (name, _)) in WAYS.iter().enumerate() {
@@ -261,9 +288,11 @@ fn alternatives(cases: &[Case]) -> String {
             lost.iter().map(|case| worst(case.ways.iter().map(|ways| &ways[i]))).collect();
         let of = |j: usize| each.iter().map(|worst| worst[j]).fold(f64::NEG_INFINITY, f64::max);
         let over = |j: usize| each.iter().filter(|worst| worst[j] > BOUNDS[j]).count();
+        let known = worst(lost.iter().map(|case| &case.known[i]))[0];
         let _ = writeln!(
             text,
-            "| {name} | {} | {} | {} | {} |",
+            "| {name} | {} | {} | {} | {} | {} |",
+            percent(known, 3),
             percent(of(0), 3),
             percent(of(1), 1),
             over(0),
@@ -334,9 +363,10 @@ fn document(cases: &[Case]) -> String {
         "## Why steps cost a little of P\n\nProbabilities that were counted are known up to sampling: \
          of two ways that are equally safe chance makes one look safer, and it may be the longer one. \
          The table compares what P may give for fewer steps, on the same experience of the {lost} \
-         cells whose task can be lost. A price that is the same for each step is too high for long \
-         tasks and too low for short ones; so the price is for all steps of the best policy \
-         together.\n\n{}",
+         cells whose task can be lost, and what that would cost who knows the world. A price that is the \
+         same for each step is too high for long tasks and too low for short ones; so the price is for \
+         all steps of the best policy together. Where it is too low, chance chooses the way; where it is \
+         too high, safety is sold for speed.\n\n{}",
         alternatives(cases)
     );
     let _ = writeln!(
@@ -364,7 +394,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }))?;
     let all: Vec<[f64; 2]> = cases.iter().map(|case| worst(&case.learned)).collect();
     let over = |i: usize| all.iter().filter(|worst| worst[i] > BOUNDS[i]).count();
-    // Of hundreds of policies from counts some take a longer way that chance made look safer.
-    assert!(over(0) == 0 && over(1) <= all.len() / 50, "{} and {} are over", over(0), over(1));
+    assert!(over(0) == 0 && over(1) == 0, "{} and {} are over", over(0), over(1));
     Ok(study.finish()?)
 }

@@ -80,8 +80,8 @@ def test_what_was_seen_is_what_the_policy_is_best_in(lake: FiniteModel) -> None:
     assert (seen.num_states, seen.num_actions, seen.horizon) == (16, 4, 100)
     best = solve(seen, "corner T goal", cells)
     worth = best.certify(learner.policy())
-    # The learner gives away at most 0.4 % of P for fewer steps.
-    assert worth.satisfied >= 0.996 * worth.optimal_satisfied
+    # The learner gives away at most 0.6 % of P for fewer steps.
+    assert worth.satisfied >= 0.994 * worth.optimal_satisfied
     assert worth.satisfied_within is not None
     forgetful = Learner(lake, "corner T goal", cells, settings=Settings(remember=False))
     with pytest.raises(ValueError, match="settings.remember is False"):

@@ -434,7 +434,7 @@ impl<'a> Composition<'a> {
             return problem.finished(&self.rewards);
         }
         let payment = self.task.payment(&self.rewards);
-        problem.optimal_q_of(&payment, self.rewards.gamma(), Some(start))
+        problem.optimal_q_of(&payment, self.rewards.gamma(), start)
     }
 
     /// The skills that read states at `q`, and where they are.

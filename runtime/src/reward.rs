@@ -91,6 +91,7 @@ impl Default for Rewards {
 
 impl Rewards {
     /// The same with a γ that is known to be in range.
+    #[cfg(feature = "deep")]
     #[inline]
     pub(crate) const fn with_known_gamma(self, gamma: f64) -> Self {
         Self { gamma, ..self }

@@ -262,8 +262,8 @@ impl Learner {
     ///
     /// Where acceptance alone is paid, as by default, they are of the largest P(satisfied), and then of
     /// the fewest steps. P comes first up to a tolerance, for it is known up to sampling: the greedy
-    /// policy gives away at most 0.4 % of the largest P that the world as it was seen allows, and only
-    /// for fewer steps (1 % of the steps is worth 0.004 % of P). γ matters only while learning. For other
+    /// policy gives away at most 0.6 % of the largest P that the world as it was seen allows, and only
+    /// for fewer steps (1 % of the steps is worth 0.006 % of P). γ matters only while learning. For other
     /// [rewards](Settings::rewards) they are the optimal values, at their γ.
     ///
     /// What was never tried counts as staying where one is, so it is never chosen where something that
@@ -282,7 +282,7 @@ impl Learner {
     /// let mut learner = Learner::new(&task, Settings::default(), 1);
     /// learner.train(&mut env, 200)?;
     /// let q = learner.q();
-    /// assert!((q.max(0, 0) - 1.0).abs() < 0.01, "P(satisfied) is 1 from everywhere");
+    /// assert!((q.max(0, 0) - 1.0).abs() < 0.02, "P(satisfied) is 1 from everywhere");
     /// assert!((0..4).all(|s| q.greedy(0, s) == 1), "and the fewest steps go right");
     /// # Ok::<(), Box<dyn core::error::Error>>(())
     /// ```

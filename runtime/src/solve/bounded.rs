@@ -7,7 +7,6 @@ use super::improve::{Solution, outwards as policy};
 use super::sets::{outwards, sets};
 use super::{Problem, Rule};
 use crate::augmented::{LabelTable, Payment};
-use crate::q::QTable;
 
 /// A number for each pair, and how far they may be from the true ones.
 pub(super) struct Bounded {
@@ -19,6 +18,13 @@ pub(super) struct Bounded {
     /// For probabilities, the most steps that the policy can be expected to make where success is
     /// neither sure nor impossible.
     pub(super) doubt: f64,
+}
+
+/// What may be near a solution, for each pair: the values, and the actions if they are known.
+#[derive(Clone, Copy)]
+pub(super) struct Near<'a> {
+    pub(super) values: &'a [f64],
+    pub(super) policy: Option<&'a [u32]>,
 }
 
 impl Bounded {
@@ -69,13 +75,13 @@ impl Problem {
         Collector { problem: self, bounded, errors }
     }
 
-    /// Discounted values; `start` saves rounds if it is near the result. If `fixed`, the automaton stays
+    /// Discounted values; `near` saves rounds. If `fixed`, the automaton stays
     /// where it is.
     #[inline]
     pub(super) fn discounted(
         &self,
         (payment, gamma, fixed): (&Payment, f64, bool),
-        start: Option<&QTable>,
+        near: Option<Near<'_>>,
         rule: &Rule<'_>,
     ) -> Bounded {
         let mut all = self.collector();
@@ -83,8 +89,9 @@ impl Problem {
             let known = &all.bounded.values;
             let mut component = Component::new(self, members, (payment, gamma, fixed), known);
             component.choose(outwards(&component, rule), known);
-            let first = policy(&component, rule);
-            let values = start.map(|table| component.starting(|q, s| table.max(q, s)));
+            let first = near.and_then(|near| near.policy).map(|policy| component.of(policy));
+            let first = first.unwrap_or_else(|| policy(&component, rule));
+            let values = near.map(|near| component.of(near.values));
             let solution = Solution::new(component, rule, first, values);
             all.put(&solution);
             all.add_error(members, solution.discounted_error());

@@ -194,14 +194,10 @@ impl<'a> Component<'a> {
         }
     }
 
-    /// First values of the unknowns.
+    /// What belongs to the unknowns, of what belongs to all pairs.
     #[inline]
-    pub(super) fn starting(&self, value: impl Fn(u32, usize) -> f64) -> Vec<f64> {
-        let of = |&code: &u32| {
-            let (k, s) = self.split(code);
-            value(self.members[k], s)
-        };
-        self.unknowns.iter().map(of).collect()
+    pub(super) fn of<T: Copy>(&self, all: &[T]) -> Vec<T> {
+        self.unknowns.iter().map(|&code| all[self.pair(code)]).collect()
     }
 
     /// The actions that `rule` allows in a pair.

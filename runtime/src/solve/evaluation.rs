@@ -236,7 +236,7 @@ impl Problem {
     /// The mean over the starts, `s_0` read: exact where all are worth the same, for it is divided by
     /// what the weights sum to.
     #[inline]
-    fn mean(&self, of: impl Fn(usize) -> f64) -> f64 {
+    pub(super) fn mean(&self, of: impl Fn(usize) -> f64) -> f64 {
         let (mut sum, mut weights) = (0.0, 0.0);
         for (s, pair) in self.start_pairs() {
             let weight = self.dynamics.starts()[s];

@@ -66,7 +66,6 @@ impl<'a> Solution<'a> {
         start: Option<Vec<f64>>,
     ) -> Self {
         let n = component.unknowns().len();
-        let first = start.is_none();
         let x = start.unwrap_or_else(|| alloc::vec![0.0; n]);
         let (places, residual) = (Vec::new(), alloc::vec![0.0; n]);
         let (rows, factors) = (Rows::new(&component, rule.costs), Factors::Plain);
@@ -75,17 +74,14 @@ impl<'a> Solution<'a> {
         if n >= WIDE && solution.slopes() {
             solution.factors = Factors::SumPreserving;
         }
-        solution.solve(first);
+        solution.solve();
         solution
     }
 
     /// Improves the policy and its values in turn, until neither gets better. A policy whose system cannot be
     /// solved is given up for the one before it.
     #[inline]
-    fn solve(&mut self, first: bool) {
-        if !first {
-            self.sweep(TIE);
-        }
+    fn solve(&mut self) {
         let mut solved = (self.x.clone(), self.policy.clone());
         let (mut chain, mut changed, mut before) = (None, true, f64::INFINITY);
         for round in 0..ROUNDS {

@@ -41,10 +41,10 @@ pub use crate::certificate::{Basis, Certificate, Mistake, Report, Start, Within}
 use crate::mismatch::Mismatch;
 use crate::model::Dynamics;
 use crate::policy::Policy;
-use crate::q::QTable;
+use crate::q::{QTable, largest};
 use crate::reward::{End, Rewards};
 pub(crate) use actions::Actions;
-use bounded::Bounded;
+use bounded::{Bounded, Near};
 pub use evaluation::{Evaluation, Values};
 pub use optimum::Optimum;
 pub(crate) use rule::Objective;
@@ -172,14 +172,12 @@ impl Problem {
     /// The same for any payment; `start` saves rounds if it is near the result, which is the same
     /// whatever it is, up to its error.
     #[inline]
-    pub(crate) fn optimal_q_of(
-        &self,
-        payment: &Payment,
-        gamma: f64,
-        start: Option<&QTable>,
-    ) -> QTable {
-        let Bounded { values, .. } =
-            self.discounted((payment, gamma, false), start, &Rule::LARGEST);
+    pub(crate) fn optimal_q_of(&self, payment: &Payment, gamma: f64, start: &QTable) -> QTable {
+        let rows = start.values().chunks(self.task.actions());
+        let (values, policy) = (rows.map(largest).collect::<Vec<f64>>(), start.policy());
+        let near = Near { values: &values, policy: Some(policy.table()) };
+        let recipe = (payment, gamma, false);
+        let Bounded { values, .. } = self.discounted(recipe, Some(near), &Rule::LARGEST);
         self.action_values(&self.arrivals(payment, gamma, &values))
     }
 
