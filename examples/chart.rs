@@ -255,8 +255,9 @@ fn width(i: usize) -> f64 {
     3.2 - 0.3 * i as f64
 }
 
+/// To three digits: the last episode of a run may end some steps beyond a round number.
 fn number(value: f64) -> String {
-    match value {
+    match format!("{value:.2e}").parse().unwrap_or(value) {
         v if v >= 1e6 => format!("{} M", v / 1e6),
         v if v >= 1e3 => format!("{} k", v / 1e3),
         v => format!("{v}"),

@@ -58,6 +58,19 @@ fn curves_that_coincide_are_told_apart_by_letters() {
     assert!(svg.contains(">half<"), "the level's name stands beside it");
 }
 
+/// A run ends with an episode, a few steps later than it was asked to.
+#[test]
+fn the_ends_of_an_axis_are_round() {
+    let mut rows = rows("steps");
+    for curve in rows[0].charts.iter_mut().flat_map(|chart| &mut chart.curves) {
+        curve.points[2].x = 30_035.0;
+    }
+    let svg = chart::svg("a figure", &rows, &[]);
+    for shown in [">15 k<", ">30 k<"] {
+        assert!(svg.contains(shown), "{shown} in {svg}");
+    }
+}
+
 #[test]
 fn the_worst_is_a_number_or_never() {
     let panel = |worst: f64| Panel {

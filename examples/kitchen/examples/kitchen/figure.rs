@@ -99,7 +99,8 @@ fn row(record: &Record, (i, first): (usize, &str), reference: &Reference, horizo
 }
 
 fn curve(record: &Record, (name, about): &(&str, &str), measure: usize) -> Curve {
-    let means = record.0.get(*name).map_or(&[][..], Vec::as_slice);
+    let run = record.0.get(*name);
+    let means = run.map_or(&[][..], Vec::as_slice);
     let point = |x: f64, of: [[f64; 3]; 3]| {
         let [y, low, high] = of[measure];
         Point { x, y, low, high }
@@ -109,5 +110,6 @@ fn curve(record: &Record, (name, about): &(&str, &str), measure: usize) -> Curve
         &[Mean { x, of }] => vec![point(x, of), point(record.last("c3").unwrap_or(1.0), of)],
         means => means.iter().map(|mean| point(mean.x, mean.of)).collect(),
     };
-    Curve { name: format!("{name}: {about}"), points }
+    let not_run = if run.is_none() { " (not run)" } else { "" };
+    Curve { name: format!("{name}: {about}{not_run}"), points }
 }
