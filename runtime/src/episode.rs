@@ -5,7 +5,8 @@
 //! environment ends or the horizon is reached. States are whatever the world says: numbers for
 //! tables ([`Learner`](crate::learn::Learner), [`TrajectoryLearner`](crate::learn::TrajectoryLearner)), an
 //! environment's own states for anything else; an [`Augmented`](crate::augmented::Augmented)
-//! environment is a monitored world as it is.
+//! environment is a monitored world as it is. Actions are numbers where they can be counted, and
+//! vectors in a [`ContinuousEnv`](crate::env::ContinuousEnv).
 //!
 //! The loop alone holds q; a world only says where any q goes, so that an agent can learn from one
 //! step what every automaton state would have learned (counterfactual updates, Toro Icarte et al.
@@ -53,7 +54,7 @@ pub struct Move {
 /// [`Augmented`](crate::augmented::Augmented) is one for any environment and task; implement it for
 /// worlds that read a state more cheaply than by predicates, as the tables of learners do. `read` must
 /// not change the world, for it is asked about moves that are not taken.
-pub trait Monitored {
+pub trait Monitored<A = usize> {
     /// What an agent tells situations apart by, beside q.
     type State;
     /// Why a state cannot be read: a predicate is not a number there. `Infallible` for tables.
@@ -71,7 +72,7 @@ pub trait Monitored {
     /// As the world says.
     fn step<R: Rng + ?Sized>(
         &mut self,
-        action: usize,
+        action: A,
         rng: &mut R,
     ) -> Result<Step<Self::State>, Self::Error>;
 
@@ -87,13 +88,13 @@ pub trait Monitored {
 ///
 /// States are borrowed: an agent that keeps them clones what it needs, others pay nothing.
 #[derive(Debug)]
-pub struct Transition<'a, S> {
+pub struct Transition<'a, S, A = usize> {
     /// The automaton state before.
     pub q: u32,
     /// The state before.
     pub s: &'a S,
     /// The action.
-    pub action: usize,
+    pub action: A,
     /// What the environment gave: s', its own reward, and whether it ended.
     pub step: &'a Step<S>,
     /// What the step did at q, and what it paid there.
@@ -149,7 +150,7 @@ pub struct Transition<'a, S> {
 /// assert!(elapsed.steps >= 1_000 && elapsed.steps <= 4 * elapsed.episodes);
 /// # Ok::<(), tltl::task::Error>(())
 /// ```
-pub trait Agent {
+pub trait Agent<A = usize> {
     /// What it tells situations apart by, beside q.
     type State;
     /// Why it cannot go on: at least what stops its worlds.
@@ -168,16 +169,16 @@ pub trait Agent {
         s: &Self::State,
         steps: u64,
         rng: &mut R,
-    ) -> Result<usize, Self::Error>;
+    ) -> Result<A, Self::Error>;
 
     /// Learns from a transition in `world`.
     ///
     /// # Errors
     /// If it asks the world something that the world cannot say, or cannot go on itself.
-    fn learn<W: Monitored<State = Self::State, Error: Into<Self::Error>>, R: Rng + ?Sized>(
+    fn learn<W: Monitored<A, State = Self::State, Error: Into<Self::Error>>, R: Rng + ?Sized>(
         &mut self,
         world: &W,
-        transition: &Transition<'_, Self::State>,
+        transition: &Transition<'_, Self::State, A>,
         rng: &mut R,
     ) -> Result<(), Self::Error>;
 }
@@ -207,14 +208,20 @@ pub struct Elapsed {
 // Forced, as `episode` is: a call would keep the agent and the random generator in memory, and a step of
 // the tabular learner would take a third longer.
 #[inline(always)]
-pub fn run<W: Monitored<Error: Into<A::Error>>, A: Agent<State = W::State>, R: Rng + ?Sized>(
+pub fn run<A, W, L, R>(
     world: &mut W,
-    agent: &mut A,
+    agent: &mut L,
     elapsed: &mut Elapsed,
     horizon: u64,
     total: u64,
     rng: &mut R,
-) -> Result<(), A::Error> {
+) -> Result<(), L::Error>
+where
+    A: Clone,
+    W: Monitored<A, Error: Into<L::Error>>,
+    L: Agent<A, State = W::State>,
+    R: Rng + ?Sized,
+{
     let mut idle = 0;
     while elapsed.steps < total && idle < IDLE {
         let mut steps = elapsed.steps;
@@ -230,13 +237,19 @@ pub fn run<W: Monitored<Error: Into<A::Error>>, A: Agent<State = W::State>, R: R
 
 /// One episode; adds its environment steps to `steps`.
 #[inline(always)]
-fn episode<W: Monitored<Error: Into<A::Error>>, A: Agent<State = W::State>, R: Rng + ?Sized>(
+fn episode<A, W, L, R>(
     world: &mut W,
-    agent: &mut A,
+    agent: &mut L,
     steps: &mut u64,
     horizon: u64,
     rng: &mut R,
-) -> Result<(), A::Error> {
+) -> Result<(), L::Error>
+where
+    A: Clone,
+    W: Monitored<A, Error: Into<L::Error>>,
+    L: Agent<A, State = W::State>,
+    R: Rng + ?Sized,
+{
     let mut at = Step::to(world.reset(rng).map_err(Into::into)?);
     agent.start(&at.state);
     let Move { to: mut q, over, .. } = world.read(0, &at).map_err(Into::into)?;
@@ -247,7 +260,7 @@ fn episode<W: Monitored<Error: Into<A::Error>>, A: Agent<State = W::State>, R: R
     let end = steps.saturating_add(horizon);
     while *steps < end {
         let action = agent.act(q, &at.state, *steps, rng)?;
-        let step = world.step(action, rng).map_err(Into::into)?;
+        let step = world.step(action.clone(), rng).map_err(Into::into)?;
         *steps += 1;
         let read = world.read(q, &step).map_err(Into::into)?;
         agent.learn(world, &Transition { q, s: &at.state, action, step: &step, read }, rng)?;

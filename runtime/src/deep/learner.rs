@@ -12,7 +12,8 @@ use serde::{Deserialize, Serialize};
 use std::string::{String, ToString};
 use std::vec::Vec;
 
-use super::model::{AdamMoments, Batch, Model, Optimiser};
+use super::layers::{AdamMoments, Optimiser};
+use super::model::{Batch, Model};
 use super::popart::PopArt;
 use super::replay::Replay;
 use super::settings::Settings;

@@ -51,6 +51,7 @@
 //! a circle (`docs/studies/kitchen_notes.md`).
 
 mod compose;
+mod layers;
 mod learner;
 mod model;
 mod popart;

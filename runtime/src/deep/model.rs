@@ -1,4 +1,4 @@
-//! The network as tensors: batched forward passes, gradients, Adam.
+//! The network of action values as tensors: batched forward passes, gradients.
 //!
 //! [`Network`] is the form that runs anywhere; a [`Model`] is the same on a device, in the form in which
 //! it is trained: with a value for each state beside what actions add to it. Both turn into each other
@@ -8,11 +8,10 @@
 //! Shapes are written `[batch, heads, actions]`. Nothing here is random, and on the CPU backend the same
 //! numbers come out on every run; other devices may add up in another order.
 
-use burn::optim::{Adam, AdamConfig, AdamState, AdaptiveMomentumState, Optimizer};
-use burn::tensor::{Device, Tensor, TensorData, activation::relu};
-use serde::{Deserialize, Serialize};
+use burn::tensor::{Device, Tensor, TensorData};
 use std::vec::Vec;
 
+use super::layers::{Gradient, Layers, Pass, numbers};
 use super::popart::PopArt;
 use crate::network::{Dense, Features, Network, NetworkError, Shape};
 
@@ -55,8 +54,8 @@ impl Batch {
     }
 
     /// `[batch, inputs]`.
-    fn inputs(&self, shape: &Shape, device: &Device) -> Tensor<2> {
-        let inputs = TensorData::new(self.inputs.clone(), [self.len, shape.inputs]);
+    pub(super) fn inputs(&self, width: usize, device: &Device) -> Tensor<2> {
+        let inputs = TensorData::new(self.inputs.clone(), [self.len, width]);
         Tensor::from_data(inputs, device)
     }
 
@@ -67,38 +66,13 @@ impl Batch {
     }
 }
 
-/// A dense layer as tensors.
-#[derive(Clone, Debug)]
-struct Layer {
-    weights: Tensor<2>,
-    bias: Tensor<1>,
-}
-
-impl Layer {
-    fn of(dense: &Dense, device: &Device) -> Self {
-        let (inputs, outputs) = (dense.weights.len() / dense.bias.len(), dense.bias.len());
-        let weights = TensorData::new(dense.weights.clone(), [inputs, outputs]);
-        let bias = TensorData::new(dense.bias.clone(), [outputs]);
-        Self { weights: Tensor::from_data(weights, device), bias: Tensor::from_data(bias, device) }
-    }
-
-    fn dense(&self) -> Dense {
-        Dense { weights: numbers(self.weights.clone()), bias: numbers(self.bias.clone()) }
-    }
-}
-
-/// The numbers of a tensor, in row-major order.
-fn numbers<const D: usize>(tensor: Tensor<D>) -> Vec<f32> {
-    tensor.into_data().try_to_vec().expect("networks are of f32")
-}
-
 /// A network on a device, as it is trained: each head has, before the rest, the value of the state,
 /// which is added to all actions (dueling networks, Wang et al. 2016). The differences between
 /// actions are small beside it, and are so learned apart from it.
 #[derive(Clone, Debug)]
 pub(super) struct Model {
     shape: Shape,
-    layers: Vec<Layer>,
+    pub(super) layers: Layers,
 }
 
 /// What one value of the network is to become.
@@ -110,14 +84,6 @@ pub(super) struct Target {
     pub value: f32,
     /// How much the error counts.
     pub weight: f32,
-}
-
-/// A batch on its way through a model.
-struct Pass {
-    /// What entered each layer.
-    inputs: Vec<Tensor<2>>,
-    /// What the last layer put out.
-    out: Tensor<2>,
 }
 
 /// What the last layer says of some states: for each row and head the value of the state, those of plain
@@ -194,12 +160,12 @@ impl Model {
     }
 
     fn of(shape: Shape, layers: &[Dense], device: &Device) -> Self {
-        Self { shape, layers: layers.iter().map(|dense| Layer::of(dense, device)).collect() }
+        Self { shape, layers: Layers::of(layers, device) }
     }
 
     /// The layers as they are trained, for [`Self::resume`].
     pub(super) fn dense(&self) -> Vec<Dense> {
-        self.layers.iter().map(Layer::dense).collect()
+        self.layers.dense()
     }
 
     /// The model that had these layers; `None` if they do not fit the shape.
@@ -236,7 +202,7 @@ impl Model {
     }
 
     fn device(&self) -> Device {
-        self.layers[0].bias.device()
+        self.layers.device()
     }
 
     /// All heads' values of all states, indexed `(row * heads + head) * actions + action`.
@@ -263,16 +229,7 @@ impl Model {
 
     /// Through all layers.
     fn pass(&self, batch: &Batch) -> Pass {
-        let (last, trunk) = self.layers.split_last().expect("a network has heads");
-        let dense =
-            |x: Tensor<2>, l: &Layer| x.matmul(l.weights.clone()) + l.bias.clone().unsqueeze();
-        let mut inputs = std::vec![batch.inputs(&self.shape, &self.device())];
-        for layer in trunk {
-            let x = relu(dense(inputs[inputs.len() - 1].clone(), layer));
-            inputs.push(x);
-        }
-        let out = dense(inputs[inputs.len() - 1].clone(), last);
-        Pass { inputs, out }
+        self.layers.pass(batch.inputs(self.shape.inputs, &self.device()))
     }
 
     /// The products of all queries with all entities, `(row * heads + head) * entities + entity`.
@@ -317,7 +274,7 @@ impl Model {
         actions: &[u32],
         targets: &[Target],
         penalty: f64,
-    ) -> (f32, Vec<f32>, Vec<(Tensor<2>, Tensor<1>)>) {
+    ) -> (f32, Vec<f32>, Vec<Gradient>) {
         let (rows, heads) = (batch.len, self.shape.heads);
         let Pass { inputs, out } = self.pass(batch);
         let pointed = if penalty > 0.0 { self.pointed(&out, batch) } else { Vec::new() };
@@ -348,7 +305,7 @@ impl Model {
         } else {
             (0..rows * heads).for_each(|i| outputs.add_slope(i, chosen(i), slopes[i], &mut error));
         }
-        (loss, values, self.back(inputs, error))
+        (loss, values, self.back(&inputs, error))
     }
 
     /// The gradient of the outputs from that of all advantages, and of the values of states.
@@ -375,36 +332,15 @@ impl Model {
     }
 
     /// The gradients of all layers, from that of the outputs and what entered each layer.
-    fn back(&self, inputs: Vec<Tensor<2>>, error: Vec<f32>) -> Vec<(Tensor<2>, Tensor<1>)> {
+    fn back(&self, inputs: &[Tensor<2>], error: Vec<f32>) -> Vec<Gradient> {
         let (rows, width) = (inputs[0].dims()[0], self.shape.heads * (1 + self.shape.head_width()));
         let data = TensorData::new(error, [rows, width]);
-        let mut error = Tensor::<2>::from_data(data, &self.device());
-        let mut gradients = Vec::new();
-        for (i, (layer, x)) in self.layers.iter().zip(inputs).enumerate().rev() {
-            let weights = x.clone().transpose().matmul(error.clone());
-            let bias = error.clone().sum_dim(0).squeeze_dim(0);
-            gradients.push((weights, bias));
-            if i > 0 {
-                error = error.matmul(layer.weights.clone().transpose());
-                // Of a unit that is off nothing goes on.
-                error = error.mask_fill(x.lower_equal_elem(0.0), 0.0);
-            }
-        }
-        gradients.reverse();
-        gradients
+        self.layers.back(inputs, Tensor::from_data(data, &self.device()))
     }
 
     /// Moves every weight to `other`'s by the share `rate`.
-    ///
-    /// The soft target of Lillicrap et al. (2016): bootstrapping from a network that moves slowly keeps
-    /// errors from chasing each other.
     pub(super) fn follow(&mut self, other: &Self, rate: f64) {
-        for (layer, to) in self.layers.iter_mut().zip(&other.layers) {
-            layer.weights = layer.weights.clone()
-                + (to.weights.clone() - layer.weights.clone()).mul_scalar(rate);
-            layer.bias =
-                layer.bias.clone() + (to.bias.clone() - layer.bias.clone()).mul_scalar(rate);
-        }
+        self.layers.follow(&other.layers, rate);
     }
 
     /// Rewrites the heads so that what they put out under the scales `new` is what they put out under
@@ -426,101 +362,6 @@ impl Model {
             Tensor::<1>::from_data(TensorData::new(numbers, [length]), &device)
         };
         let (scale, shift) = (row(scale), row(shift));
-        let last = self.layers.last_mut().expect("a network has heads");
-        last.weights = last.weights.clone() * scale.clone().unsqueeze();
-        last.bias = last.bias.clone() * scale + shift;
-    }
-}
-
-/// Adam (Kingma and Ba 2015) on all layers of a model, with a bound on the norm of the gradient.
-///
-/// Adam's ε is 1e-8, the paper's: it is added to the root of the second moment, and larger ones slow down
-/// weights with small gradients. The bound is on the norm over all layers together, so that a shortened
-/// gradient keeps its direction.
-pub(super) struct Optimiser {
-    adam: Adam,
-    moments: Vec<(Option<AdamState<2>>, Option<AdamState<1>>)>,
-}
-
-/// Adam's moments as numbers.
-///
-/// Saved with a learner, without which training would go on with other steps than before.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct AdamMoments {
-    time: usize,
-    first: Vec<Dense>,
-    second: Vec<Dense>,
-}
-
-impl AdamMoments {
-    /// Whether these are moments of such layers.
-    pub(super) fn fit(&self, layers: &[Dense]) -> bool {
-        let sizes = |layers: &[Dense]| {
-            layers.iter().map(|l| (l.weights.len(), l.bias.len())).collect::<Vec<_>>()
-        };
-        [&self.first, &self.second].iter().all(|moments| sizes(moments) == sizes(layers))
-    }
-}
-
-impl Optimiser {
-    pub(super) fn new(layers: usize) -> Self {
-        let moments = core::iter::repeat_with(|| (None, None)).take(layers).collect();
-        Self { adam: AdamConfig::new().with_epsilon(1e-8).build(), moments }
-    }
-
-    /// One step of `rate` against `gradients`, which are shortened to the norm `bound`; the norm
-    /// before.
-    pub(super) fn step(
-        &mut self,
-        model: &mut Model,
-        gradients: Vec<(Tensor<2>, Tensor<1>)>,
-        rate: f64,
-        bound: f64,
-    ) -> f64 {
-        let squares = |w: &Tensor<2>, b: &Tensor<1>| {
-            let sum = w.clone().powi_scalar(2).sum() + b.clone().powi_scalar(2).sum();
-            f64::from(sum.into_scalar::<f32>())
-        };
-        let norm = gradients.iter().map(|(w, b)| squares(w, b)).sum::<f64>().sqrt();
-        let scale = if norm > bound { bound / norm } else { 1.0 };
-        for ((layer, (w, b)), moments) in
-            model.layers.iter_mut().zip(gradients).zip(&mut self.moments)
-        {
-            let (w, b) =
-                if scale < 1.0 { (w.mul_scalar(scale), b.mul_scalar(scale)) } else { (w, b) };
-            (layer.weights, moments.0) =
-                self.adam.step(rate, layer.weights.clone(), w, moments.0.take());
-            (layer.bias, moments.1) = self.adam.step(rate, layer.bias.clone(), b, moments.1.take());
-        }
-        norm
-    }
-
-    /// The moments; `None` before the first step.
-    pub(super) fn moments(&self) -> Option<AdamMoments> {
-        let mut all = AdamMoments { time: 0, first: Vec::new(), second: Vec::new() };
-        for (w, b) in &self.moments {
-            let (w, b) = (&w.as_ref()?.momentum, &b.as_ref()?.momentum);
-            let dense = |w: &Tensor<2>, b: &Tensor<1>| Dense {
-                weights: numbers(w.clone()),
-                bias: numbers(b.clone()),
-            };
-            all.time = w.time;
-            all.first.push(dense(&w.moment_1, &b.moment_1));
-            all.second.push(dense(&w.moment_2, &b.moment_2));
-        }
-        Some(all)
-    }
-
-    /// An optimiser that goes on from `moments`.
-    pub(super) fn resume(moments: &AdamMoments, device: &Device) -> Self {
-        let mut descent = Self::new(moments.first.len());
-        let layers = moments.first.iter().zip(&moments.second);
-        for (state, (first, second)) in descent.moments.iter_mut().zip(layers) {
-            let (first, second) = (Layer::of(first, device), Layer::of(second, device));
-            let weights = AdaptiveMomentumState::new(moments.time, first.weights, second.weights);
-            let bias = AdaptiveMomentumState::new(moments.time, first.bias, second.bias);
-            *state = (Some(AdamState::new(weights)), Some(AdamState::new(bias)));
-        }
-        descent
+        self.layers.rescale(scale, shift);
     }
 }

@@ -6,7 +6,8 @@ use burn::tensor::Device;
 use rand::SeedableRng;
 use rand::rngs::Xoshiro256PlusPlus;
 
-use super::model::{Batch, Model, Optimiser, Target};
+use super::layers::Optimiser;
+use super::model::{Batch, Model, Target};
 use super::popart::PopArt;
 use super::replay::{Replay, SumTree};
 use crate::env::{Step, below, unit};
@@ -160,7 +161,7 @@ fn descent_goes_on_from_its_moments() {
     let targets = [Target { value: 1.0, weight: 1.0 }; 8];
     let step = |model: &mut Model, descent: &mut Optimiser| {
         let (_, _, gradients) = model.gradients(&batch, &[0, 1, 2, 3], &targets, 0.0);
-        descent.step(model, gradients, 1e-2, 10.0)
+        descent.step(&mut model.layers, gradients, 1e-2, 10.0)
     };
     let mut model = Model::new(&network, &device);
     let mut descent = Optimiser::new(2);

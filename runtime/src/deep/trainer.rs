@@ -16,7 +16,8 @@ use rand::Rng;
 use std::string::ToString;
 use std::vec::Vec;
 
-use super::model::{Batch, Model, Optimiser, Target};
+use super::layers::Optimiser;
+use super::model::{Batch, Model, Target};
 use super::popart::PopArt;
 use super::replay::Replay;
 use super::settings::Settings;
@@ -289,7 +290,7 @@ impl Trainer {
             return Err(Error::Loss(self.updates));
         }
         let rate = settings.learning_rate().at(self.updates);
-        self.descent.step(&mut self.model, gradients, rate, settings.gradient_norm());
+        self.descent.step(&mut self.model.layers, gradients, rate, settings.gradient_norm());
         self.target.follow(&self.model, settings.target_rate());
         self.prioritise(replay, &sample, &targets, &values, settings);
         self.updates += 1;
