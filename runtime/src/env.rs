@@ -2,7 +2,7 @@
 //!
 //! [`Env`] is any world; [`FiniteEnv`] is one whose states are numbered; [`ModelEnv`] turns a
 //! [`FiniteModel`] into an environment that samples it; [`TimeLimit`] truncates the episodes of
-//! another environment. All randomness comes through the `Rng` argument, so a seed fixes a run.
+//! another environment; a [`ContinuousEnv`] has vectors as actions. All randomness comes through the `Rng` argument, so a seed fixes a run.
 //!
 //! `ModelEnv` samples from alias tables (Walker 1977, built as by Vose 1991): a step costs one random
 //! word and one look-up, a few nanoseconds, however many outcomes an action has. Probabilities are
@@ -11,6 +11,8 @@
 //! An environment never knows the task; [`Augmented`](crate::augmented::Augmented) brings the two
 //! together.
 
+mod continuous;
+
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use core::convert::Infallible;
@@ -18,6 +20,7 @@ use core::convert::Infallible;
 use rand::Rng;
 
 use crate::model::{Dynamics, FiniteModel, ModelError};
+pub use continuous::ContinuousEnv;
 
 /// What one step of an environment gives.
 ///

@@ -20,8 +20,9 @@ use std::vec::Vec;
 
 use super::model::{Batch, Model};
 use super::replay::Replay;
+use super::sample::Heads;
 use super::settings::Settings;
-use super::trainer::{Heads, Objective, Trainer, bounds, check_reward};
+use super::trainer::{Objective, Trainer, bounds, check_reward};
 use super::{Error, Relabel};
 use crate::augmented::Moves;
 use crate::compose::{Combine, Compose};

@@ -16,8 +16,9 @@ use super::layers::{AdamMoments, Optimiser};
 use super::model::{Batch, Model};
 use super::popart::PopArt;
 use super::replay::Replay;
+use super::sample::Heads;
 use super::settings::Settings;
-use super::trainer::{Heads, TaskObjective, Trainer, bounds, check_reward};
+use super::trainer::{TaskObjective, Trainer, bounds, check_reward};
 use super::{Error, Learned, Relabel, Skill};
 use crate::augmented::Moves;
 use crate::env::{Env, Step, below, unit};
@@ -178,7 +179,7 @@ where
         let rewards = core.settings.rewards();
         let paid = rewards.environment() * step.reward;
         core.paid = (core.paid.0.min(paid), core.paid.1.max(paid));
-        core.replay.push(q, action, Step { state: step.state.clone(), ..*step });
+        core.replay.push(q, action as u32, Step { state: step.state.clone(), ..*step });
         let (warmup, between) = (core.settings.warmup(), core.settings.steps_per_update());
         if self.steps < warmup || !self.steps.is_multiple_of(between) {
             return Ok(());

@@ -50,12 +50,14 @@
 //! of the kitchen's hidden goals three reach 99 % and two stay at 92 and 96 %, for a policy may go round in
 //! a circle (`docs/studies/kitchen_notes.md`).
 
+pub mod actor;
 mod compose;
 mod layers;
 mod learner;
 mod model;
 mod popart;
 mod replay;
+mod sample;
 mod settings;
 #[cfg(test)]
 mod tests;

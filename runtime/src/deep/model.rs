@@ -53,10 +53,32 @@ impl Batch {
         Err(all.take_while(|x| x.is_finite()).count())
     }
 
+    /// The features of some states, in place of those that were there; the number of the feature that is
+    /// not finite, if there is one.
+    pub(super) fn encode<S>(
+        &mut self,
+        features: &impl Features<S>,
+        states: &[S],
+    ) -> Result<(), usize> {
+        self.clear();
+        states.iter().try_for_each(|s| self.push(features, s))
+    }
+
+    /// The number of states.
+    pub(super) const fn len(&self) -> usize {
+        self.len
+    }
+
+    /// The features of a state, entities' left out.
+    pub(super) fn row(&self, row: usize) -> &[f32] {
+        let width = self.inputs.len() / self.len;
+        &self.inputs[row * width..][..width]
+    }
+
     /// `[batch, inputs]`.
-    pub(super) fn inputs(&self, width: usize, device: &Device) -> Tensor<2> {
-        let inputs = TensorData::new(self.inputs.clone(), [self.len, width]);
-        Tensor::from_data(inputs, device)
+    pub(super) fn tensor(&self, device: &Device) -> Tensor<2> {
+        let width = self.inputs.len() / self.len;
+        Tensor::from_data(TensorData::new(self.inputs.clone(), [self.len, width]), device)
     }
 
     /// `[batch, channels, entities]`.
@@ -229,7 +251,7 @@ impl Model {
 
     /// Through all layers.
     fn pass(&self, batch: &Batch) -> Pass {
-        self.layers.pass(batch.inputs(self.shape.inputs, &self.device()))
+        self.layers.pass(batch.tensor(&self.device()))
     }
 
     /// The products of all queries with all entities, `(row * heads + head) * entities + entity`.

@@ -73,15 +73,15 @@ impl SumTree {
     }
 }
 
-/// A state that was met, and what was done there.
+/// A state that was met, and what was done there: a number, or a vector of continuous actions.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct Visit<S> {
+pub(super) struct Visit<S, A = u32> {
     /// The state.
     pub(super) state: S,
     /// The automaton state then, of the task that was being learned; of a last state 0.
     pub(super) q: u32,
     /// The action taken.
-    pub(super) action: u32,
+    pub(super) action: A,
     /// What the environment paid for it.
     pub(super) reward: f64,
     /// Whether it ended the environment's episode.
@@ -101,8 +101,8 @@ pub(super) struct Visit<S> {
 /// [`Learner::replay`](super::Learner::replay) shows it, and [`Composition`](super::Composition) learns
 /// from those of its skills.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Replay<S> {
-    moments: Vec<Visit<S>>,
+pub struct Replay<S, A = u32> {
+    moments: Vec<Visit<S, A>>,
     capacity: usize,
     /// Where the current state is.
     head: usize,
@@ -112,7 +112,7 @@ pub struct Replay<S> {
     largest: f64,
 }
 
-impl<S> Replay<S> {
+impl<S, A: Clone + Default> Replay<S, A> {
     /// Room for `capacity` states.
     ///
     /// # Panics
@@ -136,7 +136,8 @@ impl<S> Replay<S> {
     }
 
     fn put(&mut self, state: S) {
-        let moment = Visit { state, q: 0, action: 0, reward: 0.0, terminated: false, last: 0 };
+        let action = A::default();
+        let moment = Visit { state, q: 0, action, reward: 0.0, terminated: false, last: 0 };
         self.head = if self.moments.is_empty() { 0 } else { (self.head + 1) % self.capacity };
         if self.head == self.moments.len() {
             self.moments.push(moment);
@@ -153,9 +154,9 @@ impl<S> Replay<S> {
     }
 
     /// A step from the current state, taken in the automaton state `q`.
-    pub(super) fn push(&mut self, q: u32, action: usize, step: Step<S>) {
+    pub(super) fn push(&mut self, q: u32, action: A, step: Step<S>) {
         let moment = &mut self.moments[self.head];
-        (moment.q, moment.action) = (q, action as u32);
+        (moment.q, moment.action) = (q, action);
         (moment.reward, moment.terminated) = (step.reward, step.terminated);
         self.priorities.set(self.head, self.largest);
         self.put(step.state);
@@ -181,7 +182,7 @@ impl<S> Replay<S> {
     }
 
     /// What is at a place.
-    pub(super) fn moment(&self, place: usize) -> &Visit<S> {
+    pub(super) fn moment(&self, place: usize) -> &Visit<S, A> {
         &self.moments[place]
     }
 
@@ -240,7 +241,7 @@ impl<S> Replay<S> {
     }
 
     /// The states, oldest episode first is not promised; with what was done there.
-    pub(super) fn moments(&self) -> &[Visit<S>] {
+    pub(super) fn moments(&self) -> &[Visit<S, A>] {
         &self.moments
     }
 
@@ -262,10 +263,10 @@ impl<S> Replay<S> {
             }
             begun = other.priorities.get(place) > 0.0;
             if begun {
-                let Visit { q, action, reward, terminated, .. } = *moment;
+                let Visit { q, reward, terminated, .. } = *moment;
                 let state = other.moments[(place + 1) % n].state.clone();
                 let step = Step { state, reward, terminated, truncated: false };
-                self.push(q, action as usize, step);
+                self.push(q, moment.action.clone(), step);
             }
         }
     }

@@ -202,7 +202,7 @@ fn a_replay_keeps_its_last_states_in_order() {
     for episode in 0..50 {
         replay.start(episode * 100);
         for t in 1..=episode % 7 {
-            replay.push(0, t as usize, Step::to(episode * 100 + t));
+            replay.push(0, t as u32, Step::to(episode * 100 + t));
         }
         if (0..replay.len()).all(|i| replay.steps_from(i) == 0) {
             continue;

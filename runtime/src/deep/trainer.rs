@@ -7,10 +7,6 @@
 //!
 //! [`Objective`] says what is learned: the optimum of one task ([`TaskObjective`]), or what is to be
 //! added to skills that are composed. The trainer knows nothing of either.
-//!
-//! An n-step return is of the actions that were taken, for q they were perhaps not taken for. It is
-//! therefore biased towards what was done in the automaton state of the time; n = 1 has no such bias and
-//! mostly learns slower.
 
 use rand::Rng;
 use std::string::ToString;
@@ -20,10 +16,11 @@ use super::layers::Optimiser;
 use super::model::{Batch, Model, Target};
 use super::popart::PopArt;
 use super::replay::Replay;
+use super::sample::{Drawing, Heads, Sample};
 use super::settings::Settings;
 use super::{Error, Relabel};
 use crate::augmented::Moves;
-use crate::env::{Step, unit};
+use crate::env::Step;
 use crate::learn::Updates;
 use crate::learn::episode::Move;
 use crate::monitor::{Acceptor, Monitor};
@@ -35,31 +32,6 @@ use crate::task;
 /// Added to every error before it becomes a priority, so that no step is forgotten. Errors are of
 /// normalised values, whose size is 1; a thousandth is well below what learning leaves.
 const LEAST_ERROR: f64 = 1e-3;
-
-/// The heads of a network: one for each automaton state in which the task goes on.
-///
-/// Decided states have none: nothing can be had there, and their value is 0.
-#[derive(Clone, Debug)]
-pub(super) struct Heads {
-    /// The automaton state of each head.
-    pub states: Vec<u32>,
-    /// The head of each automaton state.
-    of: Vec<Option<usize>>,
-}
-
-impl Heads {
-    pub(super) fn new(moves: &Moves, automaton_states: u32) -> Self {
-        let states: Vec<u32> = moves.ends().live().collect();
-        let mut of = std::vec![None; automaton_states as usize];
-        states.iter().enumerate().for_each(|(head, &q)| of[q as usize] = Some(head));
-        Self { states, of }
-    }
-
-    /// The head of `q`; none where the task is decided.
-    pub(super) fn of(&self, q: u32) -> Option<usize> {
-        self.of[q as usize]
-    }
-}
 
 /// `Ok` unless the reward pays for moves of the automaton, and one can be had again and again: then its
 /// optimum need not satisfy the task.
@@ -172,33 +144,6 @@ pub(super) fn bounds(most: &[f64], rewards: &Rewards, environment: (f64, f64)) -
     most.iter().map(|task| (least, (task + environment.1 * for_ever).max(least))).collect()
 }
 
-/// The n-step return of some replayed steps, up to the value after them.
-///
-/// Where the task or the episode ends within the steps, nothing follows and the discount is 0.
-struct Return {
-    /// The discounted rewards of the steps.
-    reward: f64,
-    /// What a value after them is worth now; 0 if there is none.
-    discount: f64,
-    /// The head after them, if the task goes on.
-    head: usize,
-}
-
-/// Replayed steps, ready to learn from.
-///
-/// Columns of one entry for each step that was drawn, in that order; `returns` has one for each step and
-/// head.
-struct Sample<S> {
-    places: Vec<usize>,
-    weights: Vec<f64>,
-    actions: Vec<u32>,
-    /// The head that each step was taken in.
-    taken: Vec<Option<usize>>,
-    before: Vec<S>,
-    after: Vec<S>,
-    returns: Vec<Return>,
-}
-
 /// A network, its target, and what moves them.
 ///
 /// `before` and `after` are buffers of features, kept so that an update allocates none.
@@ -276,9 +221,18 @@ impl Trainer {
         O: Objective<S>,
         R: Rng + ?Sized,
     {
-        let sample = self.sample(replay, goals, objective, settings, rng)?;
-        encode(&mut self.before, features, &sample.before)?;
-        encode(&mut self.after, features, &sample.after)?;
+        let how = Drawing {
+            batch: settings.batch(),
+            steps: settings.steps(),
+            relabelled: settings.relabelled(),
+            priority: settings.priority(),
+            beta: settings.importance().at(self.updates),
+            gamma: settings.rewards().gamma(),
+        };
+        let read = |q, step: &Step<S>| objective.read(q, step);
+        let sample = Sample::draw(replay, &self.heads, goals, &read, &how, rng)?;
+        self.before.encode(features, &sample.before).map_err(Error::Feature)?;
+        self.after.encode(features, &sample.after).map_err(Error::Feature)?;
         let wanted = self.targets(&sample, objective)?;
         let counts = self.counts(&sample, objective, settings);
         self.normalise(&wanted, &counts);
@@ -297,86 +251,13 @@ impl Trainer {
         Ok(f64::from(loss))
     }
 
-    /// Weights are probability^-β over the largest of the batch (Schaul et al. 2016), so that they only
-    /// shorten steps.
-    fn sample<S, G, O, R>(
-        &self,
-        replay: &Replay<S>,
-        goals: &G,
-        objective: &O,
-        settings: &Settings,
-        rng: &mut R,
-    ) -> Result<Sample<S>, Error>
-    where
-        S: Clone,
-        G: Relabel<S>,
-        O: Objective<S>,
-        R: Rng + ?Sized,
-    {
-        let mut sample = Sample {
-            places: Vec::new(),
-            weights: Vec::new(),
-            actions: Vec::new(),
-            taken: Vec::new(),
-            before: Vec::new(),
-            after: Vec::new(),
-            returns: Vec::new(),
-        };
-        let beta = settings.importance().at(self.updates);
-        let gamma = settings.rewards().gamma();
-        for _ in 0..settings.batch() {
-            let uniform = settings.priority() == 0.0;
-            let (place, probability) =
-                if uniform { (replay.draw_uniformly(rng), 1.0) } else { replay.draw(rng) };
-            let mut steps = relabelled(replay, place, goals, settings, rng);
-            for &q in &self.heads.states {
-                sample.returns.push(self.return_of(q, &steps[1..], objective, gamma)?);
-            }
-            let moment = replay.moment(place);
-            sample.places.push(place);
-            sample.weights.push(probability.powf(-beta));
-            sample.actions.push(moment.action);
-            sample.taken.push(self.heads.of(moment.q));
-            sample.after.push(steps.pop().expect("a step has two states").state);
-            sample.before.push(steps.swap_remove(0).state);
-        }
-        let largest = sample.weights.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
-        sample.weights.iter_mut().for_each(|w| *w /= largest);
-        Ok(sample)
-    }
-
-    /// The return of some steps to the automaton state `q`.
-    fn return_of<S, O: Objective<S>>(
-        &self,
-        mut q: u32,
-        steps: &[Step<S>],
-        objective: &O,
-        gamma: f64,
-    ) -> Result<Return, Error> {
-        let mut found = Return { reward: 0.0, discount: 1.0, head: 0 };
-        for step in steps {
-            let Move { to, reward, .. } = objective.read(q, step)?;
-            found.reward += found.discount * reward;
-            found.discount *= gamma;
-            q = to;
-            match self.heads.of(q) {
-                Some(head) if !step.terminated => found.head = head,
-                _ => {
-                    found.discount = 0.0;
-                    break;
-                }
-            }
-        }
-        Ok(found)
-    }
-
     /// What the network should say of each step, indexed `row * heads + head`.
     ///
     /// With base and network B and f, and Q = B + f, the target of Q is
     /// `r + γ Q(s', π(s')) + α (Q(s, a) − Q(s, π(s)))`; π is greedy for Q, or, if it is evaluated, for B.
     fn targets<S, O: Objective<S>>(
         &self,
-        sample: &Sample<S>,
+        sample: &Sample<S, u32>,
         objective: &O,
     ) -> Result<Vec<f64>, Error> {
         let (heads, actions) = (self.heads.states.len(), self.model.shape().actions);
@@ -419,7 +300,7 @@ impl Trainer {
     /// Which targets are learned, indexed `row * heads + head`.
     fn counts<S, O: Objective<S>>(
         &self,
-        sample: &Sample<S>,
+        sample: &Sample<S, u32>,
         objective: &O,
         settings: &Settings,
     ) -> Vec<bool> {
@@ -447,7 +328,7 @@ impl Trainer {
     }
 
     /// The targets, normalised, each with the weight of its step, or 0 where it is not learned.
-    fn weighted<S>(&self, sample: &Sample<S>, wanted: &[f64], counts: &[bool]) -> Vec<Target> {
+    fn weighted<S>(&self, sample: &Sample<S, u32>, wanted: &[f64], counts: &[bool]) -> Vec<Target> {
         let heads = self.heads.states.len();
         let targets = wanted.iter().zip(counts).enumerate().map(|(i, (wanted, counts))| {
             let (mean, deviation) = self.popart.scale(i % heads);
@@ -462,7 +343,7 @@ impl Trainer {
     fn prioritise<S>(
         &self,
         replay: &mut Replay<S>,
-        sample: &Sample<S>,
+        sample: &Sample<S, u32>,
         targets: &[Target],
         values: &[f32],
         settings: &Settings,
@@ -481,38 +362,6 @@ impl Trainer {
             replay.prioritise(place, (error + LEAST_ERROR).powf(settings.priority()));
         }
     }
-}
-
-/// A step or several, with one goal; the first one leads to the state before them.
-///
-/// All of them get one goal, chosen from what is known in the first state.
-fn relabelled<S: Clone, G: Relabel<S>, R: Rng + ?Sized>(
-    replay: &Replay<S>,
-    place: usize,
-    goals: &G,
-    settings: &Settings,
-    rng: &mut R,
-) -> Vec<Step<S>> {
-    let ahead = replay.steps_from(place);
-    let count = settings.steps().clamp(1, ahead);
-    let moment = |i| replay.moment(replay.after(place, i));
-    let relabel = settings.relabelled() > 0.0 && unit(rng) < settings.relabelled();
-    let goal = relabel.then(|| goals.choose(&moment(0).state, rng)).flatten();
-    let given = |state: &S| match &goal {
-        Some(goal) => goals.give(state, goal),
-        None => state.clone(),
-    };
-    let first = Step::to(given(&moment(0).state));
-    let later = (0..count).map(|i| {
-        let (reward, terminated) = (moment(i).reward, moment(i).terminated);
-        Step { reward, terminated, ..Step::to(given(&moment(i + 1).state)) }
-    });
-    core::iter::once(first).chain(later).collect()
-}
-
-fn encode<S, F: Features<S>>(batch: &mut Batch, features: &F, states: &[S]) -> Result<(), Error> {
-    batch.clear();
-    states.iter().try_for_each(|s| batch.push(features, s).map_err(Error::Feature))
 }
 
 /// Two tables of values, entry by entry.

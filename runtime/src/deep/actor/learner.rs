@@ -1,0 +1,503 @@
+//! The learner: acts with noise, remembers, learns.
+
+use burn::tensor::Device;
+use rand::rngs::Xoshiro256PlusPlus;
+use rand::{Rng, SeedableRng};
+use serde::{Deserialize, Serialize};
+use std::string::String;
+use std::vec::Vec;
+
+use super::Settings;
+use super::trainer::{self, SavedNetwork, Trained, Trainer, normal, shapes};
+use crate::augmented::Moves;
+use crate::deep::model::Batch;
+use crate::deep::replay::Replay;
+use crate::deep::sample::Heads;
+use crate::deep::trainer::{bounds, check_reward};
+use crate::deep::{Error, Relabel, Skill};
+use crate::env::{ContinuousEnv, Step, unit};
+use crate::episode::{self, Agent, Elapsed, Monitored, Move, Transition};
+use crate::mismatch::Mismatch;
+use crate::monitor::{Acceptor, Monitor};
+use crate::network::Features;
+use crate::network::policy::NetworkTraining;
+use crate::task;
+
+/// An actor-critic learner of one skill.
+///
+/// [The module](super) has an example. To watch or save it, train in slices; each call runs whole
+/// episodes.
+pub struct Learner<S, M, F, G> {
+    skill: Skill<M, F, G>,
+    moves: Moves,
+    core: Core<S>,
+    rng: Xoshiro256PlusPlus,
+    elapsed: Elapsed,
+    seed: u64,
+}
+
+/// All that learning changes, but for the random generator.
+struct Core<S> {
+    settings: Settings,
+    /// The least and the largest value of each component of an action, in the world's units.
+    bounds: Vec<(f32, f32)>,
+    /// What the components are called.
+    names: Vec<String>,
+    /// For each automaton state the most that its task pays from there on.
+    most: Vec<f64>,
+    /// The least and the largest that the environment has paid, 0 included.
+    paid: (f64, f64),
+    trainer: Trainer,
+    replay: Replay<S, Vec<f32>>,
+    /// The noise of the last step, of deviation 1.
+    noise: Vec<f64>,
+    single: Batch,
+}
+
+impl<S, M: Monitor<S>, F, G> core::fmt::Debug for Learner<S, M, F, G> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_struct("Learner")
+            .field("task", &self.skill.task.name())
+            .field("bounds", &self.core.bounds)
+            .field("steps", &self.elapsed.steps)
+            .finish_non_exhaustive()
+    }
+}
+
+/// The learner while it plays.
+struct Playing<'a, S, M, F, G> {
+    skill: &'a Skill<M, F, G>,
+    moves: &'a Moves,
+    core: &'a mut Core<S>,
+    /// Environment steps, the one that is being taken included.
+    steps: u64,
+}
+
+/// An environment beside the task of a skill. Actions come within ±1.
+struct Beside<'a, E, M> {
+    env: &'a mut E,
+    bounds: &'a [(f32, f32)],
+    task: &'a M,
+    moves: &'a Moves,
+}
+
+impl<S, E: ContinuousEnv<State = S>, M: Monitor<S>> Monitored<Vec<f32>> for Beside<'_, E, M> {
+    type State = S;
+    type Error = task::Error;
+
+    fn reset<R: Rng + ?Sized>(&mut self, rng: &mut R) -> Result<S, task::Error> {
+        Ok(self.env.reset(rng))
+    }
+
+    fn step<R: Rng + ?Sized>(
+        &mut self,
+        action: Vec<f32>,
+        rng: &mut R,
+    ) -> Result<Step<S>, task::Error> {
+        Ok(self.env.step(&stretched(self.bounds, action), rng))
+    }
+
+    fn read(&self, q: u32, step: &Step<S>) -> Result<Move, task::Error> {
+        self.moves.read(self.task, q, step)
+    }
+}
+
+/// An action within ±1 in the units of the world.
+fn stretched(bounds: &[(f32, f32)], mut action: Vec<f32>) -> Vec<f32> {
+    for (a, &(low, high)) in action.iter_mut().zip(bounds) {
+        *a = (low + (high - low) * (0.5 * (*a + 1.0))).clamp(low, high);
+    }
+    action
+}
+
+/// The task of a skill, as an update asks it.
+struct Asked<'a, M> {
+    task: &'a M,
+    moves: &'a Moves,
+    /// For each automaton state the least and the most that can be had.
+    bounds: &'a [(f64, f64)],
+    /// The weight of the potential within automaton states.
+    weight: f64,
+    /// The robustness at which it is that weight.
+    full: f64,
+}
+
+impl<S, M: Monitor<S>> trainer::Task<S> for Asked<'_, M> {
+    fn read(&self, q: u32, step: &Step<S>) -> Result<Move, task::Error> {
+        self.moves.read(self.task, q, step)
+    }
+
+    fn potential(&self, q: u32, s: &S) -> Result<f64, task::Error> {
+        if self.weight == 0.0 {
+            return Ok(0.0);
+        }
+        let near = self.task.progress_robustness(q, s)? / self.full;
+        Ok(self.weight * near.clamp(-1.0, 1.0))
+    }
+
+    fn bounds(&self, q: u32) -> (f64, f64) {
+        let (least, most) = self.bounds[q as usize];
+        (least - self.weight, most + self.weight)
+    }
+}
+
+impl<S, M, F, G> Agent<Vec<f32>> for Playing<'_, S, M, F, G>
+where
+    S: Clone,
+    M: Monitor<S>,
+    F: Features<S>,
+    G: Relabel<S>,
+{
+    type State = S;
+    type Error = Error;
+
+    fn start(&mut self, s: &S) {
+        self.core.replay.start(s.clone());
+        self.core.noise.fill(0.0);
+    }
+
+    /// At random at first; then what the actor says, and noise.
+    fn act<R: Rng + ?Sized>(
+        &mut self,
+        q: u32,
+        s: &S,
+        steps: u64,
+        rng: &mut R,
+    ) -> Result<Vec<f32>, Error> {
+        self.steps = steps + 1;
+        let core = &mut *self.core;
+        if steps < core.settings.warmup() {
+            return Ok(core.bounds.iter().map(|_| 2.0 * unit(rng) as f32 - 1.0).collect());
+        }
+        let mut action = core.act(&self.skill.features, q, s)?;
+        let (kept, deviation) =
+            (core.settings.noise_correlation(), core.settings.noise().at(steps));
+        for (a, noise) in action.iter_mut().zip(&mut core.noise) {
+            *noise = kept * *noise + (1.0 - kept * kept).sqrt() * normal(rng);
+            *a = (*a + (deviation * *noise) as f32).clamp(-1.0, 1.0);
+        }
+        Ok(action)
+    }
+
+    /// Remembers the step, and makes an update if it is time for one.
+    fn learn<W: Monitored<Vec<f32>, State = S, Error: Into<Error>>, R: Rng + ?Sized>(
+        &mut self,
+        _: &W,
+        transition: &Transition<'_, S, Vec<f32>>,
+        rng: &mut R,
+    ) -> Result<(), Error> {
+        let (core, Transition { q, action, step, .. }) = (&mut *self.core, transition);
+        if !step.reward.is_finite() {
+            return Err(Error::Reward(self.steps));
+        }
+        let rewards = core.settings.rewards();
+        let paid = rewards.environment() * step.reward;
+        core.paid = (core.paid.0.min(paid), core.paid.1.max(paid));
+        core.replay.push(*q, action.clone(), Step { state: step.state.clone(), ..**step });
+        let (warmup, between) = (core.settings.warmup(), core.settings.steps_per_update());
+        if self.steps < warmup || !self.steps.is_multiple_of(between) {
+            return Ok(());
+        }
+        let Skill { task, features, goals } = self.skill;
+        let bounds = bounds(&core.most, &rewards, core.paid);
+        let (weight, full) = (core.settings.robustness(), rewards.bound());
+        let asked = Asked { task, moves: self.moves, bounds: &bounds, weight, full };
+        core.trainer.update(&core.replay, (features, goals), &asked, &core.settings, rng)?;
+        Ok(())
+    }
+}
+
+impl<S> Core<S> {
+    /// The features of a state, as a batch of one.
+    fn look(&mut self, features: &impl Features<S>, s: &S) -> Result<(), Error> {
+        self.single.clear();
+        self.single.push(features, s).map_err(Error::Feature)
+    }
+
+    /// The actor's action, within ±1; zeros where the task is decided.
+    fn act(&mut self, features: &impl Features<S>, q: u32, s: &S) -> Result<Vec<f32>, Error> {
+        let m = self.bounds.len();
+        let Some(head) = self.trainer.heads.of(q) else {
+            return Ok(std::vec![0.0; m]);
+        };
+        self.look(features, s)?;
+        let actions = Trainer::actions(&self.trainer.actor.layers, &self.single);
+        Ok(actions[head * m..][..m].to_vec())
+    }
+}
+
+impl<S, M, F, G> Learner<S, M, F, G>
+where
+    S: Clone,
+    M: Monitor<S>,
+    F: Features<S>,
+    G: Relabel<S>,
+{
+    /// A learner of `skill` in a world with the actions of `env`, on `device`; all that is random
+    /// comes from `seed`.
+    ///
+    /// # Panics
+    /// If no state of the task's automaton is live, the features are of entities too, or the world has no
+    /// component of an action, or a bound that is not finite or not above the other.
+    #[track_caller]
+    pub fn new(
+        skill: Skill<M, F, G>,
+        env: &impl ContinuousEnv<State = S>,
+        settings: Settings,
+        device: &Device,
+        seed: u64,
+    ) -> Self {
+        let moves = Moves::new(&skill.task, settings.rewards());
+        let heads = Heads::new(&moves, skill.task.states());
+        assert!(!heads.states.is_empty(), "a task that is not decided from the start");
+        assert_eq!(skill.features.entities(), 0, "an actor points at no entities");
+        let bounds = checked_bounds(env);
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
+        let inputs = skill.features.inputs();
+        let shapes = shapes(inputs, bounds.len(), heads.states.len(), &settings);
+        let trainer = Trainer::new(shapes, settings.critics(), heads, device, &mut rng);
+        let core = Core {
+            trainer,
+            replay: Replay::new(settings.capacity()),
+            most: moves.most(&skill.task),
+            paid: (0.0, 0.0),
+            settings,
+            names: names(env),
+            noise: std::vec![0.0; bounds.len()],
+            bounds,
+            single: Batch::default(),
+        };
+        Self { skill, moves, core, rng, elapsed: Elapsed::default(), seed }
+    }
+
+    /// Runs whole episodes until `total` environment steps have been taken since the beginning;
+    /// the last episode may exceed it. Gives up early if 100,000 episodes in a row are over at
+    /// their very first state.
+    ///
+    /// # Errors
+    /// If the environment has other actions, the reward pays for moves and the automaton has a way back
+    /// ([`Error::WayBack`]), or a predicate, a feature, a reward or the loss is not a finite number.
+    pub fn train<E: ContinuousEnv<State = S>>(
+        &mut self,
+        env: &mut E,
+        total: u64,
+    ) -> Result<(), Error> {
+        check_same_bounds(env, &self.core.bounds)?;
+        check_reward(&self.skill.task, &self.core.settings.rewards())?;
+        let Self { skill, moves, core, rng, elapsed, .. } = self;
+        let (horizon, bounds) = (core.settings.horizon(), core.bounds.clone());
+        let mut world = Beside { env, bounds: &bounds, task: &skill.task, moves };
+        let mut agent = Playing { skill, moves, core, steps: elapsed.steps };
+        episode::run(&mut world, &mut agent, elapsed, horizon, total, rng)
+    }
+
+    /// The actor's action in (s, q), in the units of the world; the middle where the task is decided.
+    ///
+    /// # Errors
+    /// If a feature is not a finite number.
+    pub fn act(&mut self, q: u32, s: &S) -> Result<Vec<f32>, Error> {
+        let action = self.core.act(&self.skill.features, q, s)?;
+        Ok(stretched(&self.core.bounds, action))
+    }
+
+    /// What the critics say of the actor's action in (s, q), the least of them; 0 where the task is
+    /// decided. With [`Settings::robustness`] it is less by the potential of s.
+    ///
+    /// # Errors
+    /// If a feature is not a finite number.
+    pub fn value(&mut self, q: u32, s: &S) -> Result<f32, Error> {
+        let Some(head) = self.core.trainer.heads.of(q) else {
+            return Ok(0.0);
+        };
+        let action = self.core.act(&self.skill.features, q, s)?;
+        Ok(self.core.trainer.value(head, &self.core.single, &action))
+    }
+
+    /// How the actor was learned so far, as policies say it.
+    pub fn training(&self) -> NetworkTraining {
+        NetworkTraining {
+            task: self.skill.task.name().into(),
+            steps: self.steps(),
+            episodes: self.episodes(),
+            updates: self.updates(),
+            gamma: self.core.settings.rewards().gamma(),
+            seed: self.seed,
+        }
+    }
+
+    /// The skill.
+    pub const fn skill(&self) -> &Skill<M, F, G> {
+        &self.skill
+    }
+
+    /// The settings.
+    pub const fn settings(&self) -> &Settings {
+        &self.core.settings
+    }
+
+    /// What was seen; actions within ±1.
+    pub const fn replay(&self) -> &Replay<S, Vec<f32>> {
+        &self.core.replay
+    }
+
+    /// Environment steps so far.
+    pub const fn steps(&self) -> u64 {
+        self.elapsed.steps
+    }
+
+    /// Episodes so far.
+    pub const fn episodes(&self) -> u64 {
+        self.elapsed.episodes
+    }
+
+    /// Updates of the critics so far.
+    pub const fn updates(&self) -> u64 {
+        self.core.trainer.updates
+    }
+
+    /// All that learning has changed, to be saved.
+    ///
+    /// ```
+    /// use tltl::deep::actor::{Checkpoint, Learner, Settings};
+    /// use tltl::deep::{Device, Skill};
+    /// use tltl::env::{ContinuousEnv, Step};
+    /// use tltl::network::Features;
+    /// use tltl::rand::Rng;
+    /// use tltl::tltl;
+    /// # #[derive(Clone)]
+    /// # struct Cart(f32);
+    /// # impl ContinuousEnv for Cart {
+    /// #     type State = f32;
+    /// #     fn bounds(&self) -> Vec<(f32, f32)> { vec![(-0.2, 0.2)] }
+    /// #     fn reset<R: Rng + ?Sized>(&mut self, _: &mut R) -> f32 { self.0 = 0.0; 0.0 }
+    /// #     fn step<R: Rng + ?Sized>(&mut self, action: &[f32], _: &mut R) -> Step<f32> {
+    /// #         self.0 = (self.0 + action[0]).clamp(-1.0, 1.0);
+    /// #         Step::to(self.0)
+    /// #     }
+    /// # }
+    /// # #[derive(Clone, Copy)]
+    /// # struct Place;
+    /// # impl Features<f32> for Place {
+    /// #     fn inputs(&self) -> usize { 1 }
+    /// #     fn write(&self, s: &f32, inputs: &mut [f32], _: &mut [f32]) { inputs[0] = *s; }
+    /// # }
+    ///
+    /// let (mut cart, device) = (Cart(0.0), Device::flex());
+    /// let end = tltl! { |x: &f32| F { *x } > 0.8 };
+    /// let settings = Settings::default().with_hidden([8])?.with_batch(8)?.with_warmup(50)?;
+    /// let mut learner = Learner::new(Skill::new(&end, Place), &cart, settings, &device, 1);
+    /// learner.train(&mut cart, 100)?;
+    /// let text = serde_json::to_string(&learner.checkpoint())?;
+    /// let saved: Checkpoint<f32> = serde_json::from_str(&text)?;
+    /// let mut resumed = Learner::resume(Skill::new(&end, Place), &cart, saved, &device)?;
+    /// learner.train(&mut cart.clone(), 200)?;
+    /// resumed.train(&mut cart, 200)?;
+    /// assert_eq!(learner.checkpoint(), resumed.checkpoint());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn checkpoint(&self) -> Checkpoint<S> {
+        let Trainer { actor, critics, updates, .. } = &self.core.trainer;
+        Checkpoint {
+            task: self.skill.task.name().into(),
+            formula: self.skill.task.formula().text().into(),
+            settings: self.core.settings.clone(),
+            bounds: self.core.bounds.clone(),
+            actor: actor.saved(),
+            critics: critics.iter().map(Trained::saved).collect(),
+            updates: *updates,
+            paid: self.core.paid,
+            noise: self.core.noise.clone(),
+            replay: self.core.replay.clone(),
+            rng: self.rng.clone(),
+            done: self.elapsed,
+            seed: self.seed,
+        }
+    }
+
+    /// A learner of `skill` in the world of `env` that goes on as the one would have that the
+    /// checkpoint is of: between episodes, on the same kind of device, with the same numbers.
+    ///
+    /// # Errors
+    /// If the checkpoint is of another task or world, or of networks of another shape.
+    pub fn resume(
+        skill: Skill<M, F, G>,
+        env: &impl ContinuousEnv<State = S>,
+        checkpoint: Checkpoint<S>,
+        device: &Device,
+    ) -> Result<Self, Mismatch> {
+        let Checkpoint { settings, bounds, .. } = &checkpoint;
+        check_same_bounds(env, bounds)?;
+        let moves = Moves::new(&skill.task, settings.rewards());
+        let heads = Heads::new(&moves, skill.task.states());
+        let (inputs, m) = (skill.features.inputs(), bounds.len());
+        let [actor, critic] = shapes(inputs, m, heads.states.len(), settings);
+        let same = checkpoint.formula == skill.task.formula().text()
+            && checkpoint.critics.len() == settings.critics()
+            && checkpoint.noise.len() == m;
+        let critics: Option<Vec<_>> =
+            checkpoint.critics.iter().map(|net| Trained::resume(net, &critic, device)).collect();
+        let (true, Some(actor), Some(critics)) =
+            (same, Trained::resume(&checkpoint.actor, &actor, device), critics)
+        else {
+            let describe = |task: &str| std::format!("`{task}` with networks of its features");
+            let (found, own) = (describe(&checkpoint.task), describe(skill.task.name()));
+            return Err(Mismatch::new("a checkpoint", found, own));
+        };
+        let core = Core {
+            trainer: Trainer::of(heads, m, actor, critics, checkpoint.updates),
+            replay: checkpoint.replay,
+            most: moves.most(&skill.task),
+            paid: checkpoint.paid,
+            settings: checkpoint.settings,
+            names: names(env),
+            noise: checkpoint.noise,
+            bounds: checkpoint.bounds,
+            single: Batch::default(),
+        };
+        let (rng, elapsed, seed) = (checkpoint.rng, checkpoint.done, checkpoint.seed);
+        Ok(Self { skill, moves, core, rng, elapsed, seed })
+    }
+}
+
+/// All that learning changes, and which task it was for; see [`Learner::checkpoint`].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Checkpoint<S> {
+    task: String,
+    formula: String,
+    settings: Settings,
+    bounds: Vec<(f32, f32)>,
+    actor: SavedNetwork,
+    critics: Vec<SavedNetwork>,
+    updates: u64,
+    paid: (f64, f64),
+    noise: Vec<f64>,
+    replay: Replay<S, Vec<f32>>,
+    rng: Xoshiro256PlusPlus,
+    done: Elapsed,
+    seed: u64,
+}
+
+/// What the components of an action are called.
+fn names(env: &impl ContinuousEnv) -> Vec<String> {
+    (0..env.bounds().len()).map(|i| env.component_name(i)).collect()
+}
+
+/// The bounds of a world's actions.
+#[track_caller]
+fn checked_bounds(env: &impl ContinuousEnv) -> Vec<(f32, f32)> {
+    let bounds = env.bounds();
+    let sound = |&(low, high): &(f32, f32)| low < high && (high - low).is_finite();
+    assert!(!bounds.is_empty() && bounds.iter().all(sound), "actions with finite bounds");
+    bounds
+}
+
+/// `Ok` if the actions of the world have these bounds.
+fn check_same_bounds(env: &impl ContinuousEnv, expected: &[(f32, f32)]) -> Result<(), Mismatch> {
+    let found = env.bounds();
+    if found == expected {
+        return Ok(());
+    }
+    let describe = |bounds: &[(f32, f32)]| std::format!("a world with actions within {bounds:?}");
+    Err(Mismatch::new("an environment", describe(&found), describe(expected)))
+}

@@ -1,0 +1,145 @@
+//! Gradients of actor and critics against finite differences.
+
+use std::vec::Vec;
+
+use burn::tensor::Device;
+use rand::SeedableRng;
+use rand::rngs::Xoshiro256PlusPlus;
+
+use super::Settings;
+use super::trainer::{Trained, Trainer, joined, shapes};
+use crate::augmented::Moves;
+use crate::deep::layers::{Gradient, Layers, numbers};
+use crate::deep::model::Batch;
+use crate::deep::sample::Heads;
+use crate::env::unit;
+use crate::monitor::Acceptor;
+use crate::network::{Dense, Features};
+use crate::reward::Rewards;
+
+const INPUTS: usize = 3;
+const COMPONENTS: usize = 2;
+const HEADS: usize = 2;
+const ROWS: usize = 5;
+const STEP: f32 = 2e-3;
+
+/// An automaton that moves on twice.
+struct Twice;
+
+impl Acceptor for Twice {
+    fn states(&self) -> u32 {
+        3
+    }
+
+    fn is_accepting(&self, q: u32) -> bool {
+        q == 2
+    }
+
+    fn is_trap(&self, _: u32) -> bool {
+        false
+    }
+
+    fn distance(&self, q: u32) -> Option<u32> {
+        Some(2 - q)
+    }
+
+    fn successors(&self, q: u32, visit: &mut dyn FnMut(u32)) {
+        (q..=(q + 1).min(2)).for_each(visit);
+    }
+}
+
+struct Given;
+
+impl Features<[f32; INPUTS]> for Given {
+    fn inputs(&self) -> usize {
+        INPUTS
+    }
+
+    fn write(&self, s: &[f32; INPUTS], inputs: &mut [f32], _: &mut [f32]) {
+        inputs.copy_from_slice(s);
+    }
+}
+
+/// A random actor and critic with some random states.
+fn case() -> (Trainer, Xoshiro256PlusPlus) {
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);
+    let heads = Heads::new(&Moves::new(&Twice, Rewards::default()), Twice.states());
+    let settings = Settings::default().with_hidden([7, 6]).unwrap();
+    let shapes = shapes(INPUTS, COMPONENTS, HEADS, &settings);
+    let mut trainer = Trainer::new(shapes, 1, heads, &Device::flex(), &mut rng);
+    let states: Vec<[f32; INPUTS]> =
+        (0..ROWS).map(|_| [(); INPUTS].map(|()| 2.0 * unit(&mut rng) as f32 - 1.0)).collect();
+    trainer.before.encode(&Given, &states).unwrap();
+    // Heads begin with small weights, whose gradients could not be told from noise.
+    let mut layers = trainer.critics[0].layers.dense();
+    layers[2].weights.iter_mut().for_each(|w| *w *= 10.0);
+    trainer.critics[0].layers = Layers::of(&layers, &Device::flex());
+    (trainer, rng)
+}
+
+/// Compares each gradient with the difference that a change of its weight makes in `loss`.
+fn agree(layers: &[Dense], gradients: Vec<Gradient>, loss: impl Fn(Layers) -> f64) {
+    for (layer, (weights, bias)) in gradients.into_iter().enumerate() {
+        let moved = |change: &dyn Fn(&mut Dense, f32)| {
+            let [up, down] = [STEP, -STEP].map(|step| {
+                let mut layers = layers.to_vec();
+                change(&mut layers[layer], step);
+                loss(Layers::of(&layers, &Device::flex()))
+            });
+            (up - down) / f64::from(2.0 * STEP)
+        };
+        let check = |exact: f32, difference: f64| {
+            assert!((f64::from(exact) - difference).abs() < 2e-3, "{exact} {difference}");
+        };
+        for (i, &exact) in numbers(weights).iter().enumerate() {
+            check(exact, moved(&|dense, step| dense.weights[i] += step));
+        }
+        for (i, &exact) in bias.into_data().try_to_vec().unwrap().iter().enumerate() {
+            check(exact, moved(&|dense, step| dense.bias[i] += step));
+        }
+    }
+}
+
+#[test]
+fn the_gradient_of_a_critic_agrees_with_finite_differences() {
+    let (trainer, mut rng) = case();
+    let device = Device::flex();
+    let actions: Vec<_> =
+        (0..ROWS).map(|_| [(); COMPONENTS].map(|()| unit(&mut rng) as f32)).collect();
+    let rows = || actions.iter().map(|action| &action[..]).enumerate();
+    let targets: Vec<f32> = (0..ROWS * HEADS).map(|_| unit(&mut rng) as f32).collect();
+    let counts: Vec<bool> = (0..ROWS * HEADS).map(|i| i % 3 > 0).collect();
+    let found = |critic: &Trained| {
+        let inputs = joined(&trainer.before, rows(), COMPONENTS, &device);
+        critic.gradients(inputs, &targets, &counts)
+    };
+    let critic = &trainer.critics[0];
+    agree(&critic.layers.dense(), found(critic).1, |layers| {
+        let mut critic = Trained::resume(&critic.saved(), &critic_shape(), &device).unwrap();
+        critic.layers = layers;
+        f64::from(found(&critic).0)
+    });
+}
+
+fn critic_shape() -> crate::network::Shape {
+    let settings = Settings::default().with_hidden([7, 6]).unwrap();
+    let [_, critic] = shapes(INPUTS, COMPONENTS, HEADS, &settings);
+    critic
+}
+
+#[test]
+fn the_gradient_of_the_actor_agrees_with_finite_differences() {
+    let (trainer, _) = case();
+    let device = Device::flex();
+    let counts: Vec<bool> = (0..ROWS * HEADS).map(|i| i % 3 > 0).collect();
+    // Minus the mean value of the actor's actions, of the heads that count.
+    let regret = |actor: Layers| {
+        let actions = Trainer::actions(&actor, &trainer.before);
+        let rows = actions.chunks(COMPONENTS).enumerate().map(|(i, action)| (i / HEADS, action));
+        let inputs = joined(&trainer.before, rows, COMPONENTS, &device);
+        let values = numbers(trainer.critics[0].layers.pass(inputs).out);
+        let own = values.chunks(HEADS).enumerate().map(|(i, row)| f64::from(row[i % HEADS]));
+        -own.zip(&counts).filter(|(_, counts)| **counts).map(|(v, _)| v).sum::<f64>() / ROWS as f64
+    };
+    agree(&trainer.actor.layers.dense(), trainer.ascent(&counts), regret);
+}

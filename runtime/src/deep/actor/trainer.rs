@@ -1,0 +1,361 @@
+//! One update of an actor and its critics from replayed steps.
+//!
+//! The critics are drawn towards what a step pays and what the target networks say comes after it, at
+//! *every* live automaton state: the action of a step is the same for all, so one pass of a critic has
+//! the values of all heads. The actor follows the gradient of the first critic's values in its actions
+//! (Silver et al. 2014), each head under the value of its own automaton state.
+//!
+//! Actions here are within ±1: tanh of what the actor puts out.
+
+use burn::tensor::{Device, Tensor, TensorData};
+use rand::Rng;
+use std::vec::Vec;
+
+use super::Settings;
+use crate::deep::layers::{AdamMoments, Gradient, Layers, Optimiser, numbers};
+use crate::deep::model::Batch;
+use crate::deep::replay::Replay;
+use crate::deep::sample::{Drawing, Heads, Sample};
+use crate::deep::{Error, Relabel};
+use crate::env::{Step, unit};
+use crate::episode::Move;
+use crate::learn::Updates;
+use crate::network::{Activation, Dense, Features, Network, Shape};
+use crate::task;
+
+/// What an update asks of the task.
+pub(super) trait Task<S> {
+    /// What a step does at `q`, and what it pays there.
+    fn read(&self, q: u32, step: &Step<S>) -> Result<Move, task::Error>;
+
+    /// The potential of a state of the world within `q`.
+    fn potential(&self, q: u32, s: &S) -> Result<f64, task::Error>;
+
+    /// The least and the most that can be had from an automaton state on.
+    fn bounds(&self, q: u32) -> (f64, f64);
+}
+
+/// A network, the slow copy that targets are computed with, and what moves it.
+pub(super) struct Trained {
+    pub layers: Layers,
+    pub target: Layers,
+    pub descent: Optimiser,
+}
+
+impl Trained {
+    fn new(network: &Network, device: &Device) -> Self {
+        let layers = Layers::of(network.layers(), device);
+        let descent = Optimiser::new(network.layers().len());
+        Self { target: layers.clone(), layers, descent }
+    }
+
+    pub(super) fn resume(saved: &SavedNetwork, shape: &Shape, device: &Device) -> Option<Self> {
+        let fit = |layers: &[Dense]| Network::new(shape.clone(), layers.to_vec()).is_ok();
+        let moments = saved.moments.as_ref();
+        let fits = fit(&saved.network)
+            && fit(&saved.target)
+            && moments.is_none_or(|moments| moments.fit(&saved.network));
+        fits.then(|| Self {
+            layers: Layers::of(&saved.network, device),
+            target: Layers::of(&saved.target, device),
+            descent: match moments {
+                Some(moments) => Optimiser::resume(moments, device),
+                None => Optimiser::new(saved.network.len()),
+            },
+        })
+    }
+
+    pub(super) fn saved(&self) -> SavedNetwork {
+        SavedNetwork {
+            network: self.layers.dense(),
+            target: self.target.dense(),
+            moments: self.descent.moments(),
+        }
+    }
+}
+
+/// A network as it is saved while it learns.
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SavedNetwork {
+    network: Vec<Dense>,
+    target: Vec<Dense>,
+    moments: Option<AdamMoments>,
+}
+
+/// An actor and its critics.
+///
+/// `before` and `after` are buffers of features, kept so that an update allocates none.
+pub(super) struct Trainer {
+    pub heads: Heads,
+    /// The components of an action.
+    pub components: usize,
+    pub actor: Trained,
+    pub critics: Vec<Trained>,
+    pub updates: u64,
+    pub before: Batch,
+    after: Batch,
+}
+
+/// The sizes of the actor and of a critic: features, then for each head a number for each component; and
+/// features and components, then a value for each head.
+pub(super) fn shapes(
+    inputs: usize,
+    components: usize,
+    heads: usize,
+    settings: &Settings,
+) -> [Shape; 2] {
+    let hidden = settings.hidden().to_vec();
+    let actor = Shape { inputs, hidden, heads, actions: components, entities: 0, channels: 0 };
+    [actor.clone(), Shape { inputs: inputs + components, actions: 1, ..actor }]
+}
+
+impl Trainer {
+    pub(super) fn new<R: Rng + ?Sized>(
+        [actor, critic]: [Shape; 2],
+        critics: usize,
+        heads: Heads,
+        device: &Device,
+        rng: &mut R,
+    ) -> Self {
+        let components = actor.actions;
+        let mut random = |shape: &Shape| Trained::new(&Network::random(shape.clone(), rng), device);
+        let (actor, critics) = (random(&actor), (0..critics).map(|_| random(&critic)).collect());
+        Self::of(heads, components, actor, critics, 0)
+    }
+
+    pub(super) fn of(
+        heads: Heads,
+        components: usize,
+        actor: Trained,
+        critics: Vec<Trained>,
+        updates: u64,
+    ) -> Self {
+        let (before, after) = (Batch::default(), Batch::default());
+        Self { heads, components, actor, critics, updates, before, after }
+    }
+
+    /// The actor's actions of all heads, indexed `(row * heads + head) * components + component`.
+    pub(super) fn actions(actor: &Layers, batch: &Batch) -> Vec<f32> {
+        squashed(actor.pass(batch.tensor(&actor.device())).out)
+    }
+
+    /// The least of the critics' values of an action in one state.
+    pub(super) fn value(&self, head: usize, state: &Batch, action: &[f32]) -> f32 {
+        let critics = self.critics.iter().map(|critic| {
+            let inputs = joined(state, [(0, action)], self.components, &critic.layers.device());
+            numbers(critic.layers.pass(inputs).out)[head]
+        });
+        critics.fold(f32::INFINITY, f32::min)
+    }
+
+    /// Learns from one batch of steps; the mean loss of the critics.
+    ///
+    /// On an error nothing has been learned from the batch.
+    pub(super) fn update<S, F, G, R>(
+        &mut self,
+        replay: &Replay<S, Vec<f32>>,
+        (features, goals): (&F, &G),
+        task: &impl Task<S>,
+        settings: &Settings,
+        rng: &mut R,
+    ) -> Result<f64, Error>
+    where
+        S: Clone,
+        F: Features<S>,
+        G: Relabel<S>,
+        R: Rng + ?Sized,
+    {
+        let how = Drawing {
+            batch: settings.batch(),
+            steps: settings.steps(),
+            relabelled: settings.relabelled(),
+            priority: 0.0,
+            beta: 0.0,
+            gamma: settings.rewards().gamma(),
+        };
+        let read = |q, step: &Step<S>| task.read(q, step);
+        let sample = Sample::draw(replay, &self.heads, goals, &read, &how, rng)?;
+        self.before.encode(features, &sample.before).map_err(Error::Feature)?;
+        self.after.encode(features, &sample.after).map_err(Error::Feature)?;
+        let targets = self.targets(&sample, task, settings, rng)?;
+        let counts = self.counts(&sample, settings.updates());
+        let loss = self.teach_critics(&sample.actions, &targets, &counts, settings)?;
+        self.updates += 1;
+        if self.updates.is_multiple_of(settings.actor_delay()) {
+            self.teach_actor(&counts, settings);
+            let all = self.critics.iter_mut().chain([&mut self.actor]);
+            all.for_each(|net| net.target.follow(&net.layers, settings.target_rate()));
+        }
+        Ok(loss)
+    }
+
+    /// What the critics should say of each step, indexed `row * heads + head`.
+    fn targets<S, R: Rng + ?Sized>(
+        &self,
+        sample: &Sample<S, Vec<f32>>,
+        task: &impl Task<S>,
+        settings: &Settings,
+        rng: &mut R,
+    ) -> Result<Vec<f32>, Error> {
+        let (heads, m) = (self.heads.states.len(), self.components);
+        let mut actions = Self::actions(&self.actor.target, &self.after);
+        let (deviation, clip) = (settings.target_noise(), settings.target_noise_clip());
+        if deviation > 0.0 {
+            for a in &mut actions {
+                let noise = (deviation * normal(rng)).clamp(-clip, clip);
+                *a = (*a + noise as f32).clamp(-1.0, 1.0);
+            }
+        }
+        // A row for each return that something follows.
+        let follows =
+            || sample.returns.iter().enumerate().filter(|(_, found)| found.discount > 0.0);
+        let rows = follows().map(|(i, found)| {
+            let row = i / heads;
+            (row, &actions[(row * heads + found.head) * m..][..m])
+        });
+        let mut values = std::vec![f32::INFINITY; follows().count()];
+        let device = self.actor.layers.device();
+        if !values.is_empty() {
+            let inputs = joined(&self.after, rows, m, &device);
+            for critic in &self.critics {
+                let found = numbers(critic.target.pass(inputs.clone()).out);
+                let rows = values.iter_mut().zip(found.chunks(heads)).zip(follows());
+                rows.for_each(|((least, row), (_, next))| *least = least.min(row[next.head]));
+            }
+        }
+        let mut values = values.into_iter();
+        let targets = sample.returns.iter().enumerate().map(|(i, found)| {
+            let (row, q) = (i / heads, self.heads.states[i % heads]);
+            let mut wanted = found.reward - task.potential(q, &sample.before[row])?;
+            if found.discount > 0.0 {
+                let q = self.heads.states[found.head];
+                let (least, most) = task.bounds(q);
+                let value = f64::from(values.next().expect("a value for each"));
+                let potential = task.potential(q, &sample.after[row])?;
+                // No number stays none, so that the loss shows it.
+                let value = if value.is_nan() { value } else { value.clamp(least, most) };
+                wanted += found.discount * (value + potential);
+            }
+            Ok(wanted as f32)
+        });
+        targets.collect::<Result<_, task::Error>>().map_err(Error::from)
+    }
+
+    /// Which heads learn from which steps, indexed `row * heads + head`.
+    fn counts<S>(&self, sample: &Sample<S, Vec<f32>>, updates: Updates) -> Vec<bool> {
+        let (heads, all) = (self.heads.states.len(), updates == Updates::Counterfactual);
+        let of = |&taken: &Option<usize>| (0..heads).map(move |head| all || taken == Some(head));
+        sample.taken.iter().flat_map(of).collect()
+    }
+
+    /// Half the mean square error over the steps, summed over the heads.
+    fn teach_critics(
+        &mut self,
+        actions: &[Vec<f32>],
+        targets: &[f32],
+        counts: &[bool],
+        settings: &Settings,
+    ) -> Result<f64, Error> {
+        let rows = actions.iter().map(Vec::as_slice).enumerate();
+        let inputs = joined(&self.before, rows, self.components, &self.actor.layers.device());
+        let mut found = Vec::new();
+        for critic in &self.critics {
+            found.push(critic.gradients(inputs.clone(), targets, counts));
+        }
+        let loss = found.iter().map(|(loss, _)| f64::from(*loss)).sum::<f64>() / found.len() as f64;
+        if !loss.is_finite() {
+            return Err(Error::Loss(self.updates));
+        }
+        let rate = settings.critic_rate().at(self.updates);
+        for (critic, (_, gradients)) in self.critics.iter_mut().zip(found) {
+            let Trained { layers, descent, .. } = critic;
+            descent.step(layers, gradients, rate, settings.gradient_norm());
+        }
+        Ok(loss)
+    }
+
+    /// Moves the actor towards actions that the first critic values more.
+    fn teach_actor(&mut self, counts: &[bool], settings: &Settings) {
+        let (gradients, rate) = (self.ascent(counts), settings.actor_rate().at(self.updates));
+        let Trained { layers, descent, .. } = &mut self.actor;
+        descent.step(layers, gradients, rate, settings.gradient_norm());
+    }
+
+    /// The gradient of minus the mean value of the actor's actions, summed over the heads.
+    pub(super) fn ascent(&self, counts: &[bool]) -> Vec<Gradient> {
+        let (heads, m) = (self.heads.states.len(), self.components);
+        let device = self.actor.layers.device();
+        let pass = self.actor.layers.pass(self.before.tensor(&device));
+        let actions = squashed(pass.out);
+        let rows = actions.chunks(m).enumerate().map(|(i, action)| (i / heads, action));
+        let critic = &self.critics[0].layers;
+        let through = critic.pass(joined(&self.before, rows, m, &device));
+        let share = 1.0 / self.before.len() as f32;
+        let mut slopes = std::vec![0.0; counts.len() * heads];
+        for (i, _) in counts.iter().enumerate().filter(|(_, counts)| **counts) {
+            slopes[i * heads + i % heads] = -share;
+        }
+        let slopes = matrix(slopes, heads, &device);
+        let first = through.inputs[0].dims()[1] - m;
+        let mut error = numbers(critic.back_to_inputs(&through.inputs, slopes, first));
+        error.iter_mut().zip(&actions).for_each(|(e, a)| *e *= 1.0 - a * a);
+        self.actor.layers.back(&pass.inputs, matrix(error, heads * m, &device))
+    }
+}
+
+impl Trained {
+    /// The loss of a critic, half the square of the errors that count, and its gradients.
+    pub(super) fn gradients(
+        &self,
+        inputs: Tensor<2>,
+        targets: &[f32],
+        counts: &[bool],
+    ) -> (f32, Vec<Gradient>) {
+        let [rows, _] = inputs.dims();
+        let pass = self.layers.pass(inputs);
+        let share = 1.0 / rows as f32;
+        let mut loss = 0.0;
+        let slope = |((value, target), counts): ((f32, &f32), &bool)| {
+            let error = if *counts { value - target } else { 0.0 };
+            loss += 0.5 * share * error * error;
+            share * error
+        };
+        let values = numbers(pass.out).into_iter().zip(targets).zip(counts);
+        let slopes: Vec<f32> = values.map(slope).collect();
+        let slopes = matrix(slopes, targets.len() / rows, &self.layers.device());
+        (loss, self.layers.back(&pass.inputs, slopes))
+    }
+}
+
+/// Rows of numbers as a tensor.
+fn matrix(numbers: Vec<f32>, width: usize, device: &Device) -> Tensor<2> {
+    let rows = numbers.len() / width;
+    Tensor::from_data(TensorData::new(numbers, [rows, width]), device)
+}
+
+/// tanh of all numbers, as policies have it where they run.
+fn squashed(out: Tensor<2>) -> Vec<f32> {
+    numbers(out).into_iter().map(|x| Activation::Tanh.of(x)).collect()
+}
+
+/// What a critic reads: the features of some rows of a batch, each with an action.
+pub(super) fn joined<'a>(
+    batch: &Batch,
+    rows: impl IntoIterator<Item = (usize, &'a [f32])>,
+    components: usize,
+    device: &Device,
+) -> Tensor<2> {
+    let mut inputs = Vec::new();
+    for (row, action) in rows {
+        inputs.extend_from_slice(batch.row(row));
+        inputs.extend_from_slice(action);
+    }
+    matrix(inputs, batch.row(0).len() + components, device)
+}
+
+/// A number with the normal distribution (Box and Muller 1958).
+pub(super) fn normal<R: Rng + ?Sized>(rng: &mut R) -> f64 {
+    let (u, angle) = (1.0 - unit(rng), core::f64::consts::TAU * unit(rng));
+    (-2.0 * u.ln()).sqrt() * angle.cos()
+}
