@@ -95,9 +95,17 @@ impl Folder {
     /// # Errors
     /// If it cannot be made.
     pub fn of_arguments(otherwise: &str) -> Result<Self, Box<dyn Error>> {
-        let folder = std::env::args_os().nth(1).unwrap_or(OsString::from(otherwise));
+        Self::at(std::env::args_os().nth(1).unwrap_or(OsString::from(otherwise)))
+    }
+
+    /// A folder, which is made if it is not there.
+    ///
+    /// # Errors
+    /// If it cannot be made.
+    pub fn at(folder: impl Into<PathBuf>) -> Result<Self, Box<dyn Error>> {
+        let folder = folder.into();
         std::fs::create_dir_all(&folder)?;
-        Ok(Self(folder.into()))
+        Ok(Self(folder))
     }
 
     /// Writes a file, and prints where it is.

@@ -7,10 +7,13 @@
 //! - Where somebody looks as the episodes come, and perhaps stops ([`estimate_until`], [`Tally`]), all
 //!   intervals are *anytime-valid*: they hold after every episode at once.
 //!
+//! [`estimate_continuous`] and [`play`] are for worlds whose [actions are vectors](crate::env::ContinuousEnv).
+//!
 //! Each interval has its confidence by itself. All are estimates under the horizon that was run: an
 //! episode that it cuts counts as not satisfied. Where the world has a model,
 //! [`Optimum::report`](crate::solve::Optimum::report) is exact, and reads the same.
 
+mod continuous;
 mod interval;
 mod special;
 mod tally;
@@ -30,6 +33,7 @@ use crate::monitor::Monitor;
 use crate::range::checked;
 use crate::reward::End;
 use crate::task::Error;
+pub use continuous::{Played, estimate_continuous, play};
 pub use interval::Interval;
 pub use tally::Tally;
 

@@ -18,9 +18,9 @@ use crate::deep::{Error, Relabel, Skill};
 use crate::env::{ContinuousEnv, Step, unit};
 use crate::episode::{self, Agent, Elapsed, Monitored, Move, Transition};
 use crate::mismatch::Mismatch;
-use crate::monitor::{Acceptor, Monitor};
-use crate::network::Features;
-use crate::network::policy::NetworkTraining;
+use crate::monitor::Monitor;
+use crate::network::policy::{NetworkPolicy, NetworkPolicyError, NetworkTraining};
+use crate::network::{Controls, Features, Form, Network, NetworkError, Squash};
 use crate::task;
 
 /// An actor-critic learner of one skill.
@@ -102,10 +102,10 @@ impl<S, E: ContinuousEnv<State = S>, M: Monitor<S>> Monitored<Vec<f32>> for Besi
     }
 }
 
-/// An action within ±1 in the units of the world.
+/// An action within ±1 in the units of the world, as policies have it.
 fn stretched(bounds: &[(f32, f32)], mut action: Vec<f32>) -> Vec<f32> {
     for (a, &(low, high)) in action.iter_mut().zip(bounds) {
-        *a = (low + (high - low) * (0.5 * (*a + 1.0))).clamp(low, high);
+        *a = low + (*a + 1.0) * 0.5 * (high - low);
     }
     action
 }
@@ -311,6 +311,65 @@ where
         };
         let action = self.core.act(&self.skill.features, q, s)?;
         Ok(self.core.trainer.value(head, &self.core.single, &action))
+    }
+
+    /// The actor's network; its heads are the automaton's live states, in order.
+    ///
+    /// # Errors
+    /// If learning has diverged so far that a weight is infinite or not a number.
+    pub fn network(&self) -> Result<Network, NetworkError> {
+        let Core { trainer, bounds, settings, .. } = &self.core;
+        let inputs = self.skill.features.inputs();
+        let [shape, _] = shapes(inputs, bounds.len(), trainer.heads.states.len(), settings);
+        let (low, high) = bounds.iter().copied().unzip();
+        let controls = Some(Controls { squash: Squash::Tanh, low, high });
+        let form = Form { controls, ..Form::default() };
+        Network::with_form(shape, trainer.actor.layers.dense(), form)
+    }
+
+    /// The actor so far as a policy that says how it was learned: to be saved, and emitted as Rust.
+    ///
+    /// ```
+    /// use tltl::deep::actor::{Learner, Settings};
+    /// use tltl::deep::{Device, Skill};
+    /// use tltl::env::{ContinuousEnv, Step};
+    /// use tltl::network::Features;
+    /// use tltl::rand::Rng;
+    /// use tltl::tltl;
+    /// # struct Cart(f32);
+    /// # impl ContinuousEnv for Cart {
+    /// #     type State = f32;
+    /// #     fn bounds(&self) -> Vec<(f32, f32)> { vec![(-0.2, 0.2)] }
+    /// #     fn reset<R: Rng + ?Sized>(&mut self, _: &mut R) -> f32 { self.0 = 0.0; 0.0 }
+    /// #     fn step<R: Rng + ?Sized>(&mut self, action: &[f32], _: &mut R) -> Step<f32> {
+    /// #         self.0 = (self.0 + action[0]).clamp(-1.0, 1.0);
+    /// #         Step::to(self.0)
+    /// #     }
+    /// # }
+    /// # struct Place;
+    /// # impl Features<f32> for Place {
+    /// #     fn inputs(&self) -> usize { 1 }
+    /// #     fn write(&self, s: &f32, inputs: &mut [f32], _: &mut [f32]) { inputs[0] = *s; }
+    /// # }
+    ///
+    /// let mut cart = Cart(0.0);
+    /// let skill = Skill::new(tltl! { |x: &f32| F ({ *x } > 0.8) }, Place);
+    /// let settings = Settings::default().with_hidden([8])?.with_warmup(50)?;
+    /// let mut learner = Learner::new(skill, &cart, settings, &Device::flex(), 1);
+    /// learner.train(&mut cart, 100)?;
+    /// // It needs no tensor library from here on.
+    /// let policy = learner.policy()?;
+    /// let (here, there) = (learner.act(0, &0.3)?, policy.control(0, &[0.3], &[]).expect("an actor's"));
+    /// assert!((here[0] - there[0]).abs() < 1e-5);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Self::network`].
+    pub fn policy(&self) -> Result<NetworkPolicy, NetworkPolicyError> {
+        let names = self.core.names.clone();
+        let policy = NetworkPolicy::new(&self.skill.task, names, self.network()?)?;
+        Ok(policy.trained(self.training()))
     }
 
     /// How the actor was learned so far, as policies say it.

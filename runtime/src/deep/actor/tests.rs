@@ -10,7 +10,6 @@ use super::Settings;
 use super::trainer::{Trained, Trainer, joined, shapes};
 use crate::augmented::Moves;
 use crate::deep::layers::{Gradient, Layers, numbers};
-use crate::deep::model::Batch;
 use crate::deep::sample::Heads;
 use crate::env::unit;
 use crate::monitor::Acceptor;
