@@ -59,7 +59,7 @@ fn rooms_know_only_what_they_may() {
     assert_eq!(ours("tltl", &["normal", "build"]), ["tltl-macros"].into());
     assert_eq!(ours("tltl", &["dev"]), ["tltl"].into(), "its tests turn its features on");
     assert_eq!(ours("tltlc", &all), ["tltl", "tltl-compiler"].into());
-    let last = ["tltl-examples", "tltl-fuzz", "tltl-kitchen", "tltl-tests"];
+    let last = ["tltl-control", "tltl-examples", "tltl-fuzz", "tltl-kitchen", "tltl-tests"];
     for (name, package) in &packages {
         let is_last = last.contains(&name.as_str());
         assert!(is_last || !package.needs(&all).contains("tltlc"), "{name} depends on the tools");

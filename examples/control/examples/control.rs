@@ -2,8 +2,9 @@
 //! it, emit it.
 //!
 //! `cargo run --release -p tltl-control --example control [-- TASK [SEED [STEPS]]]` for one of the tasks
-//! below, `fetch` if left out; it writes into `target/control`. With `--study` in place of a task each is
-//! learned by ten seeds, and the table of `docs/studies/control.md` is printed.
+//! `fetch`, `tour`, `park`, `hurry` (a point with inertia), `bring` and `bring_and_rest` (an arm); `fetch`
+//! if left out. It writes into `target/control`. With `--study` in place of a task each is learned by ten
+//! seeds, and the numbers of `docs/studies/control.md` are printed.
 
 use std::error::Error;
 use std::time::Instant;
@@ -59,6 +60,7 @@ const ROOM: Plane<'static> = Plane {
         Region { middle: C, radius: 0.25, name: "c", barred: false },
         Region { middle: (0.0, 0.0), radius: 0.3, name: "pillar", barred: true },
     ],
+    edge: None,
 };
 
 const TABLE: Plane<'static> = Plane {
@@ -68,6 +70,7 @@ const TABLE: Plane<'static> = Plane {
         Region { middle: SHELF, radius: 0.08, name: "shelf", barred: false },
         Region { middle: REST, radius: 0.08, name: "rest", barred: false },
     ],
+    edge: Some(-0.1),
 };
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -155,7 +158,7 @@ impl Run {
         let folder = Folder::at("target/control")?;
         let name = case.task.name().to_owned();
         let live = (0..case.task.states()).filter(|&q| !case.task.is_terminal(q));
-        let texts: Vec<(u32, String)> = live.map(|q| (q, format!("automaton state {q}"))).collect();
+        let texts: Vec<_> = live.map(|q| (q, format!("towards {}", case.towards(q)))).collect();
         let states: Vec<(u32, &str)> = texts.iter().map(|(q, text)| (*q, &**text)).collect();
         let few = &learned.episodes[..learned.episodes.len().min(12)];
         let drawn = case.plane.trajectories(&name, few, case.at, &states);
@@ -175,12 +178,26 @@ where
     P: Predicates<E::State> + Sync,
     F: Features<E::State> + Copy + Sync,
 {
+    /// Where one has to go at `q`: the live states are numbered in the order of the goals.
+    fn goal(&self, q: u32) -> (f64, f64) {
+        let before = (0..q).filter(|&q| !self.task.is_terminal(q)).count();
+        self.goals[before.min(self.goals.len() - 1)]
+    }
+
+    /// What is there.
+    fn towards(&self, q: u32) -> &'static str {
+        let goal = self.goal(q);
+        self.plane
+            .regions
+            .iter()
+            .find(|region| region.middle == goal)
+            .map_or("", |region| region.name)
+    }
+
     /// Trials of the controller written by hand.
     fn hand(&self) -> Result<Trialled<E::State>, Box<dyn Error>> {
-        let Self { world, task, goals, by_hand, .. } = self;
-        // The live states are numbered in the order of the goals.
-        let goal = |q| goals[(0..q).filter(|&q| !task.is_terminal(q)).count().min(goals.len() - 1)];
-        let act = |q, s: &E::State| Ok(by_hand(s, goal(q)).to_vec());
+        let Self { world, task, by_hand, .. } = self;
+        let act = |q, s: &E::State| Ok(by_hand(s, self.goal(q)).to_vec());
         trials(&mut world.clone(), task, TRIALS, act)
     }
 

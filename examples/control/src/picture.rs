@@ -25,10 +25,15 @@ pub struct Plane<'a> {
     pub range: (f64, f64),
     /// What is in it.
     pub regions: &'a [Region],
+    /// What is below this coordinate must not be entered.
+    pub edge: Option<f64>,
 }
 
 /// One colour for each automaton state, told apart without colour vision by lightness too.
 const COLOURS: [&str; 6] = ["#1b6ca8", "#d1790f", "#2c8c4a", "#8a3fa0", "#b3303a", "#5c6470"];
+
+/// The colour of what must not be entered.
+const BARRED: &str = "#c9ced6";
 
 /// The width of the plane in the picture, in pixels.
 const SIDE: f64 = 480.0;
@@ -46,10 +51,15 @@ impl Plane<'_> {
     fn ground(&self, body: &mut String) {
         svg::rect(body, (MARGIN, MARGIN, SIDE, SIDE), "#fbfcfd", PALE, "");
         let (low, high) = self.range;
+        if let Some(edge) = self.edge {
+            let (_, top) = self.place((low, edge));
+            let height = MARGIN + SIDE - top;
+            svg::rect(body, (MARGIN, top, SIDE, height), BARRED, PALE, "");
+        }
         for region in self.regions {
             let (x, y) = self.place(region.middle);
             let radius = region.radius * SIDE / (high - low);
-            let fill = if region.barred { "#c9ced6" } else { "#eef3d2" };
+            let fill = if region.barred { BARRED } else { "#eef3d2" };
             let _ = writeln!(
                 body,
                 "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius:.1}\" fill=\"{fill}\" stroke=\"{PALE}\"/>"

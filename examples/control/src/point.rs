@@ -68,14 +68,14 @@ impl ContinuousEnv for Room {
             (x, y) = (place(), place());
         }
         self.at = Point { x, y, vx: 0.0, vy: 0.0 };
-        self.at.clone()
+        self.at
     }
 
     fn step<R: Rng + ?Sized>(&mut self, action: &[f32], _: &mut R) -> Step<Point> {
         let Point { x, y, vx, vy } = self.at;
         let ((x, vx), (y, vy)) = (pushed(x, vx, action[0]), pushed(y, vy, action[1]));
         self.at = Point { x, y, vx, vy };
-        Step::to(self.at.clone())
+        Step::to(self.at)
     }
 
     fn component_name(&self, i: usize) -> String {

@@ -1,0 +1,85 @@
+//! The worlds, by controllers that need no learning.
+
+use tltl::Monitor;
+use tltl::env::ContinuousEnv;
+use tltl::estimate::{Trials, estimate_continuous};
+use tltl::rand::{SeedableRng as _, rngs::Xoshiro256PlusPlus};
+use tltl::task::Error;
+use tltl_control::picture::{Plane, Region};
+use tltl_control::{arm, judge, point};
+
+type Place = (f64, f64);
+
+/// The goal of an automaton state: its rank among the live ones.
+fn goal<M: Monitor<S>, S>(task: &M, q: u32, goals: &[Place]) -> Place {
+    let before = (0..q).filter(|&q| !task.is_terminal(q)).count();
+    goals[before.min(goals.len() - 1)]
+}
+
+/// A controller that goes to each goal in turn satisfies the task from every start.
+fn goes<E: ContinuousEnv>(
+    mut env: E,
+    task: &impl Monitor<E::State>,
+    goals: &[Place],
+    steer: fn(&E::State, Place) -> [f32; 2],
+) {
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(2);
+    let trials =
+        Trials::default().with_episodes(300).and_then(|t| t.with_horizon(200)).expect("in range");
+    let act = |q, s: &E::State| Ok::<_, Error>(steer(s, goal(task, q, goals)).to_vec());
+    let seen = estimate_continuous(&mut env, task, trials, &mut rng, act).expect("numbers");
+    assert_eq!(seen.satisfied.mean, 1.0, "{}", task.name());
+}
+
+#[test]
+fn every_task_can_be_done_from_every_start() {
+    let [a, b, c] = point::PLACES;
+    goes(point::Room::default(), &point::fetch(), &[a, b], point::steer);
+    goes(point::Room::default(), &point::tour(), &[a, b, c], point::steer);
+    goes(point::Room::default(), &point::park(), &[c], point::steer);
+    goes(point::Room::default(), &point::hurry(), &[b], point::steer);
+    let [cup, shelf, rest] = arm::PLACES;
+    goes(arm::Table::default(), &arm::bring(), &[cup, shelf], arm::steer);
+    goes(arm::Table::default(), &arm::bring_and_rest(), &[cup, shelf, rest], arm::steer);
+}
+
+#[test]
+fn actions_stay_within_the_world() {
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(3);
+    let (mut room, mut table) = (point::Room::default(), arm::Table::default());
+    for _ in 0..50 {
+        room.reset(&mut rng);
+        table.reset(&mut rng);
+        for t in 0..100 {
+            let push = if t % 3 == 0 { -1.0 } else { 1.0 };
+            let s = room.step(&[push, 1.0], &mut rng).state;
+            assert!(s.x.abs() <= point::HALF && s.y.abs() <= point::HALF, "{s:?}");
+            let s = table.step(&[6.0 * push, 6.0], &mut rng).state;
+            let [_, tip] = arm::joints([s.shoulder, s.elbow]);
+            assert_eq!(tip, (s.x, s.y), "the tip is where the joints have it");
+            assert!(s.x.hypot(s.y) <= arm::LINKS[0] + arm::LINKS[1] + 1e-12);
+        }
+    }
+}
+
+#[test]
+fn trials_and_pictures_are_the_same_on_each_run() {
+    let [a, b, _] = point::PLACES;
+    let picture = || {
+        let task = point::fetch();
+        let act = |q, s: &point::Point| {
+            Ok::<_, Box<dyn std::error::Error>>(point::steer(s, goal(&task, q, &[a, b])).to_vec())
+        };
+        let tried = judge::trials(&mut point::Room::default(), &task, 5, act).expect("numbers");
+        assert!(tried.robustness.iter().all(|rho| *rho > 0.0), "satisfied, by how much");
+        let regions = [Region { middle: a, radius: 0.25, name: "a & b", barred: false }];
+        let plane = Plane { range: (-1.0, 1.0), regions: &regions, edge: Some(-0.9) };
+        let states = [(0, "towards a"), (2, "towards b")];
+        let at = |s: &point::Point| (s.x, s.y);
+        plane.trajectories("fetch", &tried.episodes, at, &states)
+            + &plane.moving("fetch", &tried.episodes[0], at, point::STEP, &states)
+    };
+    let first = picture();
+    assert_eq!(first, picture());
+    assert!(first.contains("a &amp; b") && first.contains("<animate"));
+}
