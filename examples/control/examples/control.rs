@@ -4,7 +4,8 @@
 //! `cargo run --release -p tltl-control --example control [-- TASK [SEED [STEPS]]]` for one of the tasks
 //! `fetch`, `tour`, `park`, `hurry` (a point with inertia), `bring` and `bring_and_rest` (an arm); `fetch`
 //! if left out. It writes into `target/control`. With `--study` in place of a task each is learned by ten
-//! seeds, and the numbers of `docs/studies/control.md` are printed.
+//! seeds, with `--compose` pairs of skills are composed without a step in the world: the numbers of
+//! `docs/studies/control.md`.
 
 use std::error::Error;
 use std::time::Instant;
@@ -12,14 +13,17 @@ use std::time::Instant;
 use tltl::deep::actor::{Learner, Settings};
 use tltl::deep::{Device, Skill};
 use tltl::env::ContinuousEnv;
+use tltl::estimate::{Trials, estimate_continuous};
 use tltl::learn::Schedule;
 use tltl::network::Features;
-use tltl::prelude::Rewards;
+use tltl::prelude::{Monitor, Product, Rewards};
+use tltl::rand::{SeedableRng as _, rngs::Xoshiro256PlusPlus};
 use tltl::reward::Mode;
 use tltl::robustness::Predicates;
-use tltl::{Acceptor as _, Task};
-use tltl_control::judge::{HORIZON, Trialled, trials};
+use tltl::{Acceptor as _, OutOfRange, Task};
+use tltl_control::judge::{HORIZON, STARTS, Trialled, trials};
 use tltl_control::picture::{Plane, Region};
+use tltl_control::point::{Look, Point, Room};
 use tltl_control::{arm, point};
 use tltl_examples::show::Folder;
 
@@ -78,6 +82,20 @@ fn main() -> Result<(), Box<dyn Error>> {
     let task = arguments.next().unwrap_or_else(|| "fetch".into());
     let mut number = |or| arguments.next().map_or(Ok(or), |text| text.parse());
     let run = Run { task, seed: number(1)?, steps: number(STEPS)? };
+    if run.task == "--compose" {
+        // One pair, or all of them.
+        let is_asked = |pair: u64| run.steps == STEPS || run.steps == pair;
+        if is_asked(1) {
+            compose(&point::to_a(), &point::to_b(), run.seed)?;
+        }
+        if is_asked(2) {
+            compose(&point::to_b(), &point::to_c(), run.seed)?;
+        }
+        if is_asked(3) {
+            compose(&point::to_a(), &point::to_c(), run.seed)?;
+        }
+        return Ok(());
+    }
     let done = run.room(point::fetch(), &[A, B])?
         || run.room(point::tour(), &[A, B, C])?
         || run.room(point::park(), &[C])?
@@ -89,6 +107,58 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     let known = "fetch, tour, park, hurry, bring and bring_and_rest";
     Err(format!("there is no task `{}`; there are {known}", run.task).into())
+}
+
+/// How all of them learn.
+fn settings() -> Result<Settings, OutOfRange> {
+    Settings::default()
+        .with_rewards(Rewards::of(Mode::Shaped).with_gamma(0.98)?)
+        .with_hidden([64, 64])?
+        .with_horizon(HORIZON)?
+        .with_steps(3)?
+        .with_robustness(1.0)?
+        .with_noise(Schedule::constant(0.3)?)?
+        .with_noise_correlation(0.8)?
+        .with_warmup(2_000)
+}
+
+/// Environment steps of a skill, and updates of a composition.
+const SKILL: u64 = 20_000;
+
+/// Learns two skills, makes both at once of what they saw, and learns the same from scratch with as many
+/// steps as the two had.
+fn compose<P, Q>(first: &Task<P>, second: &Task<Q>, seed: u64) -> Result<(), Box<dyn Error>>
+where
+    P: Predicates<Point> + Sync,
+    Q: Predicates<Point> + Sync,
+{
+    let (mut room, settings, device) = (Room::default(), settings()?, Device::flex());
+    let mut one = Learner::new(Skill::new(first, Look), &room, settings.clone(), &device, seed);
+    one.train(&mut room, SKILL)?;
+    let mut two =
+        Learner::new(Skill::new(second, Look), &room, settings.clone(), &device, seed + 100);
+    two.train(&mut room, SKILL)?;
+    let both = Product::conjunction(&[first, second]);
+    println!("{}", both.formula().text());
+    let show = |name: &str, task: &dyn Monitor<Point>, act: &mut dyn FnMut(u32, &Point) -> _| {
+        let trials = Trials::default().with_episodes(TRIALS)?.with_horizon(HORIZON)?;
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(STARTS);
+        let seen = estimate_continuous(&mut Room::default(), &task, trials, &mut rng, act)?;
+        let steps = seen.steps.map_or(f64::NAN, |steps| steps.mean);
+        println!("{name:<24}{:>8.3}{:>8.3}{steps:>8.1}", seen.satisfied.mean, seen.lost.mean);
+        Ok::<_, Box<dyn Error>>(())
+    };
+    show(first.name(), first, &mut |q, s| one.act(q, s))?;
+    show(second.name(), second, &mut |q, s| two.act(q, s))?;
+    let skill = || Skill::new(&both, Look);
+    let mut composed = Learner::new(skill(), &room, settings.clone(), &device, seed + 200);
+    composed.remember(one.replay());
+    composed.remember(two.replay());
+    composed.rehearse(SKILL)?;
+    show("both, no further step", &both, &mut |q, s| composed.act(q, s))?;
+    let mut scratch = Learner::new(skill(), &room, settings, &device, seed + 300);
+    scratch.train(&mut room, 2 * SKILL)?;
+    show("both, from scratch", &both, &mut |q, s| scratch.act(q, s))
 }
 
 /// What the user asked for.
@@ -212,15 +282,7 @@ where
         Box<dyn Error>,
     > {
         let Self { world, task, look, .. } = self;
-        let settings = Settings::default()
-            .with_rewards(Rewards::of(Mode::Shaped).with_gamma(0.98)?)
-            .with_hidden([64, 64])?
-            .with_horizon(HORIZON)?
-            .with_steps(3)?
-            .with_robustness(1.0)?
-            .with_noise(Schedule::constant(0.3)?)?
-            .with_noise_correlation(0.8)?
-            .with_warmup(2_000)?;
+        let settings = settings()?;
         let skill = Skill::new(task, *look);
         let mut learner = Learner::new(skill, world, settings, &Device::flex(), seed);
         learner.train(&mut world.clone(), steps)?;

@@ -12,7 +12,7 @@ use tltl::{Acceptor as _, OutOfRange};
 pub const HORIZON: u64 = 200;
 
 /// The seed of the starts of all trials; learners draw theirs from others.
-const STARTS: u64 = 1_000_000;
+pub const STARTS: u64 = 1_000_000;
 
 /// Some trials of a controller.
 #[derive(Clone, Debug)]

@@ -36,9 +36,10 @@ impl Heads {
         Self { states, of }
     }
 
-    /// The head of `q`; none where the task is decided.
+    /// The head of `q`; none where the task is decided, or has no such state: what is replayed may have
+    /// been seen for another task.
     pub(super) fn of(&self, q: u32) -> Option<usize> {
-        self.of[q as usize]
+        self.of.get(q as usize).copied().flatten()
     }
 
     /// The return of some steps to the automaton state `q`.

@@ -190,24 +190,46 @@ where
         if !step.reward.is_finite() {
             return Err(Error::Reward(self.steps));
         }
-        let rewards = core.settings.rewards();
-        let paid = rewards.environment() * step.reward;
-        core.paid = (core.paid.0.min(paid), core.paid.1.max(paid));
+        core.note_paid(step.reward);
         core.replay.push(*q, action.clone(), Step { state: step.state.clone(), ..**step });
         let (warmup, between) = (core.settings.warmup(), core.settings.steps_per_update());
         if self.steps < warmup || !self.steps.is_multiple_of(between) {
             return Ok(());
         }
-        let Skill { task, features, goals } = self.skill;
-        let bounds = bounds(&core.most, &rewards, core.paid);
-        let (weight, full) = (core.settings.robustness(), rewards.bound());
-        let asked = Asked { task, moves: self.moves, bounds: &bounds, weight, full };
-        core.trainer.update(&core.replay, (features, goals), &asked, &core.settings, rng)?;
-        Ok(())
+        core.update(self.skill, self.moves, rng)
     }
 }
 
 impl<S> Core<S> {
+    /// Takes in what the environment paid for a step.
+    fn note_paid(&mut self, reward: f64) {
+        let paid = self.settings.rewards().environment() * reward;
+        self.paid = (self.paid.0.min(paid), self.paid.1.max(paid));
+    }
+
+    /// Learns from one batch of what was seen.
+    fn update<M, F, G, R>(
+        &mut self,
+        skill: &Skill<M, F, G>,
+        moves: &Moves,
+        rng: &mut R,
+    ) -> Result<(), Error>
+    where
+        S: Clone,
+        M: Monitor<S>,
+        F: Features<S>,
+        G: Relabel<S>,
+        R: Rng + ?Sized,
+    {
+        let Skill { task, features, goals } = skill;
+        let rewards = self.settings.rewards();
+        let bounds = bounds(&self.most, &rewards, self.paid);
+        let (weight, full) = (self.settings.robustness(), rewards.bound());
+        let asked = Asked { task, moves, bounds: &bounds, weight, full };
+        self.trainer.update(&self.replay, (features, goals), &asked, &self.settings, rng)?;
+        Ok(())
+    }
+
     /// The features of a state, as a batch of one.
     fn look(&mut self, features: &impl Features<S>, s: &S) -> Result<(), Error> {
         self.single.clear();
@@ -289,6 +311,83 @@ where
         let mut world = Beside { env, bounds: &bounds, task: &skill.task, moves };
         let mut agent = Playing { skill, moves, core, steps: elapsed.steps };
         episode::run(&mut world, &mut agent, elapsed, horizon, total, rng)
+    }
+
+    /// Adds what another learner saw in the same world, for whatever task: the world does not depend on
+    /// it. The oldest is forgotten where that is more than the capacity.
+    ///
+    /// With [`Self::rehearse`] that is how skills become a new one without a step in the world (the last
+    /// step of the paper's Algorithm 2):
+    ///
+    /// ```
+    /// use tltl::deep::actor::{Learner, Settings};
+    /// use tltl::deep::{Device, Skill};
+    /// use tltl::env::{ContinuousEnv, Step};
+    /// use tltl::network::Features;
+    /// use tltl::prelude::*;
+    /// use tltl::rand::Rng;
+    /// # struct Cart(f32);
+    /// # impl ContinuousEnv for Cart {
+    /// #     type State = f32;
+    /// #     fn bounds(&self) -> Vec<(f32, f32)> { vec![(-0.2, 0.2)] }
+    /// #     fn reset<R: Rng + ?Sized>(&mut self, _: &mut R) -> f32 { self.0 = 0.0; 0.0 }
+    /// #     fn step<R: Rng + ?Sized>(&mut self, action: &[f32], _: &mut R) -> Step<f32> {
+    /// #         self.0 = (self.0 + action[0]).clamp(-1.0, 1.0);
+    /// #         Step::to(self.0)
+    /// #     }
+    /// # }
+    /// # #[derive(Clone, Copy)]
+    /// # struct Place;
+    /// # impl Features<f32> for Place {
+    /// #     fn inputs(&self) -> usize { 1 }
+    /// #     fn write(&self, s: &f32, inputs: &mut [f32], _: &mut [f32]) { inputs[0] = *s; }
+    /// # }
+    ///
+    /// // Two skills: to the left end, and to the right one.
+    /// let (left, right) = (tltl! { |x: &f32| F ({ *x } < -0.8) }, tltl! { |x: &f32| F ({ *x } > 0.8) });
+    /// let settings = Settings::default().with_hidden([32, 32])?.with_warmup(300)?.with_horizon(60)?;
+    /// let settings = settings.with_robustness(0.5)?;
+    /// let mut cart = Cart(0.0);
+    /// let mut first = Learner::new(Skill::new(&left, Place), &cart, settings.clone(), &Device::flex(), 1);
+    /// let mut second = Learner::new(Skill::new(&right, Place), &cart, settings.clone(), &Device::flex(), 2);
+    /// first.train(&mut cart, 600)?;
+    /// second.train(&mut cart, 600)?;
+    ///
+    /// // Both, in any order, from what the two saw.
+    /// let both = Product::conjunction(&[&left, &right]);
+    /// let mut composed = Learner::new(Skill::new(&both, Place), &cart, settings, &Device::flex(), 3);
+    /// composed.remember(first.replay());
+    /// composed.remember(second.replay());
+    /// composed.rehearse(1_500)?;
+    /// let (mut x, mut q) = (0.0, both.next(0, &0.0)?);
+    /// for _ in 0..60 {
+    ///     x = (x + composed.act(q, &x)?[0]).clamp(-1.0, 1.0);
+    ///     q = both.next(q, &x)?;
+    /// }
+    /// assert!(both.is_accepting(q) && composed.steps() == 0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn remember(&mut self, seen: &Replay<S, Vec<f32>>) {
+        seen.moments().iter().for_each(|moment| self.core.note_paid(moment.reward));
+        self.core.replay.extend(seen);
+    }
+
+    /// Makes updates from what is remembered, without a step in the world.
+    ///
+    /// Nothing corrects here what an actor believes of actions that nobody has tried, so what was seen
+    /// should have many: skills that are still exploring are better teachers than perfect ones.
+    ///
+    /// # Errors
+    /// If the reward pays for moves and the automaton has a way back, or a predicate, a feature or the
+    /// loss is not a finite number.
+    ///
+    /// # Panics
+    /// If nothing is remembered.
+    #[track_caller]
+    pub fn rehearse(&mut self, updates: u64) -> Result<(), Error> {
+        check_reward(&self.skill.task, &self.core.settings.rewards())?;
+        let Self { skill, moves, core, rng, .. } = self;
+        (0..updates).try_for_each(|_| core.update(skill, moves, rng))
     }
 
     /// The actor's action in (s, q), in the units of the world; the middle where the task is decided.
