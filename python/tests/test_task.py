@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import copy
 import pickle
+import sys
+import threading
+import time
 import warnings
 from concurrent.futures import ThreadPoolExecutor
 
@@ -207,6 +210,41 @@ def test_threads_share_a_task() -> None:
     with ThreadPoolExecutor(8) as pool:
         for found in pool.map(task.robustness, [states] * 16):
             assert np.array_equal(found, expected)
+
+
+@pytest.mark.parametrize("call", ["step_batch", "labels", "robustness", "run"])
+def test_the_interpreter_is_free_while_rust_works(call: str) -> None:
+    task = Task("F ((x < 1) && F (x > 5))")
+    states = np.zeros((2_000_000, 1))
+    letters, q = np.zeros(2_000_000, dtype=np.uint64), np.zeros(2_000_000, dtype=np.uint32)
+    work = {
+        "step_batch": lambda: task.step_batch(q, letters),
+        "labels": lambda: task.labels(states),
+        "robustness": lambda: task.robustness(states),
+        "run": lambda: task.run(states),
+    }[call]
+    counted, over = 0, False
+
+    def count() -> None:
+        nonlocal counted
+        while not over:
+            counted += 1
+            time.sleep(0)  # gives the interpreter back
+
+    interval = sys.getswitchinterval()
+    # Nobody is interrupted: another thread runs only where the interpreter is given up.
+    sys.setswitchinterval(1_000)
+    other = threading.Thread(target=count)
+    other.start()
+    try:
+        before = counted
+        for _ in range(20):
+            work()
+        assert counted > before
+    finally:
+        over = True
+        sys.setswitchinterval(interval)
+        other.join()
 
 
 def test_label_functions_declare_their_names() -> None:
