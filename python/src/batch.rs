@@ -167,23 +167,37 @@ impl Task {
         compute: impl Fn(&Columns<'_>, &mut Scratch) -> Result<T, evaluate::NotANumber> + Sync,
     ) -> PyResult<Bound<'py, PyAny>> {
         let py = states.py();
+        let (results, shape) = self.of_trajectories(states, columns, compute)?;
+        if shape.is_empty() {
+            let result = shaped(py, results, &[1])?;
+            return result.call_method0("item").or_else(|_| result.get_item(0));
+        }
+        shaped(py, results, &shape)
+    }
+
+    /// The results, and the shape in which they are meant: that of the trajectories, empty for one.
+    pub(crate) fn of_trajectories<T: Send>(
+        &self,
+        states: &Bound<'_, PyAny>,
+        columns: Option<&Bound<'_, PyAny>>,
+        compute: impl Fn(&Columns<'_>, &mut Scratch) -> Result<T, evaluate::NotANumber> + Sync,
+    ) -> PyResult<(Vec<T>, Vec<usize>)> {
+        let py = states.py();
         if let Some(all) = ragged(states)? {
             let mut results = Vec::new();
             for states in &all {
                 let states = States::new(self.evaluator().inputs(), states, columns)?;
                 results.extend(self.each(py, &states, &compute)?);
             }
-            return shaped(py, results, &[all.len()]);
+            return Ok((results, vec![all.len()]));
         }
-        let states = States::new(self.evaluator().inputs(), states, columns)?;
+        let mut states = States::new(self.evaluator().inputs(), states, columns)?;
         let results = self.each(py, &states, &compute)?;
-        match &states.shape[..] {
-            [] => Err(wrong("states: one state; wanted is a trajectory, an array of shape (T, d)")),
-            [_] => {
-                let result = shaped(py, results, &[1])?;
-                result.call_method0("item").or_else(|_| result.get_item(0))
+        match states.shape.pop() {
+            None => {
+                Err(wrong("states: one state; wanted is a trajectory, an array of shape (T, d)"))
             }
-            [outer @ .., _] => shaped(py, results, outer),
+            Some(_) => Ok((results, states.shape)),
         }
     }
 }

@@ -6,6 +6,7 @@ use tltl::Acceptor;
 use tltlc::diff::{Side, of_definitions};
 use tltlc::emit;
 use tltlc::explain;
+use tltlc::report;
 use tltlc::task;
 
 use super::error::wrong;
@@ -38,12 +39,33 @@ impl Task {
 
     /// In plain English.
     pub(crate) fn explained(&self) -> String {
+        format!("{}\n\n{}", self.title(), self.told())
+    }
+
+    fn told(&self) -> explain::Explanation {
         let entry = self.inner.entry();
-        let told = match entry.is_automaton() {
+        match entry.is_automaton() {
             true => explain::explain_automaton(self.dfa()),
             false => explain::explain(&entry.task().spec, self.dfa()),
+        }
+    }
+
+    /// A page for a browser: what the task asks for, or how it followed some trajectories.
+    pub(crate) fn page(
+        &self,
+        states: Option<&Bound<'_, PyAny>>,
+        columns: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<String> {
+        let Some(states) = states else {
+            return Ok(report::explanation(&self.title(), self.dfa(), &self.told()));
         };
-        format!("{}\n\n{told}", self.title())
+        let (followed, _) = self.of_trajectories(states, columns, |columns, scratch| {
+            report::follow(&self.inner, "", columns, scratch)
+        })?;
+        let numbered = followed.into_iter().enumerate();
+        let followed: Vec<_> =
+            numbered.map(|(i, followed)| followed.named(format!("trajectory {i}"))).collect();
+        Ok(report::Page::of_task(&self.inner).html(&followed))
     }
 
     /// A shortest trajectory that tells the two apart, in words.

@@ -451,6 +451,17 @@ impl Task {
         self.explained()
     }
 
+    /// A page for a browser, one file without a network: the automaton and what it asks for, and, with
+    /// `states` (shapes as for `robustness`), how it followed these trajectories, with a slider.
+    #[pyo3(signature = (states=None, *, columns=None))]
+    fn to_html(
+        &self,
+        states: Option<&Bound<'_, PyAny>>,
+        columns: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<String> {
+        self.page(states, columns)
+    }
+
     /// A shortest trajectory on which the two tasks differ, or that they are equal.
     fn diff(&self, other: &Self) -> String {
         self.difference(other)

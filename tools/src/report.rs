@@ -74,9 +74,14 @@ impl<'a> Page<'a> {
     pub fn of_task(task: &'a Task) -> Self {
         let parts = task.entry().task();
         let name = parts.name.as_ref().map(|name| format!("{name} = ")).unwrap_or_default();
+        // The formula of an automaton of another tool means nothing.
+        let words = match task.entry().is_automaton() {
+            true => Vec::new(),
+            false => explain::retold(&parts.spec),
+        };
         Self {
             title: format!("{name}{}", parts.text),
-            words: explain::retold(&parts.spec),
+            words,
             propositions: names(task.dfa()),
             dfa: Some(task.dfa()),
             of: 0,

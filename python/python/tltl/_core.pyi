@@ -270,6 +270,10 @@ class Task:
         """A trajectory of shape (T, d), followed row by row."""
     def monitor(self) -> Monitor:
         """The task on its way, to be told what holds, one state after the other."""
+    def to_html(self, states: _States | None = None, *, columns: _Columns | None = None) -> str:
+        """A page for a browser, one file without a network: the automaton and what it asks for, and, with
+        `states` (shapes as for `robustness`), how it followed these trajectories, with a slider.
+        """
     def explain(self) -> str:
         """The task in plain English, with shortest ways to satisfy it and to lose it."""
     def diff(self, other: Task) -> str:

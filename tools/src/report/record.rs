@@ -98,6 +98,12 @@ impl Trajectory {
         }
     }
 
+    /// The same under another name.
+    #[must_use]
+    pub fn named(self, name: impl Into<String>) -> Self {
+        Self { name: name.into(), ..self }
+    }
+
     /// Reads the next row.
     pub fn push(&mut self, row: &Row<'_>) {
         let piece = Piece {
