@@ -294,7 +294,7 @@ impl fmt::Display for NetworkError {
                  not finite",
             ),
             Self::Controls => f.write_str(
-                "`network.controls` has a bound that is not finite, or a `low` above its `high`",
+                "`network.controls` has a `low` above its `high`, or a range that is not a finite number",
             ),
             Self::NotFinite { layer } => {
                 write!(f, "layer {layer} has a weight that is not a finite number")

@@ -1,12 +1,12 @@
 //! The actor-critic learner against what is known exactly.
 #![cfg(feature = "deep")]
 
-use tltl::deep::actor::{Learner, Settings};
-use tltl::deep::{Device, Skill};
+use tltl::deep::actor::{Checkpoint, Learner, Settings};
+use tltl::deep::{AsGiven, Device, Error, Skill};
 use tltl::env::{ContinuousEnv, Step};
 use tltl::learn::Schedule;
 use tltl::network::Features;
-use tltl::prelude::{Rewards, tltl};
+use tltl::prelude::{Monitor, Rewards, tltl};
 use tltl::rand::{Rng, RngExt as _, SeedableRng as _, rngs::Xoshiro256PlusPlus};
 use tltl::reward::Mode;
 
@@ -106,4 +106,115 @@ fn a_linear_quadratic_problem_is_solved_to_its_optimum() {
         assert!(total < 1.2 * optimum, "{total}, and {optimum} is best");
         println!("slope {slope} of {gain}, cost {total} of {optimum}");
     }
+}
+
+/// Two skills of a cart with so many motors; nothing was learned yet.
+fn cart(motors: usize, seed: u64) -> Learner<f32, impl Monitor<f32> + Clone, Place, AsGiven> {
+    let task = tltl! { |x: &f32| F ({ *x } > 0.5 && F { *x } < -0.5) };
+    let settings =
+        Settings::default().with_hidden([4]).and_then(|settings| settings.with_warmup(50));
+    let world = Cart { motors, place: 0.0, broken: false };
+    let skill = Skill::new(task, Place);
+    Learner::new(skill, &world, settings.unwrap(), &Device::flex(), seed)
+}
+
+/// All motors push along one line; a broken sensor says so once.
+struct Cart {
+    motors: usize,
+    place: f32,
+    broken: bool,
+}
+
+impl ContinuousEnv for Cart {
+    type State = f32;
+
+    fn bounds(&self) -> Vec<(f32, f32)> {
+        vec![(-0.3, 0.9); self.motors]
+    }
+
+    fn reset<R: Rng + ?Sized>(&mut self, _: &mut R) -> f32 {
+        self.place = 0.0;
+        self.place
+    }
+
+    fn step<R: Rng + ?Sized>(&mut self, action: &[f32], _: &mut R) -> Step<f32> {
+        assert!(action.iter().all(|a| (-0.3..=0.9).contains(a)), "{action:?}");
+        self.place = (self.place + action.iter().sum::<f32>()).clamp(-1.0, 1.0);
+        Step::to(if std::mem::take(&mut self.broken) { f32::INFINITY } else { self.place })
+    }
+}
+
+fn trained(motors: usize) -> Learner<f32, impl Monitor<f32> + Clone, Place, AsGiven> {
+    let mut learner = cart(motors, 1);
+    learner.train(&mut Cart { motors, place: 0.0, broken: false }, 100).unwrap();
+    learner
+}
+
+#[test]
+fn what_was_seen_with_other_motors_is_not_remembered() {
+    let (two, mut one) = (trained(2), trained(1));
+    let before = one.checkpoint();
+    let error = one.remember(&two).unwrap_err();
+    assert!(error.to_string().contains("actions within [(-0.3, 0.9), (-0.3, 0.9)]"), "{error}");
+    assert_eq!(one.checkpoint(), before);
+    let (mut again, twin) = (cart(2, 2), trained(2));
+    again.remember(&twin).unwrap();
+    again.rehearse(10).unwrap();
+    assert_eq!((again.steps(), again.updates()), (0, 10));
+}
+
+#[test]
+fn a_sensor_that_fails_once_does_no_lasting_harm() {
+    let mut learner = trained(1);
+    let mut world = Cart { motors: 1, place: 0.0, broken: true };
+    let steps = learner.steps();
+    assert_eq!(learner.train(&mut world, steps + 20), Err(Error::Feature(0)));
+    learner.train(&mut world, steps + 200).unwrap();
+    assert!(learner.act(0, &0.0).unwrap()[0].is_finite());
+}
+
+#[test]
+fn an_actor_that_has_diverged_says_so() {
+    let settings = Settings::default()
+        .with_hidden([4])
+        .and_then(|settings| settings.with_warmup(50))
+        .and_then(|settings| settings.with_actor_rate(Schedule::constant(1e39)?));
+    let task = tltl! { |x: &f32| F ({ *x } > 9) };
+    let mut world = Cart { motors: 1, place: 0.0, broken: false };
+    let skill = Skill::new(task, Place);
+    let mut learner = Learner::new(skill, &world, settings.unwrap(), &Device::flex(), 1);
+    let error = learner.train(&mut world, 2_000).unwrap_err();
+    assert!(matches!(error, Error::Loss(_)), "{error}");
+}
+
+#[test]
+fn replays_that_were_edited_are_refused() {
+    let learner = trained(1);
+    let text = serde_json::to_value(learner.checkpoint()).unwrap();
+    let load = |value: serde_json::Value| serde_json::from_value::<Checkpoint<f32>>(value);
+    assert_eq!(load(text.clone()).unwrap(), learner.checkpoint());
+    let edits: [(&str, serde_json::Value); 9] = [
+        ("head", 7.into()),
+        ("head", 1_000_000.into()),
+        ("capacity", 0.into()),
+        ("capacity", 5.into()),
+        ("largest", (-1.0).into()),
+        ("largest", 0.0.into()),
+        ("age", 3.into()),
+        ("moments", serde_json::json!([])),
+        ("priorities", serde_json::json!({"sums": [], "leaves": 1})),
+    ];
+    for (field, value) in edits {
+        let mut text = text.clone();
+        text["replay"][field] = value;
+        let error = load(text).unwrap_err().to_string();
+        assert!(error.contains("a replay whose parts"), "{field}: {error}");
+    }
+    let mut short = text.clone();
+    short["replay"]["moments"][3]["action"] = serde_json::json!([]);
+    let short = load(short).unwrap();
+    let world = Cart { motors: 1, place: 0.0, broken: false };
+    let skill = Skill::new(learner.skill().task.clone(), Place);
+    let error = Learner::resume(skill, &world, short, &Device::flex()).unwrap_err();
+    assert!(error.to_string().contains("actions of 1 numbers"), "{error}");
 }

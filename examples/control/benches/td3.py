@@ -13,7 +13,7 @@ except ImportError as error:
 
 
 class Room(gymnasium.Env):
-    """The room of `src/point.rs`; an episode ends at a, or after 200 steps."""
+    """Like the room of `src/point.rs`, without pillar; an episode ends at a, or after 200 steps."""
 
     observation_space = gymnasium.spaces.Box(-1, 1, (5,), np.float32)
     action_space = gymnasium.spaces.Box(-1, 1, (2,), np.float32)

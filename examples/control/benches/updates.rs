@@ -1,7 +1,7 @@
 //! Updates of actor and critics for each second of the processor, the steps of the world included.
 //!
 //! `cargo bench -p tltl-control --bench updates`; `python3 examples/control/benches/td3.py` prints the same of
-//! Stable-Baselines3's TD3 in the same world, with networks and batches of the same size.
+//! Stable-Baselines3's TD3 in a like world, with networks and batches of the same size.
 
 use std::error::Error;
 

@@ -83,6 +83,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut number = |or| arguments.next().map_or(Ok(or), |text| text.parse());
     let run = Run { task, seed: number(1)?, steps: number(STEPS)? };
     if run.task == "--compose" {
+        if run.steps != STEPS && !(1..=3).contains(&run.steps) {
+            return Err(format!("there is no pair {}; there are 1 to 3", run.steps).into());
+        }
         // One pair, or all of them.
         let is_asked = |pair: u64| run.steps == STEPS || run.steps == pair;
         if is_asked(1) {
@@ -152,8 +155,8 @@ where
     show(second.name(), second, &mut |q, s| two.act(q, s))?;
     let skill = || Skill::new(&both, Look);
     let mut composed = Learner::new(skill(), &room, settings.clone(), &device, seed + 200);
-    composed.remember(one.replay());
-    composed.remember(two.replay());
+    composed.remember(&one)?;
+    composed.remember(&two)?;
     composed.rehearse(SKILL)?;
     show("both, no further step", &both, &mut |q, s| composed.act(q, s))?;
     let mut scratch = Learner::new(skill(), &room, settings, &device, seed + 300);
@@ -307,8 +310,8 @@ where
 
 fn header() {
     println!(
-        "{:<10}{:>13}{:>10}{:>8}{:>22}",
-        "", "P(satisfied)", "P(lost)", "steps", "robustness mean, least"
+        "{:<10}{:>13}{:>10}{:>8}{:>12}{:>10}",
+        "", "P(satisfied)", "P(lost)", "steps", "robustness", "least"
     );
 }
 

@@ -231,7 +231,7 @@ impl<'a, S: Clone, G: Relabel<S>> Composition<'a, S, G> {
         let seen: usize = skills.iter().map(|skill| skill.experience.len()).sum();
         assert!(seen > 1, "skills that have seen something");
         let mut replay = Replay::new(seen);
-        skills.iter().for_each(|skill| replay.extend(skill.experience));
+        skills.iter().for_each(|skill| replay.extend(skill.experience, |q| q));
         let ready = |skill: &Learned<'a, S>| {
             let heads = Heads::new(&Moves::new(skill.task, rewards), skill.task.states());
             let (features, model) = (skill.features, Model::new(&skill.network, device));

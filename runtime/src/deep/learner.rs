@@ -176,6 +176,9 @@ where
         if !step.reward.is_finite() {
             return Err(Error::Reward(self.steps));
         }
+        // What cannot be learned from is not remembered.
+        core.single.clear();
+        core.single.push(&self.skill.features, &step.state).map_err(Error::Feature)?;
         let rewards = core.settings.rewards();
         let paid = rewards.environment() * step.reward;
         core.paid = (core.paid.0.min(paid), core.paid.1.max(paid));

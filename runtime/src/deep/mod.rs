@@ -263,8 +263,8 @@ impl fmt::Display for Error {
             Self::Feature(i) => write!(f, "feature {i} is not a finite number"),
             Self::Loss(update) => write!(
                 f,
-                "the loss of update {update} is not a finite number: learning has diverged; try a \
-                 smaller learning rate"
+                "the loss of update {update} is not a finite number: learning has diverged, for which a \
+                 smaller learning rate may help, or a feature or a reward is too large"
             ),
             Self::WayBack(task) => write!(
                 f,

@@ -30,6 +30,15 @@ impl SumTree {
         Self { sums: std::vec![0.0; 2 * leaves], leaves }
     }
 
+    /// Whether these are sums, of so many weights.
+    fn is_sound(&self, n: usize) -> bool {
+        let Self { sums, leaves } = self;
+        let sizes = *leaves == n.next_power_of_two() && sums.len() == 2 * leaves;
+        sizes
+            && sums[*leaves..].iter().all(|weight| weight.is_finite() && *weight >= 0.0)
+            && (1..*leaves).all(|node| sums[node] == sums[2 * node] + sums[2 * node + 1])
+    }
+
     /// The weight of `i`.
     pub(super) fn get(&self, i: usize) -> f64 {
         self.sums[self.leaves + i]
@@ -101,6 +110,8 @@ pub(super) struct Visit<S, A = u32> {
 /// [`Learner::replay`](super::Learner::replay) shows it, and [`Composition`](super::Composition) learns
 /// from those of its skills.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Unchecked<S, A>")]
+#[serde(bound(deserialize = "S: Deserialize<'de>, A: Deserialize<'de> + Clone + Default"))]
 pub struct Replay<S, A = u32> {
     moments: Vec<Visit<S, A>>,
     capacity: usize,
@@ -112,7 +123,74 @@ pub struct Replay<S, A = u32> {
     largest: f64,
 }
 
+/// A replay as it comes from a file.
+#[derive(Deserialize)]
+struct Unchecked<S, A> {
+    moments: Vec<Visit<S, A>>,
+    capacity: usize,
+    head: usize,
+    age: usize,
+    priorities: SumTree,
+    largest: f64,
+}
+
+impl<S, A: Clone + Default> TryFrom<Unchecked<S, A>> for Replay<S, A> {
+    type Error = &'static str;
+
+    fn try_from(saved: Unchecked<S, A>) -> Result<Self, &'static str> {
+        let Unchecked { moments, capacity, head, age, priorities, largest } = saved;
+        let replay = Self { moments, capacity, head, age, priorities, largest };
+        match replay.is_sound() {
+            true => Ok(replay),
+            false => Err("a replay whose parts do not fit each other"),
+        }
+    }
+}
+
 impl<S, A: Clone + Default> Replay<S, A> {
+    /// Whether places, priorities and episodes fit each other.
+    fn is_sound(&self) -> bool {
+        let (n, capacity, age) = (self.moments.len(), self.capacity, self.age);
+        let sizes = capacity > 1 && u32::try_from(capacity).is_ok() && n <= capacity;
+        if !sizes
+            || !self.priorities.is_sound(capacity)
+            || !(self.largest > 0.0 && self.largest.is_finite())
+        {
+            return false;
+        }
+        let beyond = (n..self.priorities.leaves).all(|place| self.priorities.get(place) == 0.0);
+        let rewards = self.moments.iter().all(|moment| moment.reward.is_finite());
+        if n == 0 || !beyond || !rewards {
+            return n == 0 && beyond && self.head == 0 && age == 0;
+        }
+        let is_head = if n < capacity { self.head == n - 1 } else { self.head < n };
+        if !is_head || self.priorities.get(self.head) > 0.0 {
+            return false;
+        }
+        let has_step = |place: usize| self.priorities.get(place) > 0.0;
+        let current = (1..n).take_while(|&back| has_step(self.before(back))).count();
+        if current != age.min(n - 1) {
+            return false;
+        }
+        // From the newest to the oldest, each step knows where its episode ends.
+        let mut last = self.head;
+        (0..n).all(|back| {
+            let place = self.before(back);
+            if !has_step(place) {
+                last = place;
+            }
+            back <= current || self.moments[place].last as usize == last
+        })
+    }
+
+    /// The actions of all steps.
+    pub(super) fn steps(&self) -> impl Iterator<Item = &A> {
+        let steps = self.moments.iter().enumerate();
+        steps
+            .filter(|(place, _)| self.priorities.get(*place) > 0.0)
+            .map(|(_, moment)| &moment.action)
+    }
+
     /// Room for `capacity` states.
     ///
     /// # Panics
@@ -245,11 +323,11 @@ impl<S, A: Clone + Default> Replay<S, A> {
         &self.moments
     }
 
-    /// Adds all of another replay's episodes.
+    /// Adds all of another replay's episodes; `q` says what its automaton states are here.
     ///
     /// Steps that are not whole in a full ring (its oldest state may be in the middle of an episode)
     /// begin an episode of their own.
-    pub(super) fn extend(&mut self, other: &Self)
+    pub(super) fn extend(&mut self, other: &Self, q: impl Fn(u32) -> u32)
     where
         S: Clone,
     {
@@ -263,10 +341,10 @@ impl<S, A: Clone + Default> Replay<S, A> {
             }
             begun = other.priorities.get(place) > 0.0;
             if begun {
-                let Visit { q, reward, terminated, .. } = *moment;
+                let Visit { reward, terminated, .. } = *moment;
                 let state = other.moments[(place + 1) % n].state.clone();
                 let step = Step { state, reward, terminated, truncated: false };
-                self.push(q, moment.action.clone(), step);
+                self.push(q(moment.q), moment.action.clone(), step);
             }
         }
     }

@@ -218,7 +218,7 @@ fn a_replay_keeps_its_last_states_in_order() {
         }
     }
     let mut copy = Replay::new(40);
-    copy.extend(&replay);
+    copy.extend(&replay, |q| q);
     let whole = |replay: &Replay<i32>| {
         let steps = (0..replay.len()).filter(|&i| replay.steps_from(i) > 0);
         let mut steps: Vec<_> =

@@ -40,7 +40,7 @@ pub trait ContinuousEnv {
     type State;
 
     /// The least and the largest value of each component of an action, in its own unit: m pairs of
-    /// finite numbers, the first below the second.
+    /// numbers, the first below the second, whose difference is finite too.
     fn bounds(&self) -> Vec<(f32, f32)>;
 
     /// Starts an episode and returns its first state, s_0.

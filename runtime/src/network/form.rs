@@ -133,7 +133,8 @@ impl Controls {
     pub fn of(&self, i: usize, x: f32) -> f32 {
         let (low, high) = (self.low[i], self.high[i]);
         match self.squash {
-            Squash::Tanh => low + (tanh(x) + 1.0) * 0.5 * (high - low),
+            // Rounding may lead over a bound.
+            Squash::Tanh => (low + (tanh(x) + 1.0) * 0.5 * (high - low)).clamp(low, high),
             Squash::Clip => x.clamp(low, high),
         }
     }

@@ -4,7 +4,7 @@ use burn::tensor::Device;
 use rand::rngs::Xoshiro256PlusPlus;
 use rand::{Rng, SeedableRng};
 use serde::{Deserialize, Serialize};
-use std::string::String;
+use std::string::{String, ToString};
 use std::vec::Vec;
 
 use super::Settings;
@@ -105,7 +105,7 @@ impl<S, E: ContinuousEnv<State = S>, M: Monitor<S>> Monitored<Vec<f32>> for Besi
 /// An action within ±1 in the units of the world, as policies have it.
 fn stretched(bounds: &[(f32, f32)], mut action: Vec<f32>) -> Vec<f32> {
     for (a, &(low, high)) in action.iter_mut().zip(bounds) {
-        *a = low + (*a + 1.0) * 0.5 * (high - low);
+        *a = (low + (*a + 1.0) * 0.5 * (high - low)).clamp(low, high);
     }
     action
 }
@@ -190,6 +190,8 @@ where
         if !step.reward.is_finite() {
             return Err(Error::Reward(self.steps));
         }
+        // What cannot be learned from is not remembered.
+        core.look(&self.skill.features, &step.state)?;
         core.note_paid(step.reward);
         core.replay.push(*q, action.clone(), Step { state: step.state.clone(), ..**step });
         let (warmup, between) = (core.settings.warmup(), core.settings.steps_per_update());
@@ -244,7 +246,11 @@ impl<S> Core<S> {
         };
         self.look(features, s)?;
         let actions = Trainer::actions(&self.trainer.actor.layers, &self.single);
-        Ok(actions[head * m..][..m].to_vec())
+        let action = &actions[head * m..][..m];
+        match action.iter().all(|a| a.is_finite()) {
+            true => Ok(action.to_vec()),
+            false => Err(Error::Loss(self.trainer.updates)),
+        }
     }
 }
 
@@ -304,7 +310,7 @@ where
         env: &mut E,
         total: u64,
     ) -> Result<(), Error> {
-        check_same_bounds(env, &self.core.bounds)?;
+        check_bounds(&env.bounds(), &self.core.bounds)?;
         check_reward(&self.skill.task, &self.core.settings.rewards())?;
         let Self { skill, moves, core, rng, elapsed, .. } = self;
         let (horizon, bounds) = (core.settings.horizon(), core.bounds.clone());
@@ -314,7 +320,9 @@ where
     }
 
     /// Adds what another learner saw in the same world, for whatever task: the world does not depend on
-    /// it. The oldest is forgotten where that is more than the capacity.
+    /// it. The oldest is forgotten where that is more than the capacity. With
+    /// [`Updates::Current`](crate::learn::Updates::Current) nothing is learned from it, for it was not
+    /// taken in a state of this automaton.
     ///
     /// With [`Self::rehearse`] that is how skills become a new one without a step in the world (the last
     /// step of the paper's Algorithm 2):
@@ -356,8 +364,8 @@ where
     /// // Both, in any order, from what the two saw.
     /// let both = Product::conjunction(&[&left, &right]);
     /// let mut composed = Learner::new(Skill::new(&both, Place), &cart, settings, &Device::flex(), 3);
-    /// composed.remember(first.replay());
-    /// composed.remember(second.replay());
+    /// composed.remember(&first)?;
+    /// composed.remember(&second)?;
     /// composed.rehearse(1_500)?;
     /// let (mut x, mut q) = (0.0, both.next(0, &0.0)?);
     /// for _ in 0..60 {
@@ -367,9 +375,15 @@ where
     /// assert!(both.is_accepting(q) && composed.steps() == 0);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn remember(&mut self, seen: &Replay<S, Vec<f32>>) {
+    ///
+    /// # Errors
+    /// If its world has actions with other bounds.
+    pub fn remember<N, H, K>(&mut self, other: &Learner<S, N, H, K>) -> Result<(), Mismatch> {
+        check_bounds(&other.core.bounds, &self.core.bounds)?;
+        let seen = &other.core.replay;
         seen.moments().iter().for_each(|moment| self.core.note_paid(moment.reward));
-        self.core.replay.extend(seen);
+        self.core.replay.extend(seen, |_| FOREIGN);
+        Ok(())
     }
 
     /// Makes updates from what is remembered, without a step in the world.
@@ -382,7 +396,7 @@ where
     /// loss is not a finite number.
     ///
     /// # Panics
-    /// If nothing is remembered.
+    /// If no step is remembered.
     #[track_caller]
     pub fn rehearse(&mut self, updates: u64) -> Result<(), Error> {
         check_reward(&self.skill.task, &self.core.settings.rewards())?;
@@ -393,8 +407,13 @@ where
     /// The actor's action in (s, q), in the units of the world; the middle where the task is decided.
     ///
     /// # Errors
-    /// If a feature is not a finite number.
+    /// If a feature is not a finite number, or learning has diverged.
+    ///
+    /// # Panics
+    /// If `q` is not a state of the task's automaton.
+    #[track_caller]
     pub fn act(&mut self, q: u32, s: &S) -> Result<Vec<f32>, Error> {
+        self.check_state(q);
         let action = self.core.act(&self.skill.features, q, s)?;
         Ok(stretched(&self.core.bounds, action))
     }
@@ -403,13 +422,24 @@ where
     /// decided. With [`Settings::robustness`] it is less by the potential of s.
     ///
     /// # Errors
-    /// If a feature is not a finite number.
+    /// If a feature is not a finite number, or learning has diverged.
+    ///
+    /// # Panics
+    /// If `q` is not a state of the task's automaton.
+    #[track_caller]
     pub fn value(&mut self, q: u32, s: &S) -> Result<f32, Error> {
+        self.check_state(q);
         let Some(head) = self.core.trainer.heads.of(q) else {
             return Ok(0.0);
         };
         let action = self.core.act(&self.skill.features, q, s)?;
         Ok(self.core.trainer.value(head, &self.core.single, &action))
+    }
+
+    #[track_caller]
+    fn check_state(&self, q: u32) {
+        let states = self.skill.task.states();
+        assert!(q < states, "automaton state {q}, and there are {states}");
     }
 
     /// The actor's network; its heads are the automaton's live states, in order.
@@ -584,21 +614,32 @@ where
         device: &Device,
     ) -> Result<Self, Mismatch> {
         let Checkpoint { settings, bounds, .. } = &checkpoint;
-        check_same_bounds(env, bounds)?;
+        check_bounds(&env.bounds(), bounds)?;
         let moves = Moves::new(&skill.task, settings.rewards());
         let heads = Heads::new(&moves, skill.task.states());
         let (inputs, m) = (skill.features.inputs(), bounds.len());
         let [actor, critic] = shapes(inputs, m, heads.states.len(), settings);
+        let within = |action: &Vec<f32>| action.len() == m && action.iter().all(|a| a.abs() <= 1.0);
         let same = checkpoint.formula == skill.task.formula().text()
             && checkpoint.critics.len() == settings.critics()
-            && checkpoint.noise.len() == m;
+            && checkpoint.noise.len() == m
+            && checkpoint.replay.steps().all(within);
         let critics: Option<Vec<_>> =
             checkpoint.critics.iter().map(|net| Trained::resume(net, &critic, device)).collect();
         let (true, Some(actor), Some(critics)) =
             (same, Trained::resume(&checkpoint.actor, &actor, device), critics)
         else {
-            let describe = |task: &str| std::format!("`{task}` with networks of its features");
-            let (found, own) = (describe(&checkpoint.task), describe(skill.task.name()));
+            let layers = |inputs: Option<usize>| {
+                let inputs = inputs.map_or("no".into(), |inputs| inputs.to_string());
+                std::format!("a network of {inputs} inputs and layers {:?}", settings.hidden())
+            };
+            let (task, name) = (&checkpoint.task, skill.task.name());
+            let (seen, critics) = (checkpoint.actor.inputs(), checkpoint.critics.len());
+            let found = std::format!("`{task}` ({}, {critics} critics)", layers(seen));
+            let (own, critics) = (layers(Some(inputs)), settings.critics());
+            let own = std::format!(
+                "`{name}` ({own}, {critics} critics, actions of {m} numbers within ±1)"
+            );
             return Err(Mismatch::new("a checkpoint", found, own));
         };
         let core = Core {
@@ -636,6 +677,9 @@ pub struct Checkpoint<S> {
     seed: u64,
 }
 
+/// An automaton state that no task has: of what was seen for another one.
+const FOREIGN: u32 = u32::MAX;
+
 /// What the components of an action are called.
 fn names(env: &impl ContinuousEnv) -> Vec<String> {
     (0..env.bounds().len()).map(|i| env.component_name(i)).collect()
@@ -646,16 +690,18 @@ fn names(env: &impl ContinuousEnv) -> Vec<String> {
 fn checked_bounds(env: &impl ContinuousEnv) -> Vec<(f32, f32)> {
     let bounds = env.bounds();
     let sound = |&(low, high): &(f32, f32)| low < high && (high - low).is_finite();
-    assert!(!bounds.is_empty() && bounds.iter().all(sound), "actions with finite bounds");
+    assert!(
+        !bounds.is_empty() && bounds.iter().all(sound),
+        "the bounds of actions are pairs of a lesser and a larger number, whose difference is finite: {bounds:?}"
+    );
     bounds
 }
 
-/// `Ok` if the actions of the world have these bounds.
-fn check_same_bounds(env: &impl ContinuousEnv, expected: &[(f32, f32)]) -> Result<(), Mismatch> {
-    let found = env.bounds();
+/// `Ok` if the actions of a world have these bounds.
+fn check_bounds(found: &[(f32, f32)], expected: &[(f32, f32)]) -> Result<(), Mismatch> {
     if found == expected {
         return Ok(());
     }
     let describe = |bounds: &[(f32, f32)]| std::format!("a world with actions within {bounds:?}");
-    Err(Mismatch::new("an environment", describe(&found), describe(expected)))
+    Err(Mismatch::new("an environment", describe(found), describe(expected)))
 }

@@ -83,6 +83,14 @@ pub(super) struct SavedNetwork {
     moments: Option<AdamMoments>,
 }
 
+impl SavedNetwork {
+    /// The width of its first layer, if it has one.
+    pub(super) fn inputs(&self) -> Option<usize> {
+        let first = self.network.first()?;
+        first.weights.len().checked_div(first.bias.len())
+    }
+}
+
 /// An actor and its critics.
 ///
 /// `before` and `after` are buffers of features, kept so that an update allocates none.
@@ -146,7 +154,7 @@ impl Trainer {
             let inputs = joined(state, [(0, action)], self.components, &critic.layers.device());
             numbers(critic.layers.pass(inputs).out)[head]
         });
-        critics.fold(f32::INFINITY, f32::min)
+        critics.fold(f32::INFINITY, lesser)
     }
 
     /// Learns from one batch of steps; the mean loss of the critics.
@@ -221,7 +229,7 @@ impl Trainer {
             for critic in &self.critics {
                 let found = numbers(critic.target.pass(inputs.clone()).out);
                 let rows = values.iter_mut().zip(found.chunks(heads)).zip(follows());
-                rows.for_each(|((least, row), (_, next))| *least = least.min(row[next.head]));
+                rows.for_each(|((least, row), (_, next))| *least = lesser(*least, row[next.head]));
             }
         }
         let mut values = values.into_iter();
@@ -326,6 +334,11 @@ impl Trained {
         let slopes = matrix(slopes, targets.len() / rows, &self.layers.device());
         (loss, self.layers.back(&pass.inputs, slopes))
     }
+}
+
+/// The lesser of two numbers; what is no number stays none, so that the loss shows it.
+fn lesser(a: f32, b: f32) -> f32 {
+    if a < b || a.is_nan() { a } else { b }
 }
 
 /// Rows of numbers as a tensor.

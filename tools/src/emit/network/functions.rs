@@ -56,7 +56,7 @@ const fn squashed(squash: Squash) -> &'static str {
         Squash::Tanh => {
             "    let mut numbers = tanh(values(q, inputs, entities));
     for ((x, low), high) in numbers.iter_mut().zip(&LOW).zip(&HIGH) {
-        *x = low + (*x + 1.0) * 0.5 * (high - low);
+        *x = (low + (*x + 1.0) * 0.5 * (high - low)).clamp(*low, *high);
     }"
         }
         Squash::Clip => {
