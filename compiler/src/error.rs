@@ -308,8 +308,8 @@ impl fmt::Display for Error {
 
 impl std::error::Error for Error {}
 
-/// The most mistakes that are reported at once. A source with more is most likely not of this
-/// language.
+/// The most mistakes that are reported at once; the last of them says how many more there are. A source
+/// with more is most likely not of this language.
 const MOST: usize = 100;
 
 /// All mistakes of a source: at least one error, in source order; warnings may stand among them.
@@ -351,7 +351,11 @@ impl Errors {
                 distinct.push(mistake.clone());
             }
         }
+        let hidden = distinct.len().saturating_sub(MOST);
         distinct.truncate(MOST);
+        if let (Some(last), 1..) = (distinct.last_mut(), hidden) {
+            last.help.push(format!("{hidden} more mistakes are not shown"));
+        }
         if distinct.is_empty() { Ok(()) } else { Err(Self(distinct)) }
     }
 

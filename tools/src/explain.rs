@@ -71,7 +71,7 @@ pub struct StateExplanation {
     pub moves: Option<u32>,
     /// The literals that must hold at some instant still to come, whatever else happens.
     pub needs: Vec<String>,
-    /// The guards along a shortest way to acceptance, one a move.
+    /// The guards along a shortest way to acceptance, one a move, of the first [`MOST_TOLD`] moves.
     pub way: Vec<String>,
     /// The guard that loses the task at the next instant, if there is one.
     pub avoid: Option<String>,
@@ -80,6 +80,10 @@ pub struct StateExplanation {
 /// The most states that are explained one by one: nobody reads more, and each costs a search for
 /// each literal.
 pub const MOST_STATES: usize = 64;
+
+/// The most moves of a way that are told: a bound of a thousand instants is as many guards, from each of
+/// as many states.
+pub const MOST_TOLD: usize = 50;
 
 /// Explains a task, given its formula and its automaton.
 ///
@@ -230,7 +234,8 @@ fn reaches(dfa: &Dfa, q: State, (proposition, value): (u32, bool)) -> bool {
 /// products of a guard, the one with the fewest literals is shown.
 fn way(dfa: &Dfa, guards: &mut Guards<'_>, distances: &[Option<u32>], mut q: State) -> Vec<String> {
     let mut way = Vec::new();
-    while let Some(left) = distances[q as usize].filter(|&left| left > 0) {
+    let still = |left: &u32, told: usize| *left > 0 && told < MOST_TOLD;
+    while let Some(left) = distances[q as usize].filter(|left| still(left, way.len())) {
         let edges = guards.edges(q).into_iter();
         let nearer =
             edges.filter(|(to, _)| distances[*to as usize].is_some_and(|moves| moves < left));
@@ -306,6 +311,23 @@ impl Explanation {
     }
 }
 
+impl StateExplanation {
+    /// The number of moves that `way` leaves out.
+    ///
+    /// ```
+    /// use tltl_compiler::translate::Budget;
+    ///
+    /// let task = tltlc::task::compile("X[60] p", Budget::default())?;
+    /// let told = tltlc::explain::explain(&task.entry().task().spec, task.dfa());
+    /// assert_eq!((told.states[0].way.len(), told.states[0].untold()), (50, 11));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn untold(&self) -> usize {
+        self.moves.map_or(0, |moves| (moves as usize).saturating_sub(self.way.len()))
+    }
+}
+
 impl fmt::Display for StateExplanation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "  {:>3}  ", self.state)?;
@@ -313,7 +335,13 @@ impl fmt::Display for StateExplanation {
             (Verdict::Satisfied, _) => return writeln!(f, "nothing: the task is satisfied"),
             (Verdict::Lost, _) => return writeln!(f, "the task is lost"),
             (Verdict::Open, None) => return writeln!(f, "the task cannot be satisfied any more"),
-            (Verdict::Open, Some(_)) => writeln!(f, "quickest: {}", self.way.join(", then "))?,
+            (Verdict::Open, Some(_)) => {
+                write!(f, "quickest: {}", self.way.join(", then "))?;
+                match self.untold() {
+                    0 => writeln!(f)?,
+                    more => writeln!(f, ", and {more} moves more")?,
+                }
+            }
         }
         if !self.needs.is_empty() {
             writeln!(f, "       cannot do without: {}", self.needs.join(", "))?;

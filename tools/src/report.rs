@@ -352,7 +352,11 @@ fn asked(told: &StateExplanation) -> String {
         (Verdict::Satisfied, _) => row("asks for", "nothing: the task is satisfied".into()),
         (Verdict::Lost, _) => row("asks for", "nothing: the task is lost".into()),
         (Verdict::Open, None) => row("asks for", "what can no longer be had".into()),
-        (Verdict::Open, Some(_)) => row("quickest", codes(way, ", then ")),
+        (Verdict::Open, Some(_)) => {
+            let more = told.untold();
+            let more = if more > 0 { format!(", and {more} moves more") } else { String::new() };
+            row("quickest", codes(way, ", then ") + &more);
+        }
     }
     if !needs.is_empty() {
         row("cannot do without", codes(needs, ", "));

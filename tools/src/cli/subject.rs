@@ -72,7 +72,9 @@ fn exists(path: &str) -> bool {
 
 /// Whether a text is meant as a path.
 pub(super) fn looks_like_file(path: &str) -> bool {
-    exists(path) || path.ends_with(".tltl") || path.ends_with(".hoa")
+    // A folder or a device is none that can be read, and then the message says so.
+    let is_there = path.contains('/') && Path::new(path).exists();
+    exists(path) || is_there || path.ends_with(".tltl") || path.ends_with(".hoa")
 }
 
 /// Reads a file, and finds the task in it.
