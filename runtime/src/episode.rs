@@ -156,7 +156,7 @@ pub trait Agent<A = usize> {
     /// Why it cannot go on: at least what stops its worlds.
     type Error;
 
-    /// An episode starts in `s`, where the task goes on.
+    /// An episode starts in `s`.
     fn start(&mut self, _s: &Self::State) {}
 
     /// The action in `s` at `q`, after `steps` environment steps.
@@ -251,11 +251,11 @@ where
     R: Rng + ?Sized,
 {
     let mut at = Step::to(world.reset(rng).map_err(Into::into)?);
+    agent.start(&at.state);
     let Move { to: mut q, over, .. } = world.read(0, &at).map_err(Into::into)?;
     if over {
         return Ok(());
     }
-    agent.start(&at.state);
     // One counter for both.
     let end = steps.saturating_add(horizon);
     while *steps < end {

@@ -218,3 +218,13 @@ fn replays_that_were_edited_are_refused() {
     let error = Learner::resume(skill, &world, short, &Device::flex()).unwrap_err();
     assert!(error.to_string().contains("actions of 1 numbers"), "{error}");
 }
+
+#[test]
+fn starts_that_are_decided_push_nothing_out() {
+    let task = tltl! { |x: &f32| F ({ *x } < 0.5) };
+    let world = Cart { motors: 1, place: 0.0, broken: false };
+    let settings = Settings::default().with_capacity(50).unwrap();
+    let mut learner = Learner::new(Skill::new(task, Place), &world, settings, &Device::flex(), 1);
+    learner.train(&mut Cart { motors: 1, place: 0.0, broken: false }, 100).unwrap();
+    assert_eq!((learner.steps(), learner.replay().len()), (0, 0));
+}

@@ -49,6 +49,8 @@ struct Core<S> {
     paid: (f64, f64),
     trainer: Trainer,
     replay: Replay<S, Vec<f32>>,
+    /// Where an episode has started, until its first step: a start that is decided is not remembered.
+    started: Option<S>,
     /// The noise of the last step, of deviation 1.
     noise: Vec<f64>,
     single: Batch,
@@ -152,7 +154,7 @@ where
     type Error = Error;
 
     fn start(&mut self, s: &S) {
-        self.core.replay.start(s.clone());
+        self.core.started = Some(s.clone());
         self.core.noise.fill(0.0);
     }
 
@@ -193,6 +195,9 @@ where
         // What cannot be learned from is not remembered.
         core.look(&self.skill.features, &step.state)?;
         core.note_paid(step.reward);
+        if let Some(s) = core.started.take() {
+            core.replay.start(s);
+        }
         core.replay.push(*q, action.clone(), Step { state: step.state.clone(), ..**step });
         let (warmup, between) = (core.settings.warmup(), core.settings.steps_per_update());
         if self.steps < warmup || !self.steps.is_multiple_of(between) {
@@ -287,6 +292,7 @@ where
         let core = Core {
             trainer,
             replay: Replay::new(settings.capacity()),
+            started: None,
             most: moves.most(&skill.task),
             paid: (0.0, 0.0),
             settings,
@@ -645,6 +651,7 @@ where
         let core = Core {
             trainer: Trainer::of(heads, m, actor, critics, checkpoint.updates),
             replay: checkpoint.replay,
+            started: None,
             most: moves.most(&skill.task),
             paid: checkpoint.paid,
             settings: checkpoint.settings,
