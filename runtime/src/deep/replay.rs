@@ -152,10 +152,8 @@ impl<S, A: Clone + Default> Replay<S, A> {
     fn is_sound(&self) -> bool {
         let (n, capacity, age) = (self.moments.len(), self.capacity, self.age);
         let sizes = capacity > 1 && u32::try_from(capacity).is_ok() && n <= capacity;
-        if !sizes
-            || !self.priorities.is_sound(capacity)
-            || !(self.largest > 0.0 && self.largest.is_finite())
-        {
+        let largest = self.largest > 0.0 && self.largest.is_finite();
+        if !(sizes && largest && self.priorities.is_sound(capacity)) {
             return false;
         }
         let beyond = (n..self.priorities.leaves).all(|place| self.priorities.get(place) == 0.0);
