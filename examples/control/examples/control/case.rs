@@ -1,0 +1,95 @@
+//! A task in a world: learned, tried, and beside a controller that is written by hand.
+
+use tltl::deep::actor::{Learner, Settings};
+use tltl::deep::{AsGiven, Device, Skill};
+use tltl::env::ContinuousEnv;
+use tltl::learn::Schedule;
+use tltl::network::Features;
+use tltl::prelude::Rewards;
+use tltl::reward::Mode;
+use tltl::robustness::Predicates;
+use tltl::{Acceptor as _, OutOfRange, Task};
+use tltl_control::judge::{HORIZON, Trialled, trials};
+use tltl_control::picture::Plane;
+
+use crate::Failure;
+
+/// Environment steps of a training.
+pub(crate) const STEPS: u64 = 60_000;
+
+/// Trials of a policy, from starts that no learner has seen.
+pub(crate) const TRIALS: u64 = 200;
+
+/// A task in a world.
+pub(crate) struct Case<E: ContinuousEnv, P, F> {
+    pub(crate) world: E,
+    pub(crate) task: Task<P>,
+    pub(crate) look: F,
+    /// The seconds of a step.
+    pub(crate) step: f64,
+    /// The places that it asks for, in order.
+    pub(crate) goals: &'static [(f64, f64)],
+    /// The controller written by hand: the state and the goal of the moment.
+    pub(crate) by_hand: fn(&E::State, (f64, f64)) -> [f32; 2],
+    pub(crate) plane: Plane<'static>,
+    /// Where in the plane a state is drawn.
+    pub(crate) at: fn(&E::State) -> (f64, f64),
+}
+
+/// A learner of a case.
+pub(crate) type Actor<'a, S, P, F> = Learner<S, &'a Task<P>, F, AsGiven>;
+
+/// How all of them learn.
+pub(crate) fn settings() -> Result<Settings, OutOfRange> {
+    Settings::default()
+        .with_rewards(Rewards::of(Mode::Shaped).with_gamma(0.98)?)
+        .with_hidden([64, 64])?
+        .with_horizon(HORIZON)?
+        .with_steps(3)?
+        .with_robustness(1.0)?
+        .with_noise(Schedule::constant(0.3)?)?
+        .with_noise_correlation(0.8)?
+        .with_warmup(2_000)
+}
+
+impl<E, P, F> Case<E, P, F>
+where
+    E: ContinuousEnv<State: Clone> + Clone,
+    P: Predicates<E::State> + Sync,
+    F: Features<E::State> + Copy + Sync,
+{
+    /// Where one has to go at `q`: the live states are numbered in the order of the goals.
+    fn goal(&self, q: u32) -> (f64, f64) {
+        let before = (0..q).filter(|&q| !self.task.is_terminal(q)).count();
+        self.goals[before.min(self.goals.len() - 1)]
+    }
+
+    /// What is there.
+    pub(crate) fn towards(&self, q: u32) -> &'static str {
+        let goal = self.goal(q);
+        let there = self.plane.regions.iter().find(|region| region.middle == goal);
+        there.map_or("", |region| region.name)
+    }
+
+    /// A learner that has learned nothing.
+    pub(crate) fn learner(&self, seed: u64) -> Result<Actor<'_, E::State, P, F>, Failure> {
+        let skill = Skill::new(&self.task, self.look);
+        Ok(Learner::new(skill, &self.world, settings()?, &Device::flex(), seed))
+    }
+
+    /// Trials of the controller written by hand.
+    pub(crate) fn hand(&self) -> Result<Trialled<E::State>, Failure> {
+        let act = |q, s: &E::State| Ok((self.by_hand)(s, self.goal(q)).to_vec());
+        trials(&mut self.world.clone(), &self.task, TRIALS, act)
+    }
+
+    /// Trials of a learner.
+    pub(crate) fn tried(
+        &self,
+        learner: &mut Actor<'_, E::State, P, F>,
+        count: u64,
+    ) -> Result<Trialled<E::State>, Failure> {
+        let act = |q, s: &E::State| Ok::<_, Failure>(learner.act(q, s)?);
+        trials(&mut self.world.clone(), &self.task, count, act)
+    }
+}

@@ -1,0 +1,52 @@
+//! Continuous control: learn a task with an actor, judge it against a controller written by hand, draw
+//! it, emit it.
+//!
+//! `cargo run --release -p tltl-control --example control [-- TASK [SEED [STEPS]]]` does that for one task,
+//! `fetch` if left out, and writes into `target/control`. Instead of a task:
+//!
+//! - `--study [TASK]` learns the tasks of two and three steps, or the one that is named, with ten seeds, and writes
+//!   `docs/studies/control_*`;
+//! - `--compose [PAIR [SEED]]` composes pairs of skills without a step in the world.
+
+mod case;
+mod compose;
+mod one;
+mod study;
+mod worlds;
+
+use std::error::Error;
+use std::process::ExitCode;
+use std::str::FromStr;
+
+type Failure = Box<dyn Error>;
+
+fn main() -> ExitCode {
+    match run(std::env::args().skip(1)) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(mut arguments: impl Iterator<Item = String>) -> Result<(), Failure> {
+    let what = arguments.next().unwrap_or_else(|| "fetch".into());
+    match &*what {
+        "--study" => study::run(arguments.next().as_deref()),
+        "--compose" => {
+            let pair = given(arguments.next())?;
+            compose::run(pair, given(arguments.next())?.unwrap_or(1))
+        }
+        task => {
+            let seed = given(arguments.next())?.unwrap_or(1);
+            one::run(task, seed, given(arguments.next())?.unwrap_or(case::STEPS))
+        }
+    }
+}
+
+/// An argument that is a number.
+fn given<T: FromStr>(argument: Option<String>) -> Result<Option<T>, Failure> {
+    let number = |text: String| text.parse().map_err(|_| format!("`{text}` is no number"));
+    Ok(argument.map(number).transpose()?)
+}
