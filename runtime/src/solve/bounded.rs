@@ -138,9 +138,10 @@ impl Problem {
             let mut component = Component::new(self, members, (&nothing, 1.0, false), known);
             component.choose(unknowns, known);
             let rule = rule.costing(costs);
-            let solution = Solution::new(component, &rule, first, None);
+            let mut solution = Solution::new(component, &rule, first, None);
+            let error = solution.relative_error();
             all.put(&solution);
-            all.add_error(members, solution.relative_error());
+            all.add_error(members, error);
         }
         all.bounded
     }

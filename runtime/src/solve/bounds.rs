@@ -12,6 +12,10 @@
 //!   raised. Going round on a plateau, neither v nor w changes, and there is nothing to show. From
 //!   below, v − δ w holds for the policy in the same way, and no policy is better than the best.
 //!
+//! Residuals are differences of rounded values, so all this is of use as long as the expected steps are below
+//! 10¹³ or so, and as the values are good. Where a bound is poor, the policy is evaluated by elimination and
+//! improved further. For a policy, the error of elimination is a bound by itself, in the slowest world.
+//!
 //! What is taken for granted: that the probabilities of an action sum to 1, what they miss being the
 //! probability to stay.
 
@@ -19,7 +23,7 @@ use alloc::vec::Vec;
 
 use super::chain::{Chain, Factors};
 use super::component::NONE;
-use super::eliminate::{SMALL, relative_error};
+use super::eliminate::{eliminate, relative_error};
 use super::improve::Solution;
 use super::sets::plateaus;
 
@@ -29,6 +33,9 @@ const LEVEL: f64 = 8.0 * f64::EPSILON;
 
 /// Residuals further than this below 0 are no near ties.
 const NEAR: f64 = 1e-6;
+
+/// Relative errors above this are worth eliminations.
+const POOR: f64 = 1e-6;
 
 /// Rounds in which w is raised before δ is.
 const PATIENCE: usize = 64;
@@ -56,7 +63,17 @@ impl Solution<'_> {
 
     /// The relative error of costs.
     #[inline]
-    pub(super) fn relative_error(&self) -> f64 {
+    pub(super) fn relative_error(&mut self) -> f64 {
+        let error = self.costs_error();
+        if error <= POOR {
+            return error;
+        }
+        self.refine();
+        self.costs_error()
+    }
+
+    #[inline]
+    fn costs_error(&self) -> f64 {
         let mut part = 0.0_f64;
         self.residuals(|Action { i, wrong, .. }| {
             part = part.max(wrong / self.rows.cost(i as usize));
@@ -68,6 +85,21 @@ impl Solution<'_> {
     /// The error of probabilities, and the most steps that the policy can be expected to make.
     #[inline]
     pub(super) fn probability_error(&mut self) -> (f64, f64) {
+        let (error, steps) = self.error_and_steps(None);
+        if error <= POOR && steps.is_finite() {
+            return (error, steps);
+        }
+        self.refine();
+        let own = self.eliminated.then(|| eliminate(&self.rows, &self.policy, |_, _| 1.0));
+        let Some(own) = own.flatten() else { return (error, steps) };
+        let top = largest(&own);
+        let (error, steps) = self.error_and_steps(Some(own));
+        (error, if self.rule.is_policy() { steps.min(2.0 * top) } else { steps })
+    }
+
+    /// The same; `own` are the steps of the policy, if they are known.
+    #[inline]
+    fn error_and_steps(&mut self, own: Option<Vec<f64>>) -> (f64, f64) {
         let x = |i: u32| self.x[i as usize];
         let level = |i, j| (x(i) - x(j)).abs() <= LEVEL;
         let single = self.rule.is_policy();
@@ -78,9 +110,10 @@ impl Solution<'_> {
             members.iter().for_each(|&i| self.x[i as usize] = top);
         }
         // If what is no near tie turns out not to have the room that it was taken to have, with all.
-        let mut bound = self.bound(&plateaus, NEAR);
+        let steps = own.unwrap_or_else(|| self.steps());
+        let mut bound = self.bound(Heights::new(&steps, &plateaus), NEAR);
         if bound.0 > NEAR {
-            bound = self.bound(&plateaus, f64::INFINITY);
+            bound = self.bound(Heights::new(&steps, &plateaus), f64::INFINITY);
         }
         (bound.0.min(self.eliminated_error()), bound.1)
     }
@@ -88,15 +121,14 @@ impl Solution<'_> {
     /// The error of values of a policy that were found by elimination.
     #[inline]
     fn eliminated_error(&self) -> f64 {
-        let n = self.x.len();
-        let known = self.rule.is_policy() && n <= SMALL;
-        if known { relative_error(n) } else { f64::INFINITY }
+        let known = self.rule.is_policy() && self.eliminated;
+        if known { relative_error(self.x.len()) } else { f64::INFINITY }
     }
 
     /// δ w where it is largest, and a bound on the policy's steps; only actions count whose residual is
     /// above −`near`.
     #[inline]
-    fn bound(&self, plateaus: &[Vec<u32>], near: f64) -> (f64, f64) {
+    fn bound(&self, mut heights: Heights<'_>, near: f64) -> (f64, f64) {
         let (mut actions, mut delta) = (Vec::new(), f64::MIN_POSITIVE);
         self.residuals(|action| {
             delta = delta.max(2.0 * action.wrong);
@@ -104,7 +136,6 @@ impl Solution<'_> {
                 actions.push(action);
             }
         });
-        let mut heights = Heights::new(self, plateaus);
         for _ in 0..RAISES {
             for _ in 0..PATIENCE {
                 // To and fro: what an action needs depends on those before it as on those behind.
@@ -116,6 +147,15 @@ impl Solution<'_> {
             delta *= RAISE;
         }
         (1.0, f64::INFINITY)
+    }
+
+    /// The expected steps of the policy, nearly.
+    #[inline]
+    fn steps(&self) -> Vec<f64> {
+        let mut steps = alloc::vec![0.0; self.x.len()];
+        let chain = Chain::new(&self.rows, &self.policy, Factors::Plain);
+        chain.correct(&alloc::vec![1.0; self.x.len()], &mut steps, 1e-3);
+        steps
     }
 
     /// The residuals of all allowed actions, each with what rounding may add to it.
@@ -152,15 +192,11 @@ struct Heights<'a> {
 }
 
 impl<'a> Heights<'a> {
-    /// The expected steps of the policy.
+    /// First heights: the expected `steps` of the policy.
     #[inline]
-    fn new(solution: &Solution<'_>, plateaus: &'a [Vec<u32>]) -> Self {
-        let n = solution.x.len();
-        let mut w = alloc::vec![0.0; n];
-        let chain = Chain::new(&solution.rows, &solution.policy, Factors::Plain);
-        chain.correct(&alloc::vec![1.0; n], &mut w, 1e-3);
-        w.iter_mut().for_each(|w| *w = w.max(1.0));
-        let mut of = alloc::vec![NONE; n];
+    fn new(steps: &[f64], plateaus: &'a [Vec<u32>]) -> Self {
+        let mut w: Vec<f64> = steps.iter().map(|w| w.max(1.0)).collect();
+        let mut of = alloc::vec![NONE; w.len()];
         for (number, members) in plateaus.iter().enumerate() {
             members.iter().for_each(|&i| of[i as usize] = number as u32);
             let top = members.iter().map(|&i| w[i as usize]).fold(0.0, f64::max);
@@ -171,7 +207,7 @@ impl<'a> Heights<'a> {
 
     #[inline]
     fn top(&self) -> f64 {
-        self.w.iter().copied().fold(0.0, f64::max)
+        largest(&self.w)
     }
 
     /// Raises w where v + δ w does not hold; whether there was such an action.
@@ -190,22 +226,23 @@ impl<'a> Heights<'a> {
                 continue;
             }
             let plateau = self.of[i as usize];
-            let same = |j: u32| j == i || (plateau != NONE && self.of[j as usize] == plateau);
+            let of = |j: u32| self.of.get(j as usize).copied().unwrap_or(NONE);
+            let same = |j: u32| j == i || (plateau != NONE && of(j) == plateau);
             let outcomes = solution.rows.outcomes(i as usize);
             // So that 2 w is more than the steps, too, that the policy can be expected to make.
             let least = if own { 0.5 } else { f64::NEG_INFINITY };
-            let (mut height, mut moves) = ((wrong / delta).max(least), 0.0);
-            for (p, target, _) in outcomes.of(a as usize) {
-                if target == NONE {
-                    moves += p;
-                } else if !same(target) {
-                    (height, moves) = (height + p * self.w[target as usize], moves + p);
-                }
+            let own = self.w[i as usize];
+            let need = (wrong / delta).max(least);
+            let (mut rise, mut size, mut moves) = (need, need.abs(), 0.0);
+            for (p, target, _) in outcomes.of(a as usize).filter(|&(_, to, _)| !same(to)) {
+                let step = p * (self.w.get(target as usize).copied().unwrap_or(0.0) - own);
+                (rise, size, moves) = (rise + step, size + step.abs(), moves + p);
             }
-            let needed = height * (1.0 + 1e-12) / moves;
-            if moves > 0.0 && self.w[i as usize] < needed {
+            let count = outcomes.successors.len() as f64 + 3.0;
+            rise += count * f64::EPSILON * size;
+            if moves > 0.0 && rise > 0.0 {
                 raised = true;
-                let to = needed * (1.0 + 1e-3);
+                let to = (own + rise / moves) * (1.0 + 1e-3);
                 match self.plateaus.get(plateau as usize) {
                     Some(members) => members.iter().for_each(|&i| self.w[i as usize] = to),
                     None => self.w[i as usize] = to,
@@ -214,4 +251,9 @@ impl<'a> Heights<'a> {
         }
         raised
     }
+}
+
+#[inline]
+fn largest(values: &[f64]) -> f64 {
+    values.iter().copied().fold(0.0, f64::max)
 }

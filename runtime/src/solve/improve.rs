@@ -37,6 +37,12 @@ const SWEEPS: usize = 4;
 /// do not treat smooth errors exactly.
 const WIDE: usize = 1 << 17;
 
+/// As [`TIE`], where values are found by elimination: what rounding may do to them.
+const FINE: f64 = 16.0 * f64::EPSILON;
+
+/// The policies at most whose values are found so in the end.
+const REFINEMENTS: usize = 20;
+
 /// The rounds at most: policies improve each time, and few worlds take twenty.
 const ROUNDS: usize = 1000;
 
@@ -48,6 +54,8 @@ pub(super) struct Solution<'a> {
     pub(super) x: Vec<f64>,
     /// The action of each unknown.
     pub(super) policy: Vec<u32>,
+    /// Whether the values are those of the policy by elimination.
+    pub(super) eliminated: bool,
     places: Vec<f64>,
     /// By unknown: what the policy's action comes to, less the value.
     residual: Vec<f64>,
@@ -69,8 +77,9 @@ impl<'a> Solution<'a> {
         let x = start.unwrap_or_else(|| alloc::vec![0.0; n]);
         let (places, residual) = (Vec::new(), alloc::vec![0.0; n]);
         let (rows, factors) = (Rows::new(&component, rule.costs), Factors::Plain);
+        let (eliminated, scale) = (false, 0.0);
         let mut solution =
-            Self { component, rows, rule, x, policy, places, residual, scale: 0.0, factors };
+            Self { component, rows, rule, x, policy, eliminated, places, residual, scale, factors };
         if n >= WIDE && solution.slopes() {
             solution.factors = Factors::SumPreserving;
         }
@@ -131,6 +140,7 @@ impl<'a> Solution<'a> {
     /// Corrects the values, with the other factors where these fail; whether that was enough.
     #[inline]
     fn correct(&mut self, chain: &mut Chain, reduction: f64) -> bool {
+        self.eliminated = false;
         if self.attempt(chain, self.factors, reduction) {
             return true;
         }
@@ -166,8 +176,29 @@ impl<'a> Solution<'a> {
     /// Finds the values by elimination, unless it is too much work.
     #[inline]
     fn eliminate(&mut self) -> bool {
-        let found = eliminate(&self.rows, &self.policy);
-        found.map(|x| self.x = x).is_some()
+        let found = eliminate(&self.rows, &self.policy, |i, a| self.rows.paid(i, a));
+        found.map(|x| (self.x, self.eliminated) = (x, true)).is_some()
+    }
+
+    /// Improves the policy further by eliminations, unless these are too much work: their values are good in
+    /// the slowest world.
+    #[inline]
+    pub(super) fn refine(&mut self) {
+        let mut former = self.policy.clone();
+        for _ in 0..REFINEMENTS {
+            drop(self.chain(&former));
+            if !self.eliminate() {
+                break;
+            }
+            former.copy_from_slice(&self.policy);
+            let x = self.x.clone();
+            let taken = self.sweep(FINE);
+            self.x = x;
+            if taken == 0 {
+                break;
+            }
+        }
+        self.policy = former;
     }
 
     /// Whether values change along the ways: where each step costs something, or is discounted. Where they

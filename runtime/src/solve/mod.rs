@@ -13,9 +13,9 @@
 //!   state, which is read and costs nothing, to acceptance; where P < 1 they are conditional on
 //!   success. The smallest possible steps are those among the policies with the largest possible
 //!   P.
-//! - Every number comes with a [bound on its error](Values::error) that holds in exact arithmetic. Where a
-//!   world is hardly ever left (once in 10^9 steps, on ways that lead back and forth) it may be wide,
-//!   and then says so.
+//! - Every number comes with a [bound on its error](Values::error) that holds in exact arithmetic. Where more
+//!   than about 1,500 pairs are hardly ever left (once in 10^9 steps, on ways that lead back and forth), or
+//!   the best steps are more than about 10^13, it may be wide, and then says so.
 
 mod actions;
 mod bounded;
@@ -456,7 +456,8 @@ impl Problem {
     }
 
     /// The actions that lose at most 1e-9 of the largest P each time that they lead elsewhere: ties are
-    /// common, and rounding must not break them before the steps do.
+    /// common, and rounding must not break them before the steps do. Where success is sure, those that lose
+    /// nothing.
     #[inline]
     fn safe(&self, accept: &Payment, satisfied: &[f64]) -> Actions {
         let mut safe = Actions::none(self.task.pairs(), self.dynamics.actions());
@@ -465,15 +466,20 @@ impl Problem {
             let all: Vec<f64> = (0..self.dynamics.arrivals()).map(|at| arrival(q, at)).collect();
             for s in 0..self.task.states() {
                 let (pair, stays) = (self.task.pair(q, s), self.task.next(q, s) == q);
-                for a in 0..self.dynamics.actions() {
-                    let (mut loss, mut moving) = (0.0, 0.0);
-                    for (at, p) in self.dynamics.row(s, a).filter(|&(at, _)| at != s || !stays) {
-                        loss += p * (satisfied[pair] - all[at]);
-                        moving += p;
-                    }
-                    if loss <= 1e-9 * moving {
-                        safe.insert(pair, a);
-                    }
+                let losses = (0..self.dynamics.actions()).map(|a| {
+                    let row = self.dynamics.row(s, a).filter(|&(at, _)| at != s || !stays);
+                    row.fold((0.0, 0.0), |(loss, moving), (at, p)| {
+                        (loss + p * (satisfied[pair] - all[at]), moving + p)
+                    })
+                });
+                let losses: Vec<(f64, f64)> = losses.collect();
+                // Where success is sure there is no rounding, and a world may be slower than once in 1e9 steps.
+                let sure = satisfied[pair] == 1.0 && losses.iter().any(|&(loss, _)| loss == 0.0);
+                let tie = if sure { 0.0 } else { 1e-9 };
+                for (a, _) in
+                    losses.iter().enumerate().filter(|(_, (loss, moving))| *loss <= tie * moving)
+                {
+                    safe.insert(pair, a);
                 }
             }
         }

@@ -86,6 +86,12 @@ impl<'a> Rows<'a> {
         self.costs.get(i).copied().unwrap_or(0.0)
     }
 
+    /// What a step from an unknown comes to in the mean, but for the unknowns that it leads to.
+    #[inline]
+    pub(super) fn paid(&self, i: usize, a: u32) -> f64 {
+        self.outcomes(i).of(a as usize).fold(self.cost(i), |sum, (p, _, worth)| sum + p * worth)
+    }
+
     /// The outcomes of an unknown, whose successors are places.
     #[inline]
     pub(super) fn outcomes(&self, i: usize) -> Outcomes<'_> {
