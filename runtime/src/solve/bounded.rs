@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use super::component::Component;
 use super::improve::{Solution, outwards as policy};
 use super::sets::{outwards, sets};
-use super::{Problem, Rule};
+use super::{Actions, Problem, Rule};
 use crate::augmented::{LabelTable, Payment};
 
 /// A number for each pair, and how far they may be from the true ones.
@@ -15,6 +15,8 @@ pub(super) struct Bounded {
     pub(super) error: f64,
     /// The actions by which the values come about; 0 where there is nothing to choose.
     pub(super) policy: Vec<u32>,
+    /// For probabilities, the pairs from which success is sure, by the graph: action 0 stands for it.
+    pub(super) sure: Actions,
     /// For probabilities, the most steps that the policy can be expected to make where success is
     /// neither sure nor impossible.
     pub(super) doubt: f64,
@@ -31,7 +33,7 @@ impl Bounded {
     /// Values without an error but rounding.
     #[inline]
     pub(super) fn exact(values: Vec<f64>) -> Self {
-        Self { values, error: 0.0, policy: Vec::new(), doubt: 0.0 }
+        Self { values, error: 0.0, policy: Vec::new(), sure: Actions::none(0, 1), doubt: 0.0 }
     }
 }
 
@@ -71,7 +73,8 @@ impl Problem {
         let values = alloc::vec![0.0; self.task.pairs()];
         let policy = alloc::vec![0; self.task.pairs()];
         let errors = alloc::vec![0.0; self.task.automaton_states() as usize];
-        let bounded = Bounded { values, error: 0.0, policy, doubt: 0.0 };
+        let bounded =
+            Bounded { policy, sure: Actions::none(values.len(), 1), ..Bounded::exact(values) };
         Collector { problem: self, bounded, errors }
     }
 
@@ -108,7 +111,9 @@ impl Problem {
             let mut component = Component::new(self, members, (payment, 1.0, false), known);
             let sets = sets(&component, rule);
             for &code in &sets.one {
-                all.bounded.values[component.pair(code)] = 1.0;
+                let pair = component.pair(code);
+                all.bounded.values[pair] = 1.0;
+                all.bounded.sure.insert(pair, 0);
             }
             component.choose(sets.between, &all.bounded.values);
             let first = policy(&component, rule);

@@ -94,7 +94,7 @@ impl Solution<'_> {
         let Some(own) = own.flatten() else { return (error, steps) };
         let top = largest(&own);
         let (error, steps) = self.error_and_steps(Some(own));
-        (error, if self.rule.is_policy() { steps.min(2.0 * top) } else { steps })
+        (error, if self.eliminated_error() < 0.5 { steps.min(2.0 * top) } else { steps })
     }
 
     /// The same; `own` are the steps of the policy, if they are known.

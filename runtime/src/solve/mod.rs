@@ -226,7 +226,8 @@ impl Problem {
     }
 
     /// The policy of the largest possible P(satisfied), and among those of the smallest possible
-    /// E\[steps\] (actions that lose at most 1e-9 of P when they lead elsewhere count as reaching it).
+    /// E\[steps\] (where success is not sure, actions that lose at most 1e-9 of P when they lead elsewhere
+    /// count as reaching it).
     ///
     /// ```
     /// use tltl::model;
@@ -250,7 +251,7 @@ impl Problem {
     pub fn best(&self) -> Evaluation {
         let accept = self.acceptance();
         let largest = self.probability(&accept, &Rule::LARGEST);
-        let safe = self.safe(&accept, &largest.values);
+        let safe = self.safe(&accept, &largest);
         let fewest = Rule::best(Objective::Smallest, Choice::Of(&safe));
         let weighted = self.costs(&largest.values, &fewest);
         let policy = Policy::from_table(&self.task, weighted.policy.clone());
@@ -456,30 +457,27 @@ impl Problem {
     }
 
     /// The actions that lose at most 1e-9 of the largest P each time that they lead elsewhere: ties are
-    /// common, and rounding must not break them before the steps do. Where success is sure, those that lose
-    /// nothing.
+    /// common, and rounding must not break them before the steps do. Where the graph makes success sure,
+    /// those that lose nothing: a world may be slower than once in 1e9 steps.
     #[inline]
-    fn safe(&self, accept: &Payment, satisfied: &[f64]) -> Actions {
+    fn safe(&self, accept: &Payment, largest: &Bounded) -> Actions {
+        let satisfied = &*largest.values;
         let mut safe = Actions::none(self.task.pairs(), self.dynamics.actions());
         let arrival = self.arrivals(accept, 1.0, satisfied);
         for q in self.task.live() {
             let all: Vec<f64> = (0..self.dynamics.arrivals()).map(|at| arrival(q, at)).collect();
             for s in 0..self.task.states() {
                 let (pair, stays) = (self.task.pair(q, s), self.task.next(q, s) == q);
-                let losses = (0..self.dynamics.actions()).map(|a| {
-                    let row = self.dynamics.row(s, a).filter(|&(at, _)| at != s || !stays);
-                    row.fold((0.0, 0.0), |(loss, moving), (at, p)| {
-                        (loss + p * (satisfied[pair] - all[at]), moving + p)
-                    })
-                });
-                let losses: Vec<(f64, f64)> = losses.collect();
-                // Where success is sure there is no rounding, and a world may be slower than once in 1e9 steps.
-                let sure = satisfied[pair] == 1.0 && losses.iter().any(|&(loss, _)| loss == 0.0);
-                let tie = if sure { 0.0 } else { 1e-9 };
-                for (a, _) in
-                    losses.iter().enumerate().filter(|(_, (loss, moving))| *loss <= tie * moving)
-                {
-                    safe.insert(pair, a);
+                let tie = if largest.sure.contains(pair, 0) { 0.0 } else { 1e-9 };
+                for a in 0..self.dynamics.actions() {
+                    let (mut loss, mut moving) = (0.0, 0.0);
+                    for (at, p) in self.dynamics.row(s, a).filter(|&(at, _)| at != s || !stays) {
+                        loss += p * (satisfied[pair] - all[at]);
+                        moving += p;
+                    }
+                    if loss <= tie * moving {
+                        safe.insert(pair, a);
+                    }
                 }
             }
         }
