@@ -4,7 +4,9 @@ local function say(...) io.stdout:write(string.format(...), "\n") end
 
 local function session()
   local buffer = vim.api.nvim_get_current_buf()
-  local id = vim.lsp.start_client({ name = "tltlc", cmd = { os.getenv("TLTLC"), "lsp" } })
+  -- Neovim 0.7 has the older names of `start` and `format`, and the latest no longer has them.
+  local start = vim.lsp.start or vim.lsp.start_client
+  local id = start({ name = "tltlc", cmd = { os.getenv("TLTLC"), "lsp" } })
   vim.lsp.buf_attach_client(buffer, id)
 
   local function wait(what, check)
@@ -33,7 +35,7 @@ local function session()
 
   say("%s", ask("textDocument/hover", 6, 5).contents.value)
   say("completion: %s", table.concat(vim.tbl_map(function(item) return item.label end,
-    vim.lsp.util.extract_completion_items(ask("textDocument/completion", 6, 18))), " "))
+    ask("textDocument/completion", 6, 18).items), " "))
   local there = ask("textDocument/definition", 6, 20)[1].range.start
   say("definition: %d:%d", there.line + 1, there.character)
 
@@ -41,7 +43,8 @@ local function session()
   vim.lsp.util.apply_workspace_edit(edit, "utf-16")
   local _, refused = ask("textDocument/rename", 4, 10, { newName = "x" })
   say("refused: %s", refused.message)
-  vim.lsp.buf.formatting_sync({}, 10000)
+  local format = vim.lsp.buf.format or function() vim.lsp.buf.formatting_sync({}, 10000) end
+  format({ timeout_ms = 10000 })
   for _, text in ipairs(vim.api.nvim_buf_get_lines(buffer, 0, -1, true)) do say("| %s", text) end
   wait("silence", function() return #diagnostics() == 0 end)
 end
