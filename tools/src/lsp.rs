@@ -148,6 +148,9 @@ impl Server<'_> {
             }
             (Phase::New, _) => return Err(Fault::new(Code::NotInitialized, "not initialized")),
             (Phase::Ended, _) => return Err(Fault::new(Code::InvalidRequest, "shut down")),
+            (Phase::Running, "initialize") => {
+                return Err(Fault::new(Code::InvalidRequest, "initialized already"));
+            }
             (Phase::Running, _) => {}
         }
         match method {

@@ -235,7 +235,7 @@ const HOSTILE: [(&str, i32); 16] = [
     ),
     (r#"{"id": 7, "method": "textDocument/formatting", "params": {"textDocument": 4}}"#, -32602),
     (r#"{"id": "a", "method": "workspace/executeCommand", "params": {}}"#, -32601),
-    (r#"{"id": 8, "method": "initialize", "params": {}}"#, -32601),
+    (r#"{"id": 8, "method": "initialize", "params": {}}"#, -32600),
     (r#"{"id": 8, "method": ""}"#, -32601),
     (r#"{"id": 9, "result": 4}"#, 0),
     (r#"{"method": "textDocument/didOpen", "params": {"textDocument": {"uri": 3}}}"#, 0),

@@ -82,7 +82,7 @@ impl<'a> Collecting<'a> {
             kind,
             name: item.name,
             docs: item.docs.clone(),
-            shown: item.span,
+            shown: self.without_comments(item),
             item: number,
             owner: None,
             scope: None,
@@ -131,6 +131,19 @@ impl<'a> Collecting<'a> {
             _ => {
                 self.items.entry(name).or_insert(id);
             }
+        }
+    }
+
+    /// An item up to its last token. The grammar ends it where the next one begins, and a comment
+    /// between the two is about the next one.
+    fn without_comments(&self, item: &Item) -> Span {
+        match item.kind {
+            ItemKind::Constant(_, root)
+            | ItemKind::Predicate(_, root)
+            | ItemKind::Task(_, root) => {
+                Span { end: self.ast.entry(root).outer.end.min(item.span.end), ..item.span }
+            }
+            _ => item.span,
         }
     }
 
