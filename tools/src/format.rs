@@ -48,7 +48,7 @@ fn with_line_feeds(text: &str) -> Option<String> {
     let tokens = lex(text);
     let mut layout = Layout::default();
     for (at, token) in tokens.iter().enumerate() {
-        layout.token(token, tokens.get(at + 1));
+        layout.token(token, &tokens[at + 1..]);
     }
     if !layout.out.is_empty() {
         layout.out.push('\n');
@@ -59,13 +59,22 @@ fn with_line_feeds(text: &str) -> Option<String> {
     same.then_some(layout.out)
 }
 
+/// An open bracket.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Open {
+    /// A block of fields, which has blanks inside its braces.
+    Fields,
+    /// A bound of steps, which has none: `[0,3]`, but `[0.1 s, 0.3 s]`.
+    Steps,
+    Other,
+}
+
 /// The text so far, and what is known of the token before the next one.
 #[derive(Default)]
 struct Layout<'a> {
     out: String,
     before: Option<Token<'a>>,
-    /// For each open bracket whether it is a block of fields, which has blanks inside its braces.
-    open: Vec<bool>,
+    open: Vec<Open>,
     /// Whether the last token was an operator that stands before its operand.
     prefix: bool,
     /// Whether an item has begun on an earlier line, so that the next line continues it.
@@ -74,19 +83,23 @@ struct Layout<'a> {
 
 impl<'a> Layout<'a> {
     /// Adds a token, with the line break or the blank that belongs before it.
-    fn token(&mut self, token: &Token<'a>, next: Option<&Token<'a>>) {
+    fn token(&mut self, token: &Token<'a>, rest: &[Token<'a>]) {
         let bracket = matches!(token.kind, Kind::Symbol | Kind::Bound);
         let closes = matches!(token.text, ")" | "]" | "}") && bracket;
-        let was_block = closes && self.open.pop().unwrap_or(false);
+        let was_block = closes && self.open.pop() == Some(Open::Fields);
         let prefix = self.is_prefix(token);
         if token.newlines > 0 || self.before.is_none() {
-            self.start_line(token, next);
+            self.start_line(token, rest.first());
         } else if self.blank(token, prefix, was_block) {
             self.out.push(' ');
         }
         self.out.push_str(token.text);
         if matches!(token.text, "(" | "[" | "{") && bracket {
-            self.open.push(token.text == "{");
+            self.open.push(match token.kind {
+                _ if token.text == "{" => Open::Fields,
+                Kind::Bound if !has_time(rest) => Open::Steps,
+                _ => Open::Other,
+            });
         }
         self.prefix = prefix;
         self.within_item = !(token.text == ";" && self.open.is_empty())
@@ -142,6 +155,7 @@ impl<'a> Layout<'a> {
             ")" | "]" => false,
             "}" => closes_block && !symbol("{"),
             "{" => true,
+            _ if symbol(",") && self.open.last() == Some(&Open::Steps) => false,
             "(" | "[" if calls || token.kind == Kind::Bound || symbol("#") => false,
             _ if symbol("(") || symbol("[") || symbol(".") || symbol("::") => false,
             _ if self.prefix && before.kind == Kind::Symbol => {
@@ -160,6 +174,18 @@ impl Layout<'_> {
         before.text.starts_with(|c: char| c == '.' || c.is_ascii_digit())
             && (!position || before.text.contains('.'))
     }
+}
+
+/// Whether the bound that `rest` begins within has a time, which is a number and its unit.
+fn has_time(rest: &[Token<'_>]) -> bool {
+    let end = rest.iter().position(|token| token.text == "]").unwrap_or(rest.len());
+    let is_word = |token: &Token<'_>| token.kind == Kind::Word;
+    let is_time = |text: &str| {
+        text.starts_with(|c: char| c.is_ascii_digit() || c == '.')
+            && text.ends_with(char::is_alphabetic)
+    };
+    rest[..end].iter().any(|token| is_word(token) && is_time(token.text))
+        || rest[..end].windows(2).any(|pair| pair.iter().all(is_word))
 }
 
 /// Whether a line that starts with `token` begins an item, or a comment about one.
@@ -228,14 +254,19 @@ mod tests {
             ("predicate p(d:f64 in N * m,e:u8)=x<d", "predicate p(d: f64 in N*m, e: u8) = x < d\n"),
             ("const g in F* /* ? */T = 1", "const g in F* /* ? */ T = 1\n"),
             ("state S{k:K?in m}", "state S { k: K? in m }\n"),
-            ("task t=F [ 0,3 ]a&&◇[<= 2]!b", "task t = F[0, 3] a && ◇[<=2] !b\n"),
-            ("task t=a U[1 , 2](b T [≤3]c)", "task t = a U[1, 2] (b T[≤3] c)\n"),
-            ("task t=G [ 2 ](a)&&[] [0,1]-x<1", "task t = G[2] (a) && [][0, 1] -x < 1\n"),
+            ("task t=F [ 0,3 ]a&&◇[<= 2]!b", "task t = F[0,3] a && ◇[<=2] !b\n"),
+            ("task t=a U[1 , 2](b T [≤3]c)", "task t = a U[1,2] (b T[≤3] c)\n"),
+            ("task t=G [ 2 ](a)&&[] [0,1]-x<1", "task t = G[2] (a) && [][0,1] -x < 1\n"),
+            ("task t=F[few,9]a&&F[ 0,-1 ]a", "task t = F[few,9] a && F[0,-1] a\n"),
+            (
+                "step 1s\ntask t=F[0,2s]a&&G[1 s,2 s]a",
+                "step 1s\ntask t = F[0, 2s] a && G[1 s, 2 s] a\n",
+            ),
             ("step  0.1s\ntask t=X[ 0.2s ]a", "step 0.1s\ntask t = X[0.2s] a\n"),
             ("step  0.1  s\ntask t=X[ 0.2 s ]a", "step 0.1 s\ntask t = X[0.2 s] a\n"),
             ("task t=F a\nstep 2 s", "task t = F a\nstep 2 s\n"),
             ("task t=F a ensuring-x<1", "task t = F a ensuring -x < 1\n"),
-            ("task t=a R[0,1]-x<1<=>R-M<W", "task t = a R[0, 1] -x < 1 <=> R - M < W\n"),
+            ("task t=a R[0,1]-x<1<=>R-M<W", "task t = a R[0,1] -x < 1 <=> R - M < W\n"),
             ("task t=G-1<x&&G!=2&&s.G(x)", "task t = G - 1 < x && G != 2 && s.G(x)\n"),
             ("task t=1.5 . x<pose . 0 . 1&&2 . y", "task t = 1.5 .x < pose.0.1 && 2 .y\n"),
             ("task t=.51 .0<x", "task t = .51 .0 < x\n"),

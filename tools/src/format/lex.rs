@@ -14,7 +14,7 @@ pub(super) enum Kind {
     Symbol,
     /// An operator written as a word. Some of the words are names elsewhere: `G`, `R`, `ensuring`.
     Operator,
-    /// A bracket around the bound of an operator: `F[0, 3]`.
+    /// A bracket around the bound of an operator: `F[0,3]`.
     Bound,
     /// A part of a unit, which stands without blanks: `kg*m^2`.
     Unit,
