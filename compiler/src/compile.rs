@@ -27,12 +27,12 @@ use crate::arithmetic;
 use crate::check;
 use crate::dfa::{Automata, Dfa, Guards};
 use crate::error::{Error, Errors, Kind};
-use crate::factor::{Factor, factors};
+use crate::factor::{Factor, conjunction, conjuncts, factors};
 use crate::judge;
 use crate::minimize::minimize;
 use crate::predicate::{Module, Task};
 use crate::source::{Source, Span};
-use crate::spec::{FormulaId, Spec};
+use crate::spec::{Formula, FormulaId, Spec};
 use crate::translate::{Budget, Exceeded, Resource, states_of_bound, translate};
 
 /// A source and everything that it means.
@@ -315,22 +315,48 @@ pub fn check_guards(dfa: &Dfa, budget: Budget) -> Result<(), Exceeded> {
 
 /// The error for a task that needs more than its budget, with what to write instead.
 fn exceeds(task: &Task, budget: Budget, exceeded: Exceeded, home: Home) -> Error {
+    let (spec, name) = (&task.spec, task.title());
     let Exceeded { what, limit } = exceeded;
-    let name = task.title();
-    if let (Resource::States, Some(states)) = (what, states_of_bound(&task.spec, budget)) {
-        let message = format!("the automaton of {name} needs {states} states, more than {limit}");
-        let more = more("states", &states.to_string(), home);
-        return Error::new(Kind::Budget, message, task.spec.span(task.spec.root()))
-            .label("a bound needs a state for each of its steps")
-            .help(format!("allow more: {more}"));
+    if matches!(what, Resource::Edges | Resource::Products) {
+        return grows(task, None, exceeded, home);
     }
-    let whole = matches!(what, Resource::Edges | Resource::Products);
-    let span = if whole { task.span } else { culprit(&task.spec, budget) };
-    let message = format!("the automaton of {name} needs more than {limit} {what}");
-    let place = if home == Home::CommandLine { "in a task file, " } else { "" };
-    let error = Error::new(Kind::Budget, message, span)
-        .label("this is what grows")
-        .help(format!("{place}a conjunction can be kept factored, its parts side by side: write `#[factored]` before the task; n unordered goals are then 2n states, not 2^n"));
+    let bound =
+        |id| states_of_bound(&rooted(spec, id), budget).filter(|&n| n > budget.states as u64);
+    let root = spec.root();
+    if let Some(states) = bound(root) {
+        let message = format!("the automaton of {name} needs {states} states, more than {limit}");
+        return bounded(message, spec.span(root), &states.to_string(), home);
+    }
+    let guilty = culprit(task, budget);
+    let Some(states) = bound(guilty) else { return grows(task, Some(guilty), exceeded, home) };
+    let message = format!(
+        "the automaton of {name} needs more than {} states: a bound in it needs {states} alone",
+        budget.states
+    );
+    bounded(message, spec.span(guilty), "…", home)
+}
+
+/// The error for a bound that is too large.
+fn bounded(message: String, span: Span, amount: &str, home: Home) -> Error {
+    Error::new(Kind::Budget, message, span)
+        .label("a bound needs a state for each of its steps")
+        .help(format!("allow more: {}", more("states", amount, home)))
+}
+
+/// The error for anything else that is too large: a subformula, or the whole.
+fn grows(task: &Task, guilty: Option<FormulaId>, exceeded: Exceeded, home: Home) -> Error {
+    let Exceeded { what, limit } = exceeded;
+    let message = format!("the automaton of {} needs more than {limit} {what}", task.title());
+    let span = guilty.map_or(task.span, |id| task.spec.span(id));
+    let mut error = Error::new(Kind::Budget, message, span).label("this is what grows");
+    // Parts that run side by side help where it is their product that grows.
+    let (conjunctions, _) = conjunction(&task.spec);
+    let helps =
+        conjunctions.contains(&guilty.unwrap_or(task.spec.root())) && !task.options.factored;
+    if helps {
+        let place = if home == Home::CommandLine { "in a task file, " } else { "" };
+        error = error.help(format!("{place}a conjunction can be kept factored, its parts side by side: write `#[factored]` before the task; n unordered goals are then 2n states, not 2^n"));
+    }
     let setting = match what {
         Resource::States => "states",
         Resource::Nodes => "nodes",
@@ -338,7 +364,8 @@ fn exceeds(task: &Task, budget: Budget, exceeded: Exceeded, home: Home) -> Error
         Resource::Products => "products",
         Resource::Operators => return error,
     };
-    error.help(format!("or allow more: {}", more(setting, "…", home)))
+    let or = if helps { "or " } else { "" };
+    error.help(format!("{or}allow more: {}", more(setting, "…", home)))
 }
 
 /// What to write to allow more of something.
@@ -365,7 +392,10 @@ fn more(setting: &str, amount: &str, home: Home) -> String {
 /// Halving assumes that an automaton grows with its formula. Where it does not (a large operand
 /// under a conjunction with a small contradiction), the result is still a subformula that exceeds
 /// the budget, but perhaps not the smallest.
-fn culprit(spec: &Spec, budget: Budget) -> Span {
+///
+/// Of a factored task it lies within the first conjunct that is too large by itself.
+fn culprit(task: &Task, budget: Budget) -> FormulaId {
+    let spec = &task.spec;
     let mut sizes: Vec<usize> = Vec::new();
     for (_, formula) in spec.formulas() {
         let parts = formula.operands().map(|part| sizes[part.0 as usize]);
@@ -373,13 +403,10 @@ fn culprit(spec: &Spec, budget: Budget) -> Span {
     }
     let larger =
         |id: FormulaId| spec.formula(id).operands().max_by_key(|part| sizes[part.0 as usize]);
-    let mut part = spec.clone();
     let budget = Budget { nodes: budget.nodes / 8, ..budget };
-    let mut is_guilty = |id: FormulaId| {
-        part.set_root(id);
-        translate(&part, budget).is_err()
-    };
-    let mut guilty = spec.root();
+    let is_guilty = |id: FormulaId| translate(&rooted(spec, id), budget).is_err();
+    let parts = if task.options.factored { conjuncts(spec) } else { Vec::new() };
+    let mut guilty = parts.into_iter().find(|&id| is_guilty(id)).unwrap_or(spec.root());
     loop {
         let way: Vec<_> = std::iter::successors(Some(guilty), |&id| larger(id)).collect();
         let (mut last, mut innocent) = (0, way.len());
@@ -391,7 +418,24 @@ fn culprit(spec: &Spec, budget: Budget) -> Span {
         let beside = way.get(last + 1);
         match spec.formula(guilty).operands().find(|id| Some(id) != beside) {
             Some(other) if is_guilty(other) => guilty = other,
-            _ => return spec.span(guilty),
+            _ => return delayed(spec, guilty),
         }
     }
+}
+
+/// The operator with a bound that begins later, of which a formula is the inner part: `F[5,9] a` is
+/// `F[0,4] a`, five steps from now. Another formula is its own.
+fn delayed(spec: &Spec, id: FormulaId) -> FormulaId {
+    let is_delay = |(outer, formula): &(FormulaId, Formula)| {
+        let within = matches!(formula, Formula::Next(a) | Formula::Delay(_, a) if *a == id);
+        within && spec.span(*outer) == spec.span(id)
+    };
+    spec.formulas().find(is_delay).map_or(id, |(outer, _)| outer)
+}
+
+/// A formula of its own.
+fn rooted(spec: &Spec, root: FormulaId) -> Spec {
+    let mut part = spec.clone();
+    part.set_root(root);
+    part
 }

@@ -109,16 +109,22 @@ fn groups(spec: &Spec) -> Vec<Vec<FormulaId>> {
 }
 
 /// The conjuncts: the operands of the outermost chain of `&&`, in source order, each once.
-fn conjuncts(spec: &Spec) -> Vec<FormulaId> {
-    let mut conjuncts = arena::needed(vec![spec.root().0], &mut |id, open| {
+pub(crate) fn conjuncts(spec: &Spec) -> Vec<FormulaId> {
+    let (_, conjuncts) = conjunction(spec);
+    let spans = conjuncts.iter().map(|&id| spec.span(id));
+    let places = order(spans.map(|span| (span.start, span.end)));
+    places.into_iter().map(|place| conjuncts[place]).collect()
+}
+
+/// The conjunctions of the outermost chain of `&&`, and the operands of the chain.
+pub(crate) fn conjunction(spec: &Spec) -> (Vec<FormulaId>, Vec<FormulaId>) {
+    let chain = arena::needed(vec![spec.root().0], &mut |id, open| {
         if let Formula::And(a, b) = spec.formula(FormulaId(id)) {
             open.extend([a.0, b.0]);
         }
     });
-    conjuncts.retain(|&id| !matches!(spec.formula(FormulaId(id)), Formula::And(..)));
-    let spans = conjuncts.iter().map(|&id| spec.span(FormulaId(id)));
-    let places = order(spans.map(|span| (span.start, span.end)));
-    places.into_iter().map(|place| FormulaId(conjuncts[place])).collect()
+    let is_and = |&id: &FormulaId| matches!(spec.formula(id), Formula::And(..));
+    chain.into_iter().map(FormulaId).partition(is_and)
 }
 
 /// All subformulas of some formulas, operands first.

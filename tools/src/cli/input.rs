@@ -12,6 +12,7 @@ use tltl_compiler::translate::Budget;
 use crate::emit::json;
 use crate::task::{CompileError, TaskFile};
 
+use super::streams::read_once;
 use super::{Exit, Outcome, Report, Streams};
 
 /// What can be made of a source.
@@ -84,6 +85,7 @@ pub(super) fn check(
     report: Report,
     streams: &mut Streams<'_>,
 ) -> Outcome {
+    read_once(paths.iter().map(PathBuf::as_path))?;
     let mut all_well = true;
     for path in paths {
         let source = Source::new(path.display().to_string(), streams.read(path)?);

@@ -12,6 +12,7 @@ use super::{Exit, Outcome, Report, Streams, input, streams};
 /// Lays out files in place, or says which are not laid out; the path `-` goes from the input to the
 /// output.
 pub(super) fn run(paths: &[PathBuf], check: bool, streams: &mut Streams<'_>) -> Outcome {
+    streams::read_once(paths.iter().map(PathBuf::as_path))?;
     let mut all_well = true;
     for path in paths {
         all_well &= one(path, check, streams)?;

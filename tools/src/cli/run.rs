@@ -9,6 +9,8 @@ mod followed;
 mod reading;
 mod written;
 
+use std::path::{Path, PathBuf};
+
 use rustc_hash::FxHashMap;
 
 use crate::evaluate::{Input, Scratch};
@@ -16,7 +18,7 @@ use crate::task::{Bound, Unmade};
 
 use super::input::Made;
 use super::record::{At, Place, Record};
-use super::streams::open;
+use super::streams::{open, read_once};
 use super::subject;
 use super::{Exit, Outcome, Run, Streams, arguments};
 
@@ -29,6 +31,9 @@ const BLOCK: usize = 1 << 12;
 
 /// Runs the trajectories that the arguments name, and shows the results.
 pub(super) fn run(run: &Run, streams: &mut Streams<'_>) -> Outcome {
+    let subject = Path::new(subject::split(&run.subject).0);
+    let paths = run.traces.iter().chain(&run.map_file).map(PathBuf::as_path);
+    read_once(paths.chain([subject]))?;
     let Some(reading) = reading(run, streams)? else { return Ok(Exit::Mistaken) };
     let map = map(run, streams)?;
     let places = places(run, &reading.inputs, &map)?;
@@ -59,58 +64,77 @@ fn reading(run: &Run, streams: &mut Streams<'_>) -> Result<Option<Reading>, Stri
     let given = given.unwrap_or_default();
     match subject::read_any(subject, name, run.limits.with_guards(), streams)? {
         Made::Mistaken => Ok(None),
+        Made::Whole(entry) if entry.is_factored() => {
+            let reading = of_formula(&Unmade::of_entry(&entry), &given)?;
+            let name = entry.name().unwrap_or_default();
+            streams.complain(&without_automaton(&format!(
+                "task `{name}` is factored: it has no automaton of its own"
+            )));
+            Ok(reading)
+        }
         Made::Whole(entry) => {
-            subject::automata(&entry)?;
             let parameters = entry.parameters();
             let named = arguments::named(entry.name(), &parameters, &given)?;
             match entry.bind(&named).map_err(|error| error.to_string())? {
                 Bound::Plain(task) => Ok(Some(Reading::of_task(&task))),
-                Bound::Factored(_) => {
-                    unreachable!("a task with automata of its own is not factored")
-                }
+                Bound::Factored(_) => unreachable!("a factored task is read by its formula"),
             }
         }
         Made::TooLarge(error, module) => {
             let unmade = Unmade::new(*module, name).map_err(|error| error.to_string())?;
-            let parameters = unmade.parameters();
-            let named = arguments::named(unmade.task().name.as_deref(), &parameters, &given)?;
-            let evaluator = unmade.bind(&named).map_err(|error| error.to_string())?;
-            let message = error.errors().first().message();
-            streams.complain(&format!(
-                "tltlc: {message}; without it there are verdict and robustness, but no states and no \
-                 progress, and what is not satisfied may be lost"
-            ));
-            Ok(Some(Reading::of_unmade(&unmade, evaluator, &named)))
+            let reading = of_formula(&unmade, &given)?;
+            streams.complain(&without_automaton(error.errors().first().message()));
+            Ok(reading)
         }
     }
+}
+
+/// What a task without an automaton is read by, with its arguments.
+fn of_formula(unmade: &Unmade, given: &[&str]) -> Result<Option<Reading>, String> {
+    let parameters = unmade.parameters();
+    let named = arguments::named(unmade.task().name.as_deref(), &parameters, given)?;
+    let evaluator = unmade.bind(&named).map_err(|error| error.to_string())?;
+    Ok(Some(Reading::of_unmade(unmade, evaluator, &named)))
+}
+
+/// What is missing where a task has no automaton, and why it has none.
+fn without_automaton(why: &str) -> String {
+    format!(
+        "tltlc: {why}; without it there are verdict and robustness, but no states and no \
+         progress, and what is not satisfied may be lost"
+    )
 }
 
 /// The columns that the user has chosen, by field: those of the arguments, and those of the file for
 /// fields that no argument names.
 fn map(run: &Run, streams: &mut Streams<'_>) -> Result<Vec<(String, String)>, String> {
-    let file = run.map_file.as_deref().map_or(Ok(Vec::new()), |path| streams.read_lines(path))?;
-    let lines = file.iter().map(|line| line.trim()).filter(|line| !line.is_empty());
-    let file = pairs(lines.filter(|line| !line.starts_with('#')))?;
-    let mut map = pairs(run.map.iter().map(String::as_str))?;
+    let lines = run.map_file.as_deref().map_or(Ok(Vec::new()), |path| streams.read_lines(path))?;
+    let name = run.map_file.as_deref().unwrap_or(Path::new("")).display();
+    let lines = (1..).zip(&lines).map(|(number, line)| (format!("{name}:{number}: "), line.trim()));
+    let file = pairs(lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#')))?;
+    let mut map = pairs(run.map.iter().map(|text| (String::new(), text.as_str())))?;
     let is_new = |(field, _): &(String, String)| map.iter().all(|(other, _)| other != field);
     let added: Vec<_> = file.into_iter().filter(is_new).collect();
     map.extend(added);
     Ok(map)
 }
 
-/// Pairs of a field and its column, each written `FIELD=COLUMN`, each field once.
-fn pairs<'a>(texts: impl Iterator<Item = &'a str>) -> Result<Vec<(String, String)>, String> {
+/// Pairs of a field and its column, each written `FIELD=COLUMN`, each field once. Before each text
+/// stands the beginning of a message about it.
+fn pairs<'a>(
+    texts: impl Iterator<Item = (String, &'a str)>,
+) -> Result<Vec<(String, String)>, String> {
     let mut pairs: Vec<(String, String)> = Vec::new();
-    for text in texts {
+    for (at, text) in texts {
         let (field, column) = match text.split_once('=').map(|(a, b)| (a.trim(), b.trim())) {
             None | Some(("", _) | (_, "")) => {
-                return Err(format!("`{text}` maps nothing: write FIELD=COLUMN"));
+                return Err(format!("{at}`{text}` maps nothing: write FIELD=COLUMN"));
             }
             Some(pair) => pair,
         };
         match pairs.iter().find(|(known, _)| known == field) {
             Some((_, other)) if other != column => {
-                return Err(format!("`{field}` is mapped to `{other}` and to `{column}`"));
+                return Err(format!("{at}`{field}` is mapped to `{other}` and to `{column}`"));
             }
             Some(_) => {}
             None => pairs.push((field.to_owned(), column.to_owned())),

@@ -121,6 +121,14 @@ impl fmt::Write for Pieces<'_> {
     }
 }
 
+/// Refuses paths of which two are the input: it can be read once.
+pub(super) fn read_once<'a>(paths: impl Iterator<Item = &'a Path>) -> Result<(), String> {
+    match paths.filter(|path| *path == Path::new("-")).count() {
+        0 | 1 => Ok(()),
+        _ => Err("the standard input can be read once, and `-` stands here twice".to_owned()),
+    }
+}
+
 /// A file, or the input if the path is `-`, to be read piece by piece.
 pub(super) fn open<'a>(
     input: &'a mut dyn Read,

@@ -1,6 +1,7 @@
 //! `tltlc explain` and `tltlc diff`.
 
 use std::io::{self, Write};
+use std::path::Path;
 
 use tltl_compiler::dfa::Dfa;
 use tltl_compiler::error::Style;
@@ -11,7 +12,7 @@ use crate::explain::{Explanation, explain as explanation, explain_automaton};
 use crate::report;
 use crate::task::Entry;
 
-use super::streams::shown;
+use super::streams::{read_once, shown};
 use super::subject;
 use super::{Exit, Outcome, Output, PageFormat, Streams};
 
@@ -62,6 +63,7 @@ pub(super) fn difference(
     budget: Budget,
     streams: &mut Streams<'_>,
 ) -> Outcome {
+    read_once([first, second].map(|text| Path::new(subject::split(text).0)).into_iter())?;
     let mut once = Once { stream: &mut *streams.err.stream, told: Vec::new() };
     let streams = &mut Streams {
         input: &mut *streams.input,

@@ -3,7 +3,7 @@
 use tltl_compiler::predicate::{self, Module};
 
 use super::argument::{Parameter, Value, bind};
-use super::{BindError, NoSuchTask};
+use super::{BindError, Entry, NoSuchTask};
 use crate::evaluate::Evaluator;
 
 /// A checked task without an automaton, which is all that the robustness of a trajectory needs.
@@ -43,6 +43,12 @@ impl Unmade {
             (None, _, Some(name)) => return Err(NoSuchTask::Unknown(name.to_owned(), names())),
         };
         Ok(Self { module, task })
+    }
+
+    /// A factored task of a file, which has no automaton of its own.
+    pub(crate) fn of_entry(entry: &Entry) -> Self {
+        let module = entry.file().compiled().module.clone();
+        Self { module, task: entry.task().clone() }
     }
 
     /// The task as the author wrote it.

@@ -58,7 +58,7 @@ impl<'a> Json<'a> {
             let found = lookup(&state, place, key).map_err(failed)?;
             let found = found.ok_or_else(|| failed(format!("there is no `{}`", place.column)))?;
             match (place.input, found) {
-                (None, found) => episode(&text(found)),
+                (None, found) => episode(&episode_name(found)),
                 (Some(input), Value::Number(number)) if is_real(input) => {
                     values.extend(number.as_f64());
                 }
@@ -151,6 +151,14 @@ fn without_names(text: &[u8]) -> String {
 /// A value as the text that a field of CSV would have.
 fn text(value: &Value) -> String {
     value.as_str().map_or_else(|| value.to_string(), str::to_owned)
+}
+
+/// The name of an episode. Programs write one number as `1` and as `1.0`.
+fn episode_name(value: &Value) -> String {
+    match value.as_f64().filter(|_| value.is_f64()) {
+        Some(number) => (number + 0.0).to_string(),
+        None => text(value),
+    }
 }
 
 /// The states of an array of objects, or of an object of columns; `None` for a single state.
