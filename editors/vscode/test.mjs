@@ -59,10 +59,10 @@ const WORDS = [
   [/^[0-9][0-9_.e]*$/, "constant.numeric"],
   [/^(&&|\|\||!|=>|<=>|∧|∨|¬|⇒|⇔)$/, "keyword.operator.logical"],
   [/^(<=|>=|==|!=|<|>|≤|≥|≠)$/, "keyword.operator.comparison"],
-  [/^(◇|○|□)$/, "keyword.operator.temporal"],
+  [/^(◇|○|□)$/, "keyword.operator.wordlike.temporal"],
 ];
 const root = path.join(here, "../..");
-const folders = ["examples/tasks", "examples/kitchen/tasks", "tests/data", "tests/data/tasks"];
+const folders = ["examples/tasks", "examples/kitchen/tasks", "examples/control/tasks", "tests/data", "tests/data/tasks"];
 const read = (file) => [file, readFileSync(path.join(root, file), "utf8")];
 const files = folders.flatMap((folder) =>
   readdirSync(path.join(root, folder)).filter((name) => name.endsWith(".tltl")).map((name) => read(`${folder}/${name}`)),
