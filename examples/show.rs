@@ -14,8 +14,7 @@ use tltl_compiler::dfa::{Automata, Dfa};
 use tltl_compiler::source::Source;
 use tltl_compiler::translate::Budget;
 
-/// Trains until `total` steps have been taken, with a bar that shows how far it is, silent in a
-/// pipe.
+/// Trains until `total` steps have been taken, with a bar as that of [`in_slices`].
 ///
 /// # Errors
 /// As [`Learner::train`].
@@ -24,14 +23,28 @@ pub fn train<E: FiniteEnv>(
     env: &mut E,
     total: u64,
 ) -> Result<(), TrainError> {
+    let formula = learner.task().formula().to_owned();
+    in_slices(formula, total, |until| learner.train(env, until).map(|()| learner.steps()))
+}
+
+/// Trains in fifty slices, with a bar that shows how far it is, silent in a pipe. `train` is given
+/// the number of steps in all, and gives that of those taken.
+///
+/// # Errors
+/// Those of `train`.
+pub fn in_slices<F>(
+    what: String,
+    total: u64,
+    mut train: impl FnMut(u64) -> Result<u64, F>,
+) -> Result<(), F> {
     let style = "{prefix:>24} {wide_bar} {human_pos} steps, {per_sec}, {eta} left";
     let style = ProgressStyle::with_template(style).expect("a template of indicatif");
-    let bar = ProgressBar::new(total).with_prefix(learner.task().formula().to_owned());
+    let bar = ProgressBar::new(total).with_prefix(what);
     bar.set_style(style);
     bar.enable_steady_tick(Duration::from_millis(100));
-    while learner.steps() < total {
-        learner.train(env, (learner.steps() + total / 50).min(total))?;
-        bar.set_position(learner.steps().min(total));
+    for slice in 1..=50 {
+        let steps = train(total * slice / 50)?;
+        bar.set_position(steps.min(total));
     }
     bar.finish_and_clear();
     Ok(())

@@ -77,3 +77,5 @@ def test_what_is_asked_wrongly(model: FiniteModel) -> None:
         train(learner, 1_000, within=0.1)
     with pytest.raises(ValueError, match="`every` is 0"):
         train(learner, 1_000, every=0)
+    with pytest.raises(TypeError, match="`learner` is a NoneType, not a tltl.Learner"):
+        train(None, 1_000)  # type: ignore[arg-type]

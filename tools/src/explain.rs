@@ -7,6 +7,7 @@
 //! Each state is explained by three answers, all exact: the quickest way to acceptance, the
 //! literals without which no way exists, and the guard that loses the task.
 
+mod needs;
 mod words;
 
 use std::fmt;
@@ -15,7 +16,7 @@ use crate::emit::sum::Sum;
 use crate::emit::text;
 use crate::task::Verdict;
 use crate::trace::{Trace, shortest};
-use tltl_compiler::bdd::Bdd;
+use needs::Needs;
 use tltl_compiler::dfa::{Dfa, Guards, Size, State};
 use tltl_compiler::spec::Spec;
 
@@ -69,7 +70,8 @@ pub struct StateExplanation {
     pub verdict: Verdict,
     /// The number of moves to the accepting state at least; `None` if it cannot be reached.
     pub moves: Option<u32>,
-    /// The literals that must hold at some instant still to come, whatever else happens.
+    /// The literals that must hold at some instant still to come, whatever else happens; none that
+    /// another of them brings along, as `x < 1` does `x < 2`.
     pub needs: Vec<String>,
     /// The guards along a shortest way to acceptance, one a move, of the first [`MOST_TOLD`] moves.
     pub way: Vec<String>,
@@ -117,7 +119,7 @@ pub fn explain(spec: &Spec, dfa: &Dfa) -> Explanation {
 /// ```
 #[must_use]
 pub fn explain_automaton(dfa: &Dfa) -> Explanation {
-    let mut guards = Guards::new(dfa);
+    let (mut guards, mut needs) = (Guards::new(dfa), Needs::new(dfa));
     let accepts = |q: State| dfa.accepting == Some(q);
     let distances = dfa.distances();
     let states = dfa.states().take(MOST_STATES);
@@ -127,7 +129,7 @@ pub fn explain_automaton(dfa: &Dfa) -> Explanation {
         satisfying: shortest(dfa, 0, &accepts),
         losing: dfa.trap.and_then(|trap| shortest(dfa, 0, &|q| q == trap)),
         unsatisfying: shortest(dfa, 0, &|q| !accepts(q)),
-        states: states.map(|q| state(dfa, &mut guards, &distances, q)).collect(),
+        states: states.map(|q| state(dfa, &mut guards, &mut needs, &distances, q)).collect(),
         falls: dfa.states().filter_map(|q| Some((q, fall(dfa, &mut guards, q)?))).collect(),
     }
 }
@@ -154,8 +156,8 @@ pub fn retold(spec: &Spec) -> Vec<String> {
 /// ```
 #[must_use]
 pub fn of_states(dfa: &Dfa, states: &[State]) -> Vec<StateExplanation> {
-    let (mut guards, distances) = (Guards::new(dfa), dfa.distances());
-    states.iter().map(|&q| state(dfa, &mut guards, &distances, q)).collect()
+    let (mut guards, mut needs, distances) = (Guards::new(dfa), Needs::new(dfa), dfa.distances());
+    states.iter().map(|&q| state(dfa, &mut guards, &mut needs, &distances, q)).collect()
 }
 
 /// The guard of the edge into the trap, if there is one.
@@ -168,6 +170,7 @@ fn fall(dfa: &Dfa, guards: &mut Guards<'_>, q: State) -> Option<String> {
 fn state(
     dfa: &Dfa,
     guards: &mut Guards<'_>,
+    needs: &mut Needs,
     distances: &[Option<u32>],
     q: State,
 ) -> StateExplanation {
@@ -181,53 +184,10 @@ fn state(
         state: q,
         verdict,
         moves: distances[q as usize],
-        needs: if open { needs(dfa, q) } else { Vec::new() },
+        needs: if open { needs.of(q) } else { Vec::new() },
         way: if open { way(dfa, guards, distances, q) } else { Vec::new() },
         avoid: fall(dfa, guards, q).filter(|_| open),
     }
-}
-
-/// The literals without which acceptance cannot be reached from `q`. If a proposition and its
-/// negation both are, no single instant has both, and the text says so.
-fn needs(dfa: &Dfa, q: State) -> Vec<String> {
-    let mut literals = Vec::new();
-    for proposition in 0..dfa.propositions.len() as u32 {
-        let literal = |value: bool| {
-            let cubes = [vec![(proposition, value)]];
-            let needed = !reaches(dfa, q, (proposition, !value));
-            needed.then(|| Sum::new(&dfa.propositions, &cubes).to_string())
-        };
-        literals.extend(match (literal(true), literal(false)) {
-            (Some(yes), Some(no)) => Some(format!("{yes} at one instant and {no} at another")),
-            (one, other) => one.or(other),
-        });
-    }
-    literals
-}
-
-/// Whether acceptance can be reached from `q` while one proposition keeps one value for ever: a
-/// walk over the diagram that follows only one side of its nodes.
-fn reaches(dfa: &Dfa, q: State, (proposition, value): (u32, bool)) -> bool {
-    let mut seen_states = vec![false; dfa.len()];
-    let mut seen_nodes = vec![false; dfa.diagram.nodes().len()];
-    let mut stack = vec![Bdd::leaf(q)];
-    while let Some(f) = stack.pop() {
-        match (f.index(), f.value()) {
-            (Some(index), _) if !std::mem::replace(&mut seen_nodes[index as usize], true) => {
-                let node = dfa.diagram.nodes()[index as usize];
-                match node.level == proposition {
-                    true => stack.push(if value { node.high } else { node.low }),
-                    false => stack.extend([node.low, node.high]),
-                }
-            }
-            (_, Some(state)) if dfa.accepting == Some(state) => return true,
-            (_, Some(state)) if !std::mem::replace(&mut seen_states[state as usize], true) => {
-                stack.push(dfa.transitions[state as usize]);
-            }
-            _ => {}
-        }
-    }
-    false
 }
 
 /// The guards along a shortest way from `q` to acceptance. Of several edges, and of several

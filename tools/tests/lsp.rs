@@ -181,7 +181,10 @@ fn lines(answer: &Value) -> Vec<String> {
     }
     if let Some(items) = result["items"].as_array() {
         let own = items.iter().filter(|item| item.get("detail").is_some());
-        let own = own.map(|item| format!("{} {} {}", item["kind"], item["label"], item["detail"]));
+        let own = own.map(|item| {
+            assert!(item["sortText"].as_str().is_some_and(|text| text < "A"), "{item}");
+            format!("{} {} {}", item["kind"], item["label"], item["detail"])
+        });
         let words = items.iter().filter(|item| item.get("detail").is_none());
         let words: Vec<_> = words.map(|item| item["label"].as_str().unwrap()).collect();
         return own.chain([words.join(" ")]).filter(|line| !line.is_empty()).collect();

@@ -60,8 +60,8 @@ def train(
     The metrics: `learner_steps`, `episodes`, `steps_per_second`, and of a certificate `satisfied`,
     `steps_of_policy` (left out if no episode succeeds), `regret_satisfied`, `regret_steps` (likewise).
 
-    Raises `TypeError` if `learner` is none, and `ValueError` if `within` has no `solution`, or `every` is less
-    than 1.
+    Raises `TypeError` if `learner` is not a `Learner`, and `ValueError` if `within` has no `solution`, or `every`
+    is less than 1.
     """
     if not isinstance(learner, Learner):
         raise TypeError(f"`learner` is a {type(learner).__name__}, not a tltl.Learner")

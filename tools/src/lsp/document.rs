@@ -296,6 +296,8 @@ impl Read {
             "label": self.names.name(id),
             "kind": kind,
             "detail": tltl_compiler::ast::quoted(shown),
+            // Before the words of the language, among which an editor would sort it.
+            "sortText": format!("0{}", self.names.name(id)),
         });
         if !symbol.docs.is_empty() {
             let docs = symbol.docs.join("\n");

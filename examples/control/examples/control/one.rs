@@ -7,7 +7,7 @@ use tltl::env::ContinuousEnv;
 use tltl::network::Features;
 use tltl::robustness::Predicates;
 use tltl_control::judge::Trialled;
-use tltl_examples::show::Folder;
+use tltl_examples::show::{self, Folder};
 
 use crate::Failure;
 use crate::case::{Case, TRIALS};
@@ -41,7 +41,10 @@ impl Visitor for Run {
         row("by hand", &case.hand()?);
         let start = Instant::now();
         let mut learner = case.learner(self.seed)?;
-        learner.train(&mut case.world.clone(), self.steps)?;
+        let mut world = case.world.clone();
+        show::in_slices(name.to_owned(), self.steps, |until| {
+            learner.train(&mut world, until).map(|()| learner.steps())
+        })?;
         let tried = case.tried(&mut learner, TRIALS)?;
         row("learned", &tried);
         println!("{} steps in {:.0} s", learner.steps(), start.elapsed().as_secs_f64());
