@@ -323,14 +323,19 @@ fn large_bounds_are_answered() {
         ("G[0,100] F[0,100] a", "5153"),
         ("(a T X[317] F[1771,4440] !a) T a", "4182"),
         ("F[0,100000] a", "the automaton of the formula needs 100003 states, more than 16384"),
-        ("a U[7,4000000007] b", "the automaton of the formula needs more than 16384 states"),
+        (
+            "a U[7,4000000007] b",
+            "the automaton of the formula needs more than 16384 states: a bound in it needs 4000000010 \
+             alone",
+        ),
         (
             "X[50000] G[0,50000] a",
             "the automaton of the formula needs 100003 states, more than 16384",
         ),
         (
             "F[0,4000000000] a && F[0,4000000000] b",
-            "the automaton of the formula needs more than 16384 states",
+            "the automaton of the formula needs more than 16384 states: a bound in it needs 4000000003 \
+             alone",
         ),
         (
             "F[0,1000] (a && F[0,1000] b)",

@@ -40,7 +40,9 @@ impl Needs {
         let found = self.without_followers(found.collect());
         let literal = |p: u32, value: bool| {
             let cubes = [vec![(p, value)]];
-            found.contains(&(p, value)).then(|| Sum::new(&self.dfa.propositions, &cubes).to_string())
+            found
+                .contains(&(p, value))
+                .then(|| Sum::new(&self.dfa.propositions, &cubes).to_string())
         };
         let told = propositions.filter_map(|p| match (literal(p, true), literal(p, false)) {
             (Some(yes), Some(no)) => Some(format!("{yes} at one instant and {no} at another")),
