@@ -82,7 +82,7 @@ pub enum Combine {
 }
 
 /// Skills that are being composed, step by step, whatever holds their values: tables
-/// ([`Composition::on`]) or networks (`deep::Composition`). It begins at step 2.
+/// ([`Composition::on`]), networks (`deep::Composition`) or actors (`deep::actor::Composition`). It begins at step 2.
 ///
 /// A study that compares the steps is so written once for both:
 ///
@@ -92,7 +92,7 @@ pub enum Combine {
 /// use tltl::prelude::*;
 ///
 /// /// What is done first, after step 2 and after step 6.
-/// fn first<C: Compose>(mut skills: C, q: u32, s: &C::State) -> Result<[usize; 2], C::Error> {
+/// fn first<C: Compose>(mut skills: C, q: u32, s: &C::State) -> Result<[C::Action; 2], C::Error> {
 ///     let sum = skills.act(q, s)?;
 ///     skills.refine(1)?;
 ///     Ok([sum, skills.act(q, s)?])
@@ -112,6 +112,8 @@ pub enum Combine {
 pub trait Compose {
     /// A state of the world; of tables, its number.
     type State: ?Sized;
+    /// An action: a number, or a vector where actions are continuous.
+    type Action;
     /// Why a step can fail.
     type Error;
 
@@ -131,7 +133,7 @@ pub trait Compose {
     ///
     /// # Errors
     /// If a value is not a finite number.
-    fn act(&self, q: u32, s: &Self::State) -> Result<usize, Self::Error>;
+    fn act(&self, q: u32, s: &Self::State) -> Result<Self::Action, Self::Error>;
 }
 
 /// A composition of tables that is carried out step by step.
@@ -178,6 +180,7 @@ impl Stepwise<'_> {
 
 impl Compose for Stepwise<'_> {
     type State = usize;
+    type Action = usize;
     type Error = Infallible;
 
     #[inline]

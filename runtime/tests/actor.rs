@@ -1,12 +1,14 @@
 //! The actor-critic learner against what is known exactly.
 #![cfg(feature = "deep")]
 
-use tltl::deep::actor::{Checkpoint, Learner, Settings};
+use tltl::compose::Compose;
+use tltl::deep::actor::{Checkpoint, Composition, Learner, Settings};
 use tltl::deep::{AsGiven, Device, Error, Skill};
 use tltl::env::{ContinuousEnv, Step};
 use tltl::learn::Schedule;
 use tltl::network::Features;
-use tltl::prelude::{Monitor, Rewards, tltl};
+use tltl::prelude::{Combine, Monitor, Product, Rewards, tltl};
+use tltl::product::Operand;
 use tltl::rand::{Rng, RngExt as _, SeedableRng as _, rngs::Xoshiro256PlusPlus};
 use tltl::reward::Mode;
 
@@ -227,4 +229,142 @@ fn starts_that_are_decided_push_nothing_out() {
     let mut learner = Learner::new(Skill::new(task, Place), &world, settings, &Device::flex(), 1);
     learner.train(&mut Cart { motors: 1, place: 0.0, broken: false }, 100).unwrap();
     assert_eq!((learner.steps(), learner.replay().len()), (0, 0));
+}
+
+/// A cart with one motor whose episodes start anywhere.
+struct Anywhere(Cart);
+
+impl Default for Anywhere {
+    fn default() -> Self {
+        Self(Cart { motors: 1, place: 0.0, broken: false })
+    }
+}
+
+impl ContinuousEnv for Anywhere {
+    type State = f32;
+
+    fn bounds(&self) -> Vec<(f32, f32)> {
+        vec![(-0.2, 0.2)]
+    }
+
+    fn reset<R: Rng + ?Sized>(&mut self, rng: &mut R) -> f32 {
+        self.0.place = 1.4 * rng.random::<f32>() - 0.7;
+        self.0.place
+    }
+
+    fn step<R: Rng + ?Sized>(&mut self, action: &[f32], rng: &mut R) -> Step<f32> {
+        self.0.step(action, rng)
+    }
+}
+
+/// The steps that a controller takes for `task` from `x`, at most 30.
+fn steps_from<M: Monitor<f32>>(task: &M, x: f32, mut act: impl FnMut(u32, &f32) -> f32) -> u32 {
+    let (mut x, mut q) = (x, task.next(0, &x).unwrap());
+    let mut steps = 0;
+    while !task.is_accepting(q) && steps < 30 {
+        x = (x + act(q, &x)).clamp(-1.0, 1.0);
+        (q, steps) = (task.next(q, &x).unwrap(), steps + 1);
+    }
+    steps
+}
+
+#[test]
+fn actors_compose_without_a_step() {
+    let left = tltl! { |x: &f32| F ({ *x } < -0.8) };
+    let right = tltl! { |x: &f32| F ({ *x } > 0.8) };
+    let (device, mut world) = (Device::flex(), Anywhere::default());
+    let settings = Settings::default()
+        .with_hidden([32, 32])
+        .and_then(|settings| settings.with_warmup(300)?.with_horizon(30)?.with_robustness(0.5))
+        .and_then(|settings| settings.with_noise(Schedule::constant(0.5)?))
+        .unwrap()
+        .with_rewards(Rewards::of(Mode::Shaped).with_gamma(GAMMA).unwrap());
+    let mut one = Learner::new(Skill::new(&left, Place), &world, settings.clone(), &device, 1);
+    let mut two = Learner::new(Skill::new(&right, Place), &world, settings.clone(), &device, 2);
+    one.train(&mut world, 1_500).unwrap();
+    two.train(&mut world, 1_500).unwrap();
+    let both = Product::conjunction(&[&left, &right]);
+    let skills = || [one.learned().unwrap(), two.learned().unwrap()];
+    let compose = |combine| {
+        let (skill, settings) = (Skill::new(&both, Place), settings.clone());
+        Composition::new(skill, &skills(), combine, settings, &device, 3).unwrap()
+    };
+    for combine in [Combine::Sum, Combine::NormalisedSum, Combine::Max] {
+        let mut composed = compose(combine);
+        composed.fit(400).unwrap();
+        // Beside an end that end comes first.
+        let first = |x| composed.act(0, &x).unwrap()[0];
+        assert!(first(-0.5) < -0.05 && first(0.5) > 0.05, "{combine:?}");
+        for x in [-0.5, 0.5] {
+            let steps = steps_from(&both, x, |q, x| composed.act(q, x).unwrap()[0]);
+            assert!(steps <= 14, "{combine:?}: {steps} steps from {x}, and 11 are the fewest");
+        }
+    }
+    let (mut composed, mut again) = (compose(Combine::Sum), compose(Combine::Sum));
+    let check = |composed: &Composition<'_, _, _, _>| {
+        // Not in the middle: an actor is continuous, and turns round there.
+        for x in [-0.4, 0.4] {
+            let steps = steps_from(&both, x, |q, x| composed.act(q, x).unwrap()[0]);
+            assert!(steps <= 15, "{steps} steps from {x}, and 11 are the fewest");
+        }
+    };
+    composed.compensate(1_000).unwrap();
+    check(&composed);
+    composed.refine(1_000).unwrap();
+    check(&composed);
+    again.compensate(1_000).unwrap();
+    again.refine(1_000).unwrap();
+    for x in [-0.5, 0.0, 0.4] {
+        assert_eq!(composed.value(0, &x), again.value(0, &x), "the same seed, the same numbers");
+    }
+    assert_eq!(composed.updates(), 2_000);
+    let policy = composed.policy().unwrap();
+    let steps: Vec<u64> = policy.document().training.iter().map(|skill| skill.steps).collect();
+    assert_eq!(steps, [one.steps(), two.steps(), 0]);
+}
+
+#[test]
+fn skills_that_do_not_fit_are_not_composed() {
+    let (one, two) = (trained(1), trained(2));
+    let compose = |product: &Product<'_, f32>, skills: &[_]| {
+        let (skill, settings) = (Skill::new(product, Place), one.settings().clone());
+        let made = Composition::new(skill, skills, Combine::Sum, settings, &Device::flex(), 1);
+        made.map(|_| ()).unwrap_err().to_string()
+    };
+    let tasks = [&one.skill().task, &one.skill().task];
+    let operands: [Operand<'_, f32>; 2] = [tasks[0], tasks[1]];
+    let both = Product::conjunction(&operands);
+    let learned = || one.learned().unwrap();
+    let error = compose(&both, &[learned()]);
+    assert!(error.contains("1 tasks") && error.contains("2 tasks"), "{error}");
+    let error = compose(&both, &[learned(), two.learned().unwrap()]);
+    assert!(error.contains("1 actions") && error.contains("2 actions"), "{error}");
+    let other = tltl! { |x: &f32| F ({ *x } > 0.5) };
+    let skill = Skill::new(other.clone(), Place);
+    let mut third =
+        Learner::new(skill, &Anywhere::default(), one.settings().clone(), &Device::flex(), 1);
+    third.train(&mut Anywhere::default(), 60).unwrap();
+    let error = compose(&both, &[learned(), third.learned().unwrap()]);
+    assert!(error.contains("1 live automaton states") && error.contains("2 live"), "{error}");
+    let first = tltl! { |x: &f32| F ({ *x } > 0.5 && F { *x } < -0.5) };
+    let mixed = Product::conjunction(&[&first, &other]);
+    let error = compose(&mixed, &[learned(), third.learned().unwrap()]);
+    assert!(error.contains("[(-0.2, 0.2)]") && error.contains("[(-0.3, 0.9)]"), "{error}");
+}
+
+#[test]
+#[should_panic(expected = "skills that have seen something")]
+fn skills_that_have_seen_nothing_are_not_composed() {
+    let learner = cart(1, 1);
+    let operands: [Operand<'_, f32>; 1] = [&learner.skill().task];
+    let product = Product::conjunction(&operands);
+    let (skills, settings) = ([learner.learned().unwrap()], learner.settings().clone());
+    let _ = Composition::new(
+        Skill::new(&product, Place),
+        &skills,
+        Combine::Sum,
+        settings,
+        &Device::flex(),
+        1,
+    );
 }

@@ -178,6 +178,8 @@ pub struct Composition<'a, S, G> {
     goals: G,
     combine: Combine,
     parts: Vec<Ready<'a, S>>,
+    /// For each head the skills that count there, and their heads.
+    terms: Vec<Vec<(usize, usize)>>,
     features: Joint<'a, S>,
     moves: Moves,
     bounds: Vec<(f64, f64)>,
@@ -218,7 +220,11 @@ impl<'a, S: Clone, G: Relabel<S>> Composition<'a, S, G> {
         device: &Device,
         seed: u64,
     ) -> Result<Self, Error> {
-        check(product, skills)?;
+        let sizes = skills.iter().map(|skill| {
+            let shape = skill.network.shape();
+            (skill.task.name(), shape.heads, shape.actions)
+        });
+        check(product, &sizes.collect::<Vec<_>>())?;
         check_reward(product, &settings.rewards())?;
         let actions = skills[0].network.shape().actions;
         let rewards = settings.rewards();
@@ -238,8 +244,11 @@ impl<'a, S: Clone, G: Relabel<S>> Composition<'a, S, G> {
             Ready { features, model, heads, scale: 1.0 }
         };
         let paid = worst(&replay, rewards.environment());
+        let parts: Vec<_> = skills.iter().map(ready).collect();
+        let of_skills: Vec<_> = parts.iter().map(|part| &part.heads).collect();
         let mut composition = Self {
-            parts: skills.iter().map(ready).collect(),
+            terms: terms(product, &heads, &of_skills),
+            parts,
             bounds: bounds(&moves.most(product), &rewards, paid),
             trainer: Trainer::new(Model::new(&network, device), heads, settings.normalisation()),
             product,
@@ -278,6 +287,7 @@ impl<'a, S: Clone, G: Relabel<S>> Composition<'a, S, G> {
             parts: &self.parts,
             combine: self.combine,
             heads: &self.trainer.heads.clone(),
+            terms: &self.terms,
             moves: &self.moves,
             bounds: &self.bounds,
             actions: self.actions,
@@ -304,7 +314,7 @@ impl<'a, S: Clone, G: Relabel<S>> Composition<'a, S, G> {
         let mut row = std::vec![0.0; self.actions];
         let of =
             self.parts.iter().map(|part| part.values(states)).collect::<Result<Vec<_>, _>>()?;
-        combined(self.product, &self.parts, &of, self.combine, q, 0, &mut row);
+        combined(&self.parts, &of, self.combine, &self.terms[head], 0, &mut row);
         let mut batch = Batch::default();
         batch.push(&self.features, s).map_err(Error::Feature)?;
         let further = self.trainer.values_of(head, &batch);
@@ -320,6 +330,7 @@ impl<'a, S: Clone, G: Relabel<S>> Composition<'a, S, G> {
 
 impl<S: Clone, G: Relabel<S>> Compose for Composition<'_, S, G> {
     type State = S;
+    type Action = usize;
     type Error = Error;
 
     /// Trains the further network until the whole is the values, in the product, of the sum's greedy
@@ -339,26 +350,29 @@ impl<S: Clone, G: Relabel<S>> Compose for Composition<'_, S, G> {
     }
 }
 
-/// `Ok` if there is a network for each operand, all with the same actions.
+/// `Ok` if there is a network for each operand, all with the same actions. `skills` are the name of the
+/// task, the heads and the actions (or components of an action) of each.
 ///
 /// That a network is *of* the operand cannot be seen, only that it has as many heads as the operand
 /// has live states.
-fn check<S>(product: &Product<'_, S>, skills: &[Learned<'_, S>]) -> Result<(), Mismatch> {
+pub(super) fn check<S>(
+    product: &Product<'_, S>,
+    skills: &[(&str, usize, usize)],
+) -> Result<(), Mismatch> {
     let operands = product.operands();
     if skills.len() != operands.len() {
         let count = |n| std::format!("{n} tasks");
         let (found, expected) = (count(skills.len()), count(operands.len()));
         return Err(Mismatch::new("a composition", found, expected));
     }
-    for (skill, operand) in skills.iter().zip(operands) {
+    let first = skills[0].2;
+    for (&(name, heads, actions), operand) in skills.iter().zip(operands) {
         let live = (0..operand.states()).filter(|&q| !operand.is_terminal(q)).count();
-        let (own, first) = (skill.network.shape(), skills[0].network.shape());
-        if (own.heads, own.actions) != (live, first.actions) {
+        if (heads, actions) != (live, first) {
             let size = |name: &str, heads, actions| {
                 std::format!("`{name}` ({heads} live automaton states, {actions} actions)")
             };
-            let found = size(skill.task.name(), own.heads, own.actions);
-            let expected = size(operand.name(), live, first.actions);
+            let (found, expected) = (size(name, heads, actions), size(operand.name(), live, first));
             return Err(Mismatch::new("a skill", found, expected));
         }
     }
@@ -373,33 +387,36 @@ fn worst<S>(replay: &Replay<S>, environment: f64) -> (f64, f64) {
     seen.fold((0.0, 0.0), |(least, most), r| (f64::min(least, r), f64::max(most, r)))
 }
 
-/// The skills that read states at `q` and are not done, and where they are.
+/// For each head of the product the skills that read states there and are not done, and their heads;
+/// `skills` are the heads of each.
 ///
 /// In a sequence only the operand that runs.
-fn active<'p, S>(
-    product: &'p Product<'_, S>,
-    parts: &'p [Ready<'_, S>],
-    q: u32,
-) -> impl Iterator<Item = (usize, u32)> {
+pub(super) fn terms<S>(
+    product: &Product<'_, S>,
+    heads: &Heads,
+    skills: &[&Heads],
+) -> Vec<Vec<(usize, usize)>> {
     let only = product.operator() == Operator::Sequence;
-    let running = product.running(q);
-    let all = product.components(q).iter().copied().enumerate();
-    all.filter(move |&(i, at)| (!only || i == running) && parts[i].heads.of(at).is_some())
+    let active = |&q: &u32| {
+        let running = product.running(q);
+        let all = product.components(q).iter().zip(skills).enumerate();
+        let read = all.filter(|&(i, _)| !only || i == running);
+        read.filter_map(|(i, (&at, skill))| Some((i, skill.of(at)?))).collect()
+    };
+    heads.states.iter().map(active).collect()
 }
 
-/// The skills' values of the state in `row` at `q`, combined.
+/// The skills' values of the state in `row` at the head of `terms`, combined.
 fn combined<S>(
-    product: &Product<'_, S>,
     parts: &[Ready<'_, S>],
     values: &[Vec<f32>],
     combine: Combine,
-    q: u32,
+    terms: &[(usize, usize)],
     row: usize,
     out: &mut [f32],
 ) {
     let actions = out.len();
-    for (n, (i, at)) in active(product, parts, q).enumerate() {
-        let head = parts[i].heads.of(at).expect("an active skill has a head");
+    for (n, &(i, head)) in terms.iter().enumerate() {
         let from = (row * parts[i].heads.states.len() + head) * actions;
         for (out, value) in out.iter_mut().zip(&values[i][from..from + actions]) {
             let value = value * parts[i].scale;
@@ -417,6 +434,7 @@ struct Base<'a, S> {
     parts: &'a [Ready<'a, S>],
     combine: Combine,
     heads: &'a Heads,
+    terms: &'a [Vec<(usize, usize)>],
     moves: &'a Moves,
     bounds: &'a [(f64, f64)],
     actions: usize,
@@ -439,8 +457,7 @@ impl<S> Objective<S> for Base<'_, S> {
         let mut base = std::vec![0.0; states.len() * self.heads.states.len() * self.actions];
         for (i, out) in base.chunks_mut(self.actions).enumerate() {
             let (row, head) = (i / self.heads.states.len(), i % self.heads.states.len());
-            let q = self.heads.states[head];
-            combined(self.product, self.parts, &of, self.combine, q, row, out);
+            combined(self.parts, &of, self.combine, &self.terms[head], row, out);
         }
         Ok(Some(base))
     }

@@ -133,6 +133,13 @@ impl Layers {
         }
     }
 
+    /// Makes each output 0.
+    pub(super) fn silence(&mut self) {
+        let last = self.0.last_mut().expect("a network has a layer");
+        last.weights = last.weights.zeros_like();
+        last.bias = last.bias.zeros_like();
+    }
+
     /// Multiplies each output by `scale` and adds `shift` to it.
     pub(super) fn rescale(&mut self, scale: Tensor<1>, shift: Tensor<1>) {
         let last = self.0.last_mut().expect("a network has a layer");

@@ -57,7 +57,7 @@ impl Batch {
     /// not finite, if there is one.
     pub(super) fn encode<S>(
         &mut self,
-        features: &impl Features<S>,
+        features: &(impl Features<S> + ?Sized),
         states: &[S],
     ) -> Result<(), usize> {
         self.clear();

@@ -6,7 +6,8 @@
 //!
 //! - `--study [TASK]` learns the tasks of two and three steps, or the one that is named, with ten seeds, and writes
 //!   `docs/studies/control_*`;
-//! - `--compose [PAIR [SEED]]` composes pairs of skills without a step in the world.
+//! - `--compose [PAIR [SEED [SEEDS]]]` composes pairs of skills (0 is all three) without a step in the world, with
+//!   one seed or with so many from there on, and prints what each step of it is worth.
 
 mod case;
 mod compose;
@@ -35,8 +36,9 @@ fn run(mut arguments: impl Iterator<Item = String>) -> Result<(), Failure> {
     match &*what {
         "--study" => study::run(arguments.next().as_deref()),
         "--compose" => {
-            let pair = given(arguments.next())?;
-            compose::run(pair, given(arguments.next())?.unwrap_or(1))
+            let pair = given(arguments.next())?.filter(|pair| *pair > 0);
+            let seed = given(arguments.next())?.unwrap_or(1);
+            compose::run(pair, seed, given(arguments.next())?.unwrap_or(1))
         }
         task => {
             let seed = given(arguments.next())?.unwrap_or(1);

@@ -8,19 +8,21 @@ use std::string::{String, ToString};
 use std::vec::Vec;
 
 use super::Settings;
-use super::trainer::{self, SavedNetwork, Trained, Trainer, normal, shapes};
+use super::agent::{Aim, Core, check_bounds, stretched};
+use super::compose::Learned;
+use super::trainer::{SavedNetwork, Trained, Trainer, normal, shapes};
 use crate::augmented::Moves;
 use crate::deep::model::Batch;
 use crate::deep::replay::Replay;
 use crate::deep::sample::Heads;
-use crate::deep::trainer::{bounds, check_reward};
+use crate::deep::trainer::check_reward;
 use crate::deep::{Error, Relabel, Skill};
 use crate::env::{ContinuousEnv, Step, unit};
 use crate::episode::{self, Agent, Elapsed, Monitored, Move, Transition};
 use crate::mismatch::Mismatch;
 use crate::monitor::Monitor;
 use crate::network::policy::{NetworkPolicy, NetworkPolicyError, NetworkTraining};
-use crate::network::{Controls, Features, Form, Network, NetworkError, Squash};
+use crate::network::{Features, Network, NetworkError};
 use crate::task;
 
 /// An actor-critic learner of one skill.
@@ -34,26 +36,6 @@ pub struct Learner<S, M, F, G> {
     rng: Xoshiro256PlusPlus,
     elapsed: Elapsed,
     seed: u64,
-}
-
-/// All that learning changes, but for the random generator.
-struct Core<S> {
-    settings: Settings,
-    /// The least and the largest value of each component of an action, in the world's units.
-    bounds: Vec<(f32, f32)>,
-    /// What the components are called.
-    names: Vec<String>,
-    /// For each automaton state the most that its task pays from there on.
-    most: Vec<f64>,
-    /// The least and the largest that the environment has paid, 0 included.
-    paid: (f64, f64),
-    trainer: Trainer,
-    replay: Replay<S, Vec<f32>>,
-    /// Where an episode has started, until its first step: a start that is decided is not remembered.
-    started: Option<S>,
-    /// The noise of the last step, of deviation 1.
-    noise: Vec<f64>,
-    single: Batch,
 }
 
 impl<S, M: Monitor<S>, F, G> core::fmt::Debug for Learner<S, M, F, G> {
@@ -104,45 +86,6 @@ impl<S, E: ContinuousEnv<State = S>, M: Monitor<S>> Monitored<Vec<f32>> for Besi
     }
 }
 
-/// An action within ±1 in the units of the world, as policies have it.
-fn stretched(bounds: &[(f32, f32)], mut action: Vec<f32>) -> Vec<f32> {
-    for (a, &(low, high)) in action.iter_mut().zip(bounds) {
-        *a = (low + (*a + 1.0) * 0.5 * (high - low)).clamp(low, high);
-    }
-    action
-}
-
-/// The task of a skill, as an update asks it.
-struct Asked<'a, M> {
-    task: &'a M,
-    moves: &'a Moves,
-    /// For each automaton state the least and the most that can be had.
-    bounds: &'a [(f64, f64)],
-    /// The weight of the potential within automaton states.
-    weight: f64,
-    /// The robustness at which it is that weight.
-    full: f64,
-}
-
-impl<S, M: Monitor<S>> trainer::Task<S> for Asked<'_, M> {
-    fn read(&self, q: u32, step: &Step<S>) -> Result<Move, task::Error> {
-        self.moves.read(self.task, q, step)
-    }
-
-    fn potential(&self, q: u32, s: &S) -> Result<f64, task::Error> {
-        if self.weight == 0.0 {
-            return Ok(0.0);
-        }
-        let near = self.task.progress_robustness(q, s)? / self.full;
-        Ok(self.weight * near.clamp(-1.0, 1.0))
-    }
-
-    fn bounds(&self, q: u32) -> (f64, f64) {
-        let (least, most) = self.bounds[q as usize];
-        (least - self.weight, most + self.weight)
-    }
-}
-
 impl<S, M, F, G> Agent<Vec<f32>> for Playing<'_, S, M, F, G>
 where
     S: Clone,
@@ -171,7 +114,8 @@ where
         if steps < core.settings.warmup() {
             return Ok(core.bounds.iter().map(|_| 2.0 * unit(rng) as f32 - 1.0).collect());
         }
-        let mut action = core.act(&self.skill.features, q, s)?;
+        core.look(&self.skill.features, s)?;
+        let mut action = core.act(q, &core.single)?;
         let (kept, deviation) =
             (core.settings.noise_correlation(), core.settings.noise().at(steps));
         for (a, noise) in action.iter_mut().zip(&mut core.noise) {
@@ -203,59 +147,7 @@ where
         if self.steps < warmup || !self.steps.is_multiple_of(between) {
             return Ok(());
         }
-        core.update(self.skill, self.moves, rng)
-    }
-}
-
-impl<S> Core<S> {
-    /// Takes in what the environment paid for a step.
-    fn note_paid(&mut self, reward: f64) {
-        let paid = self.settings.rewards().environment() * reward;
-        self.paid = (self.paid.0.min(paid), self.paid.1.max(paid));
-    }
-
-    /// Learns from one batch of what was seen.
-    fn update<M, F, G, R>(
-        &mut self,
-        skill: &Skill<M, F, G>,
-        moves: &Moves,
-        rng: &mut R,
-    ) -> Result<(), Error>
-    where
-        S: Clone,
-        M: Monitor<S>,
-        F: Features<S>,
-        G: Relabel<S>,
-        R: Rng + ?Sized,
-    {
-        let Skill { task, features, goals } = skill;
-        let rewards = self.settings.rewards();
-        let bounds = bounds(&self.most, &rewards, self.paid);
-        let (weight, full) = (self.settings.robustness(), rewards.bound());
-        let asked = Asked { task, moves, bounds: &bounds, weight, full };
-        self.trainer.update(&self.replay, (features, goals), &asked, &self.settings, rng)?;
-        Ok(())
-    }
-
-    /// The features of a state, as a batch of one.
-    fn look(&mut self, features: &impl Features<S>, s: &S) -> Result<(), Error> {
-        self.single.clear();
-        self.single.push(features, s).map_err(Error::Feature)
-    }
-
-    /// The actor's action, within ±1; zeros where the task is decided.
-    fn act(&mut self, features: &impl Features<S>, q: u32, s: &S) -> Result<Vec<f32>, Error> {
-        let m = self.bounds.len();
-        let Some(head) = self.trainer.heads.of(q) else {
-            return Ok(std::vec![0.0; m]);
-        };
-        self.look(features, s)?;
-        let actions = Trainer::actions(&self.trainer.actor.layers, &self.single);
-        let action = &actions[head * m..][..m];
-        match action.iter().all(|a| a.is_finite()) {
-            true => Ok(action.to_vec()),
-            false => Err(Error::Loss(self.trainer.updates)),
-        }
+        core.update(self.skill, self.moves, (None, Aim::Improve), rng)
     }
 }
 
@@ -281,26 +173,9 @@ where
         seed: u64,
     ) -> Self {
         let moves = Moves::new(&skill.task, settings.rewards());
-        let heads = Heads::new(&moves, skill.task.states());
-        assert!(!heads.states.is_empty(), "a task that is not decided from the start");
-        assert_eq!(skill.features.entities(), 0, "an actor points at no entities");
-        let bounds = checked_bounds(env);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
-        let inputs = skill.features.inputs();
-        let shapes = shapes(inputs, bounds.len(), heads.states.len(), &settings);
-        let trainer = Trainer::new(shapes, settings.critics(), heads, device, &mut rng);
-        let core = Core {
-            trainer,
-            replay: Replay::new(settings.capacity()),
-            started: None,
-            most: moves.most(&skill.task),
-            paid: (0.0, 0.0),
-            settings,
-            names: names(env),
-            noise: std::vec![0.0; bounds.len()],
-            bounds,
-            single: Batch::default(),
-        };
+        let actions = (checked_bounds(env), names(env));
+        let core = Core::new(&skill, &moves, actions, settings, device, &mut rng);
         Self { skill, moves, core, rng, elapsed: Elapsed::default(), seed }
     }
 
@@ -316,7 +191,7 @@ where
         env: &mut E,
         total: u64,
     ) -> Result<(), Error> {
-        check_bounds(&env.bounds(), &self.core.bounds)?;
+        check_bounds("an environment", &env.bounds(), &self.core.bounds)?;
         check_reward(&self.skill.task, &self.core.settings.rewards())?;
         let Self { skill, moves, core, rng, elapsed, .. } = self;
         let (horizon, bounds) = (core.settings.horizon(), core.bounds.clone());
@@ -385,10 +260,8 @@ where
     /// # Errors
     /// If its world has actions with other bounds.
     pub fn remember<N, H, K>(&mut self, other: &Learner<S, N, H, K>) -> Result<(), Mismatch> {
-        check_bounds(&other.core.bounds, &self.core.bounds)?;
-        let seen = &other.core.replay;
-        seen.moments().iter().for_each(|moment| self.core.note_paid(moment.reward));
-        self.core.replay.extend(seen, |_| FOREIGN);
+        check_bounds("an environment", &other.core.bounds, &self.core.bounds)?;
+        self.core.remember(&other.core.replay);
         Ok(())
     }
 
@@ -407,7 +280,8 @@ where
     pub fn rehearse(&mut self, updates: u64) -> Result<(), Error> {
         check_reward(&self.skill.task, &self.core.settings.rewards())?;
         let Self { skill, moves, core, rng, .. } = self;
-        (0..updates).try_for_each(|_| core.update(skill, moves, rng))
+        let aim = (None, Aim::Improve);
+        (0..updates).try_for_each(|_| core.update(skill, moves, aim, rng))
     }
 
     /// The actor's action in (s, q), in the units of the world; the middle where the task is decided.
@@ -420,7 +294,8 @@ where
     #[track_caller]
     pub fn act(&mut self, q: u32, s: &S) -> Result<Vec<f32>, Error> {
         self.check_state(q);
-        let action = self.core.act(&self.skill.features, q, s)?;
+        self.core.look(&self.skill.features, s)?;
+        let action = self.core.act(q, &self.core.single)?;
         Ok(stretched(&self.core.bounds, action))
     }
 
@@ -438,7 +313,8 @@ where
         let Some(head) = self.core.trainer.heads.of(q) else {
             return Ok(0.0);
         };
-        let action = self.core.act(&self.skill.features, q, s)?;
+        self.core.look(&self.skill.features, s)?;
+        let action = self.core.act(q, &self.core.single)?;
         Ok(self.core.trainer.value(head, &self.core.single, &action))
     }
 
@@ -453,13 +329,21 @@ where
     /// # Errors
     /// If learning has diverged so far that a weight is infinite or not a number.
     pub fn network(&self) -> Result<Network, NetworkError> {
-        let Core { trainer, bounds, settings, .. } = &self.core;
-        let inputs = self.skill.features.inputs();
-        let [shape, _] = shapes(inputs, bounds.len(), trainer.heads.states.len(), settings);
-        let (low, high) = bounds.iter().copied().unzip();
-        let controls = Some(Controls { squash: Squash::Tanh, low, high });
-        let form = Form { controls, ..Form::default() };
-        Network::with_form(shape, trainer.actor.layers.dense(), form)
+        self.core.network(self.skill.features.inputs())
+    }
+
+    /// The skill as it was learned, to be composed with others; [`Composition`](super::Composition) shows
+    /// its use.
+    ///
+    /// # Errors
+    /// If learning has diverged so far that a weight of the first critic is infinite or not a number.
+    pub fn learned(&self) -> Result<Learned<'_, S>, NetworkError>
+    where
+        M: Sync,
+        F: Sync,
+    {
+        let Skill { task, features, .. } = &self.skill;
+        Learned::new(&self.core, task, features, self.training())
     }
 
     /// The actor so far as a policy that says how it was learned: to be saved, and emitted as Rust.
@@ -502,9 +386,8 @@ where
     /// # Errors
     /// As [`Self::network`].
     pub fn policy(&self) -> Result<NetworkPolicy, NetworkPolicyError> {
-        let names = self.core.names.clone();
-        let policy = NetworkPolicy::new(&self.skill.task, names, self.network()?)?;
-        Ok(policy.trained(self.training()))
+        let Skill { task, features, .. } = &self.skill;
+        Ok(self.core.policy(task, features.inputs())?.trained(self.training()))
     }
 
     /// How the actor was learned so far, as policies say it.
@@ -620,7 +503,7 @@ where
         device: &Device,
     ) -> Result<Self, Mismatch> {
         let Checkpoint { settings, bounds, .. } = &checkpoint;
-        check_bounds(&env.bounds(), bounds)?;
+        check_bounds("an environment", &env.bounds(), bounds)?;
         let moves = Moves::new(&skill.task, settings.rewards());
         let heads = Heads::new(&moves, skill.task.states());
         let (inputs, m) = (skill.features.inputs(), bounds.len());
@@ -684,9 +567,6 @@ pub struct Checkpoint<S> {
     seed: u64,
 }
 
-/// An automaton state that no task has: of what was seen for another one.
-const FOREIGN: u32 = u32::MAX;
-
 /// What the components of an action are called.
 fn names(env: &impl ContinuousEnv) -> Vec<String> {
     (0..env.bounds().len()).map(|i| env.component_name(i)).collect()
@@ -702,13 +582,4 @@ fn checked_bounds(env: &impl ContinuousEnv) -> Vec<(f32, f32)> {
         "the bounds of actions are pairs of a lesser and a larger number, whose difference is finite: {bounds:?}"
     );
     bounds
-}
-
-/// `Ok` if the actions of a world have these bounds.
-fn check_bounds(found: &[(f32, f32)], expected: &[(f32, f32)]) -> Result<(), Mismatch> {
-    if found == expected {
-        return Ok(());
-    }
-    let describe = |bounds: &[(f32, f32)]| std::format!("a world with actions within {bounds:?}");
-    Err(Mismatch::new("an environment", describe(found), describe(expected)))
 }

@@ -6,6 +6,8 @@
 //! of goals and rewards are those of the [learner of values](super::Learner), and so is the idea: the actor
 //! and the critics have a head for each live automaton state, and each replayed step updates all of them.
 //!
+//! A [`Composition`] makes one skill of several from what they have seen, without a step in the world.
+//!
 //! Two potentials show the way, and leave the best policies what they are: that of the automaton
 //! ([`Mode::Shaped`](crate::reward::Mode::Shaped), the default) and, with
 //! [`Settings::with_robustness`], one within each automaton state, by how near the state of the world is to
@@ -63,11 +65,15 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod agent;
+mod compose;
 mod learner;
 mod settings;
+mod sum;
 #[cfg(test)]
 mod tests;
 mod trainer;
 
+pub use compose::{Composition, Learned};
 pub use learner::{Checkpoint, Learner};
 pub use settings::Settings;

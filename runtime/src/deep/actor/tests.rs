@@ -7,13 +7,15 @@ use rand::SeedableRng;
 use rand::rngs::Xoshiro256PlusPlus;
 
 use super::Settings;
+use super::sum::{Part, Sum};
 use super::trainer::{Trained, Trainer, joined, shapes};
 use crate::augmented::Moves;
+use crate::compose::Combine;
 use crate::deep::layers::{Gradient, Layers, numbers};
 use crate::deep::sample::Heads;
 use crate::env::unit;
 use crate::monitor::Acceptor;
-use crate::network::{Dense, Features};
+use crate::network::{Dense, Features, Network};
 use crate::reward::Rewards;
 
 const INPUTS: usize = 3;
@@ -59,8 +61,8 @@ impl Features<[f32; INPUTS]> for Given {
     }
 }
 
-/// A random actor and critic with some random states.
-fn case() -> (Trainer, Xoshiro256PlusPlus) {
+/// A random actor and critic with some random states, whose features the trainer has at hand.
+fn case() -> (Trainer, Vec<[f32; INPUTS]>, Xoshiro256PlusPlus) {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);
     let heads = Heads::new(&Moves::new(&Twice, Rewards::default()), Twice.states());
     let settings = Settings::default().with_hidden([7, 6]).unwrap();
@@ -69,11 +71,31 @@ fn case() -> (Trainer, Xoshiro256PlusPlus) {
     let states: Vec<[f32; INPUTS]> =
         (0..ROWS).map(|_| [(); INPUTS].map(|()| 2.0 * unit(&mut rng) as f32 - 1.0)).collect();
     trainer.before.encode(&Given, &states).unwrap();
-    // Heads begin with small weights, whose gradients could not be told from noise.
-    let mut layers = trainer.critics[0].layers.dense();
+    trainer.critics[0].layers = loud(&trainer.critics[0].layers.dense());
+    (trainer, states, rng)
+}
+
+/// Layers with larger weights of heads: those begin small, and their gradients could not be told from
+/// noise.
+fn loud(layers: &[Dense]) -> Layers {
+    let mut layers = layers.to_vec();
     layers[2].weights.iter_mut().for_each(|w| *w *= 10.0);
-    trainer.critics[0].layers = Layers::of(&layers, &Device::flex());
-    (trainer, rng)
+    Layers::of(&layers, &Device::flex())
+}
+
+/// Two critics of skills, combined: of the first head both count, of the second one only the second.
+fn sum(combine: Combine, rng: &mut Xoshiro256PlusPlus) -> Sum<'static, [f32; INPUTS]> {
+    let mut part = |scale| {
+        let critic = Network::random(critic_shape(), rng);
+        Part { features: &Given, critic: loud(critic.layers()), heads: HEADS, scale }
+    };
+    let terms = std::vec![std::vec![(0, 1), (1, 0)], std::vec![(1, 1)]];
+    Sum { parts: std::vec![part(0.7), part(1.3)], terms, combine }
+}
+
+/// Random actions, one for each state.
+fn random_actions(rng: &mut Xoshiro256PlusPlus) -> Vec<[f32; COMPONENTS]> {
+    (0..ROWS).map(|_| [(); COMPONENTS].map(|()| 2.0 * unit(rng) as f32 - 1.0)).collect()
 }
 
 /// Compares each gradient with the difference that a change of its weight makes in `loss`.
@@ -101,10 +123,9 @@ fn agree(layers: &[Dense], gradients: Vec<Gradient>, loss: impl Fn(Layers) -> f6
 
 #[test]
 fn the_gradient_of_a_critic_agrees_with_finite_differences() {
-    let (trainer, mut rng) = case();
+    let (trainer, _, mut rng) = case();
     let device = Device::flex();
-    let actions: Vec<_> =
-        (0..ROWS).map(|_| [(); COMPONENTS].map(|()| unit(&mut rng) as f32)).collect();
+    let actions = random_actions(&mut rng);
     let rows = || actions.iter().map(|action| &action[..]).enumerate();
     let targets: Vec<f32> = (0..ROWS * HEADS).map(|_| unit(&mut rng) as f32).collect();
     let counts: Vec<bool> = (0..ROWS * HEADS).map(|i| i % 3 > 0).collect();
@@ -127,18 +148,51 @@ fn critic_shape() -> crate::network::Shape {
 }
 
 #[test]
+fn the_slope_of_a_sum_of_critics_agrees_with_finite_differences() {
+    let (_, states, mut rng) = case();
+    for combine in [Combine::Sum, Combine::Max] {
+        let sum = sum(combine, &mut rng);
+        let actions = random_actions(&mut rng);
+        let value = |row: usize, action: &[f32]| {
+            f64::from(sum.values(&states, &[(row, action)]).unwrap()[row % HEADS])
+        };
+        let rows: Vec<_> = actions.iter().map(|action| &action[..]).enumerate().collect();
+        let slopes = sum.slopes(&states, &rows).unwrap();
+        for (i, exact) in slopes.into_iter().enumerate() {
+            let (row, c) = (i / COMPONENTS, i % COMPONENTS);
+            let [up, down] = [STEP, -STEP].map(|step| {
+                let mut action = actions[row];
+                action[c] += step;
+                value(row, &action)
+            });
+            let difference = (up - down) / f64::from(2.0 * STEP);
+            assert!((f64::from(exact) - difference).abs() < 2e-3, "{exact} {difference}");
+        }
+    }
+}
+
+#[test]
 fn the_gradient_of_the_actor_agrees_with_finite_differences() {
-    let (trainer, _) = case();
+    let (trainer, states, mut rng) = case();
     let device = Device::flex();
     let counts: Vec<bool> = (0..ROWS * HEADS).map(|i| i % 3 > 0).collect();
-    // Minus the mean value of the actor's actions, of the heads that count.
-    let regret = |actor: Layers| {
-        let actions = Trainer::actions(&actor, &trainer.before);
-        let rows = actions.chunks(COMPONENTS).enumerate().map(|(i, action)| (i / HEADS, action));
-        let inputs = joined(&trainer.before, rows, COMPONENTS, &device);
-        let values = numbers(trainer.critics[0].layers.pass(inputs).out);
-        let own = values.chunks(HEADS).enumerate().map(|(i, row)| f64::from(row[i % HEADS]));
-        -own.zip(&counts).filter(|(_, counts)| **counts).map(|(v, _)| v).sum::<f64>() / ROWS as f64
-    };
-    agree(&trainer.actor.layers.dense(), trainer.ascent(&counts), regret);
+    for base in [None, Some(sum(Combine::Sum, &mut rng))] {
+        // Minus the mean value of the actor's actions, of the heads that count.
+        let regret = |actor: Layers| {
+            let actions = Trainer::actions(&actor, &trainer.before);
+            let row = |(i, action)| (i / HEADS, action);
+            let rows: Vec<_> = actions.chunks(COMPONENTS).enumerate().map(row).collect();
+            let inputs = joined(&trainer.before, rows.iter().copied(), COMPONENTS, &device);
+            let mut values = numbers(trainer.critics[0].layers.pass(inputs).out);
+            if let Some(base) = &base {
+                let base = base.values(&states, &rows).unwrap();
+                values.iter_mut().zip(base).for_each(|(value, base)| *value += base);
+            }
+            let own = values.chunks(HEADS).enumerate().map(|(i, row)| f64::from(row[i % HEADS]));
+            let counted = own.zip(&counts).filter(|(_, counts)| **counts);
+            -counted.map(|(v, _)| v).sum::<f64>() / ROWS as f64
+        };
+        let gradients = trainer.ascent(&states, &counts, base.as_ref()).unwrap();
+        agree(&trainer.actor.layers.dense(), gradients, regret);
+    }
 }

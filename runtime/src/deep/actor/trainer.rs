@@ -12,10 +12,11 @@ use rand::Rng;
 use std::vec::Vec;
 
 use super::Settings;
+use super::sum::{Rows, Sum};
 use crate::deep::layers::{AdamMoments, Gradient, Layers, Optimiser, numbers};
 use crate::deep::model::Batch;
 use crate::deep::replay::Replay;
-use crate::deep::sample::{Drawing, Heads, Sample};
+use crate::deep::sample::{Drawing, Heads, Return, Sample};
 use crate::deep::{Error, Relabel};
 use crate::env::{Step, unit};
 use crate::episode::Move;
@@ -33,6 +34,17 @@ pub(super) trait Task<S> {
 
     /// The least and the most that can be had from an automaton state on.
     fn bounds(&self, q: u32) -> (f64, f64);
+
+    /// What the critics' values are added to, and the actor follows with them; without one they are
+    /// all there is.
+    fn base(&self) -> Option<&Sum<'_, S>> {
+        None
+    }
+
+    /// Whether the actor stays as it is: then base and critics *evaluate* it.
+    fn evaluates(&self) -> bool {
+        false
+    }
 }
 
 /// A network, the slow copy that targets are computed with, and what moves it.
@@ -143,6 +155,19 @@ impl Trainer {
         Self { heads, components, actor, critics, updates, before, after }
     }
 
+    /// Makes the critics say 0 of everything.
+    pub(super) fn silence(&mut self) {
+        for critic in &mut self.critics {
+            critic.layers.silence();
+            critic.target = critic.layers.clone();
+        }
+    }
+
+    /// Takes the actor itself for targets, as for one that stays as it is.
+    pub(super) fn settle(&mut self) {
+        self.actor.target = self.actor.layers.clone();
+    }
+
     /// The actor's actions of all heads, indexed `(row * heads + head) * components + component`.
     pub(super) fn actions(actor: &Layers, batch: &Batch) -> Vec<f32> {
         squashed(actor.pass(batch.tensor(&actor.device())).out)
@@ -174,6 +199,62 @@ impl Trainer {
         G: Relabel<S>,
         R: Rng + ?Sized,
     {
+        let sample = self.draw(replay, (features, goals), task, settings, rng)?;
+        self.after.encode(features, &sample.after).map_err(Error::Feature)?;
+        let mut targets = self.targets(&sample, task, settings, rng)?;
+        let rows: Vec<_> = sample.actions.iter().map(Vec::as_slice).enumerate().collect();
+        if let Some(base) = task.base() {
+            let base = base.values(&sample.before, &rows)?;
+            targets.iter_mut().zip(base).for_each(|(target, base)| *target -= base);
+        }
+        let counts = self.counts(&sample, settings.updates());
+        let loss = self.teach_critics(&rows, &targets, &counts, settings)?;
+        self.updates += 1;
+        if self.updates.is_multiple_of(settings.actor_delay()) {
+            if !task.evaluates() {
+                self.teach_actor(&sample.before, &counts, task.base(), settings)?;
+            }
+            let all = self.critics.iter_mut().chain([&mut self.actor]);
+            all.for_each(|net| net.target.follow(&net.layers, settings.target_rate()));
+        }
+        Ok(loss)
+    }
+
+    /// Moves the actor alone, for one batch of states.
+    pub(super) fn fit<S, F, G, R>(
+        &mut self,
+        replay: &Replay<S, Vec<f32>>,
+        from: (&F, &G),
+        task: &impl Task<S>,
+        settings: &Settings,
+        rng: &mut R,
+    ) -> Result<(), Error>
+    where
+        S: Clone,
+        F: Features<S>,
+        G: Relabel<S>,
+        R: Rng + ?Sized,
+    {
+        let sample = self.draw(replay, from, task, settings, rng)?;
+        let counts = self.counts(&sample, settings.updates());
+        self.teach_actor(&sample.before, &counts, task.base(), settings)
+    }
+
+    /// A batch of steps, and the features of the states before them.
+    fn draw<S, F, G, R>(
+        &mut self,
+        replay: &Replay<S, Vec<f32>>,
+        (features, goals): (&F, &G),
+        task: &impl Task<S>,
+        settings: &Settings,
+        rng: &mut R,
+    ) -> Result<Sample<S, Vec<f32>>, Error>
+    where
+        S: Clone,
+        F: Features<S>,
+        G: Relabel<S>,
+        R: Rng + ?Sized,
+    {
         let how = Drawing {
             batch: settings.batch(),
             steps: settings.steps(),
@@ -185,17 +266,7 @@ impl Trainer {
         let read = |q, step: &Step<S>| task.read(q, step);
         let sample = Sample::draw(replay, &self.heads, goals, &read, &how, rng)?;
         self.before.encode(features, &sample.before).map_err(Error::Feature)?;
-        self.after.encode(features, &sample.after).map_err(Error::Feature)?;
-        let targets = self.targets(&sample, task, settings, rng)?;
-        let counts = self.counts(&sample, settings.updates());
-        let loss = self.teach_critics(&sample.actions, &targets, &counts, settings)?;
-        self.updates += 1;
-        if self.updates.is_multiple_of(settings.actor_delay()) {
-            self.teach_actor(&counts, settings);
-            let all = self.critics.iter_mut().chain([&mut self.actor]);
-            all.for_each(|net| net.target.follow(&net.layers, settings.target_rate()));
-        }
-        Ok(loss)
+        Ok(sample)
     }
 
     /// What the critics should say of each step, indexed `row * heads + head`.
@@ -218,19 +289,25 @@ impl Trainer {
         // A row for each return that something follows.
         let follows =
             || sample.returns.iter().enumerate().filter(|(_, found)| found.discount > 0.0);
-        let rows = follows().map(|(i, found)| {
+        let row = |(i, found): (usize, &Return)| {
             let row = i / heads;
             (row, &actions[(row * heads + found.head) * m..][..m])
-        });
-        let mut values = std::vec![f32::INFINITY; follows().count()];
+        };
+        let rows: Vec<_> = follows().map(row).collect();
+        let mut values = std::vec![f32::INFINITY; rows.len()];
         let device = self.actor.layers.device();
         if !values.is_empty() {
-            let inputs = joined(&self.after, rows, m, &device);
+            let inputs = joined(&self.after, rows.iter().copied(), m, &device);
             for critic in &self.critics {
                 let found = numbers(critic.target.pass(inputs.clone()).out);
                 let rows = values.iter_mut().zip(found.chunks(heads)).zip(follows());
                 rows.for_each(|((least, row), (_, next))| *least = lesser(*least, row[next.head]));
             }
+        }
+        if let Some(base) = task.base() {
+            let base = base.values(&sample.after, &rows)?;
+            let rows = values.iter_mut().zip(base.chunks(heads)).zip(follows());
+            rows.for_each(|((value, row), (_, next))| *value += row[next.head]);
         }
         let mut values = values.into_iter();
         let targets = sample.returns.iter().enumerate().map(|(i, found)| {
@@ -260,13 +337,13 @@ impl Trainer {
     /// Half the mean square error over the steps, summed over the heads.
     fn teach_critics(
         &mut self,
-        actions: &[Vec<f32>],
+        rows: Rows<'_>,
         targets: &[f32],
         counts: &[bool],
         settings: &Settings,
     ) -> Result<f64, Error> {
-        let rows = actions.iter().map(Vec::as_slice).enumerate();
-        let inputs = joined(&self.before, rows, self.components, &self.actor.layers.device());
+        let (rows, device) = (rows.iter().copied(), self.actor.layers.device());
+        let inputs = joined(&self.before, rows, self.components, &device);
         let mut found = Vec::new();
         for critic in &self.critics {
             found.push(critic.gradients(inputs.clone(), targets, counts));
@@ -284,21 +361,36 @@ impl Trainer {
     }
 
     /// Moves the actor towards actions that the first critic values more.
-    fn teach_actor(&mut self, counts: &[bool], settings: &Settings) {
-        let (gradients, rate) = (self.ascent(counts), settings.actor_rate().at(self.updates));
+    fn teach_actor<S>(
+        &mut self,
+        states: &[S],
+        counts: &[bool],
+        base: Option<&Sum<'_, S>>,
+        settings: &Settings,
+    ) -> Result<(), Error> {
+        let gradients = self.ascent(states, counts, base)?;
+        let rate = settings.actor_rate().at(self.updates);
         let Trained { layers, descent, .. } = &mut self.actor;
         descent.step(layers, gradients, rate, settings.gradient_norm());
+        Ok(())
     }
 
-    /// The gradient of minus the mean value of the actor's actions, summed over the heads.
-    pub(super) fn ascent(&self, counts: &[bool]) -> Vec<Gradient> {
+    /// The gradient of minus the mean value of the actor's actions, summed over the heads. `states` are
+    /// those whose features are at hand.
+    pub(super) fn ascent<S>(
+        &self,
+        states: &[S],
+        counts: &[bool],
+        base: Option<&Sum<'_, S>>,
+    ) -> Result<Vec<Gradient>, Error> {
         let (heads, m) = (self.heads.states.len(), self.components);
         let device = self.actor.layers.device();
         let pass = self.actor.layers.pass(self.before.tensor(&device));
         let actions = squashed(pass.out);
-        let rows = actions.chunks(m).enumerate().map(|(i, action)| (i / heads, action));
+        let row = |(i, action)| (i / heads, action);
+        let rows: Vec<_> = actions.chunks(m).enumerate().map(row).collect();
         let critic = &self.critics[0].layers;
-        let through = critic.pass(joined(&self.before, rows, m, &device));
+        let through = critic.pass(joined(&self.before, rows.iter().copied(), m, &device));
         let share = 1.0 / self.before.len() as f32;
         let mut slopes = std::vec![0.0; counts.len() * heads];
         for (i, _) in counts.iter().enumerate().filter(|(_, counts)| **counts) {
@@ -307,8 +399,15 @@ impl Trainer {
         let slopes = matrix(slopes, heads, &device);
         let first = through.inputs[0].dims()[1] - m;
         let mut error = numbers(critic.back_to_inputs(&through.inputs, slopes, first));
+        if let Some(base) = base {
+            let slopes = base.slopes(states, &rows)?;
+            let own = error.chunks_mut(m).zip(slopes.chunks(m)).zip(counts);
+            for ((error, slopes), _) in own.filter(|(_, counts)| **counts) {
+                error.iter_mut().zip(slopes).for_each(|(e, slope)| *e -= share * slope);
+            }
+        }
         error.iter_mut().zip(&actions).for_each(|(e, a)| *e *= 1.0 - a * a);
-        self.actor.layers.back(&pass.inputs, matrix(error, heads * m, &device))
+        Ok(self.actor.layers.back(&pass.inputs, matrix(error, heads * m, &device)))
     }
 }
 
@@ -342,7 +441,7 @@ fn lesser(a: f32, b: f32) -> f32 {
 }
 
 /// Rows of numbers as a tensor.
-fn matrix(numbers: Vec<f32>, width: usize, device: &Device) -> Tensor<2> {
+pub(super) fn matrix(numbers: Vec<f32>, width: usize, device: &Device) -> Tensor<2> {
     let rows = numbers.len() / width;
     Tensor::from_data(TensorData::new(numbers, [rows, width]), device)
 }
