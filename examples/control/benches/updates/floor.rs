@@ -11,18 +11,18 @@ use tltl::rand::Rng;
 use tltl::rand::rngs::Xoshiro256PlusPlus;
 
 /// The settings that both have; the others are the defaults of a learner.
-pub const GAMMA: f64 = 0.99;
+pub(crate) const GAMMA: f64 = 0.99;
 const RATE: f32 = 1e-3;
 const TARGET_RATE: f32 = 0.005;
 const LONGEST: f32 = 10.0;
 
 /// A transition: what is seen, the action, the reward, what is seen then, and whether more follows.
-pub struct Seen {
-    pub before: Vec<f32>,
-    pub action: Vec<f32>,
-    pub reward: f64,
-    pub after: Vec<f32>,
-    pub goes_on: bool,
+pub(crate) struct Seen {
+    pub(crate) before: Vec<f32>,
+    pub(crate) action: Vec<f32>,
+    pub(crate) reward: f64,
+    pub(crate) after: Vec<f32>,
+    pub(crate) goes_on: bool,
 }
 
 type Layer = (Array2<f32>, Array1<f32>);
@@ -141,7 +141,7 @@ impl Net {
 }
 
 /// An actor and two critics, and what they learn from.
-pub struct Floor {
+pub(crate) struct Floor {
     actor: Net,
     critics: [Net; 2],
     updates: u64,
@@ -154,7 +154,7 @@ pub struct Floor {
 
 impl Floor {
     /// What goes on from a learner's checkpoint.
-    pub fn of(saved: &Value, seen: Vec<Option<Seen>>, batch: usize) -> Self {
+    pub(crate) fn of(saved: &Value, seen: Vec<Option<Seen>>, batch: usize) -> Self {
         let some = seen.iter().flatten().next().expect("a transition");
         let (inputs, m) = (some.before.len(), some.action.len());
         let critic = |i: usize| Net::of(&saved["critics"][i], inputs + m, batch);
@@ -170,7 +170,7 @@ impl Floor {
     }
 
     /// One update, as [`tltl::deep::actor::Learner::rehearse`] makes it.
-    pub fn update(&mut self) {
+    pub(crate) fn update(&mut self) {
         let Self { actor, critics, seen, rng, .. } = self;
         let drawn: Vec<&Seen> = (0..self.batch).map(|_| draw(seen, rng)).collect();
         let inputs = drawn[0].before.len();
@@ -239,7 +239,7 @@ impl Floor {
     }
 
     /// The least that the critics say of the actor's action where this is seen.
-    pub fn value(&mut self, seen: &[f32]) -> f32 {
+    pub(crate) fn value(&mut self, seen: &[f32]) -> f32 {
         let row = |values: &mut Array2<f32>, numbers: &[f32]| {
             values.row_mut(0).iter_mut().zip(numbers).for_each(|(x, y)| *x = *y);
         };

@@ -17,9 +17,6 @@ use tltl::prelude::{Monitor, Rewards, tltl};
 use tltl::rand::Rng;
 use tltl_control::point::{Look, Point, Room};
 
-/// Updates that are timed at a time.
-const UPDATES: u64 = 400;
-
 /// Times that each is timed, in turn.
 const TIMES: usize = 5;
 
@@ -67,7 +64,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let hit = |s: &Four| 0.3 - s[0].hypot(s[1]);
     let one = tltl! { F at_a ensuring !hit };
     let two = tltl! { F (at_a && F at_b) ensuring !hit };
-    for (units, batch) in [(64, 128), (256, 256)] {
+    for (units, batch, updates) in [(64, 128, 400), (256, 256, 40)] {
         let settings = Settings::default()
             .with_rewards(Rewards::acceptance().with_gamma(GAMMA)?)
             .with_hidden([units, units])?
@@ -83,10 +80,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         let mut both = learned(&two, &settings)?;
         let mut timed = [const { Vec::new() }; 3];
         for _ in 0..TIMES {
-            timed[0].push(rate(|| Ok(own.rehearse(UPDATES)?))?);
-            timed[1].push(rate(|| Ok(both.rehearse(UPDATES)?))?);
-            timed[2].push(rate(|| {
-                (0..UPDATES).for_each(|_| by_hand.update());
+            timed[0].push(rate(updates, || Ok(own.rehearse(updates)?))?);
+            timed[1].push(rate(updates, || Ok(both.rehearse(updates)?))?);
+            timed[2].push(rate(updates, || {
+                (0..updates).for_each(|_| by_hand.update());
                 Ok(())
             })?);
         }
@@ -153,10 +150,14 @@ fn alike<M: Monitor<Four>>(
     Ok(())
 }
 
-fn rate(run: impl FnOnce() -> Result<(), Box<dyn Error>>) -> Result<f64, Box<dyn Error>> {
+/// How many of so many updates are made a second.
+fn rate(
+    updates: u64,
+    run: impl FnOnce() -> Result<(), Box<dyn Error>>,
+) -> Result<f64, Box<dyn Error>> {
     let begin = seconds()?;
     run()?;
-    Ok(UPDATES as f64 / (seconds()? - begin))
+    Ok(updates as f64 / (seconds()? - begin))
 }
 
 fn median(mut rates: Vec<f64>) -> f64 {
