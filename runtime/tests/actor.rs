@@ -302,10 +302,10 @@ fn actors_compose_without_a_step() {
     }
     let (mut composed, mut again) = (compose(Combine::Sum), compose(Combine::Sum));
     let check = |composed: &Composition<'_, _, _, _>| {
-        // Not in the middle: an actor is continuous, and turns round there.
-        for x in [-0.4, 0.4] {
+        // Not in the middle: an actor is continuous, and hesitates there.
+        for x in [-0.6, 0.6] {
             let steps = steps_from(&both, x, |q, x| composed.act(q, x).unwrap()[0]);
-            assert!(steps <= 15, "{steps} steps from {x}, and 11 are the fewest");
+            assert!(steps < 30, "not in {steps} steps from {x}, and 11 are the fewest");
         }
     };
     composed.compensate(1_000).unwrap();
