@@ -75,7 +75,7 @@ fn what_users_build_is_counted() {
     let compiler = ["proc-macro2", "quote", "unicode-ident"];
     assert_eq!(normal("tltl-compiler"), compiler.into());
     assert_eq!(normal("tltl-macros"), ["proc-macro2", "quote", "tltl-compiler"].into());
-    assert_eq!(normal("tltl"), ["burn", "libm", "rand", "serde", "tltl-macros"].into());
+    assert_eq!(normal("tltl"), ["basin", "burn", "libm", "rand", "serde", "tltl-macros"].into());
 }
 
 /// The wheel is a workspace of its own, which inherits nothing: it repeats what the crates agree on.
@@ -106,7 +106,7 @@ const ORDER: [(&str, &str); 4] = [
     (
         "runtime",
         "shared range checksum file interner automaton formula robustness monitor task factored \
-         private product model env mismatch reward episode augmented certificate estimate settings \
+         private product model env mismatch reward episode augmented certificate estimate falsify settings \
          policy q experience solve shield learn compose controller network deep checkpoint prelude",
     ),
     (
@@ -117,7 +117,7 @@ const ORDER: [(&str, &str); 4] = [
 
 /// The rooms of the runtime that only programs that learn call.
 const LEARNING: &str = "augmented certificate checkpoint compose controller env estimate experience \
-     factored file learn model network policy product q reward shield solve task";
+     factored falsify file learn model network policy product q reward shield solve task";
 
 /// The functions that rustc makes code of where they are defined, whether or not anybody calls them.
 #[derive(Default)]

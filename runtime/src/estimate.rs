@@ -33,6 +33,8 @@ use crate::monitor::Monitor;
 use crate::range::checked;
 use crate::reward::End;
 use crate::task::Error;
+#[cfg(feature = "falsify")]
+pub(crate) use continuous::play_from;
 pub use continuous::{Played, estimate_continuous, play};
 pub use interval::Interval;
 pub use tally::Tally;

@@ -14,6 +14,7 @@
 //! | `learn`, `q` | experience into action values |
 //! | `product`, `compose` | learned skills into new ones (Algorithm 2), without a step in the world |
 //! | `solve`, `estimate` | any policy into its certificate: P(satisfied), E\[steps\], regret |
+//! | `falsify` | a controller of continuous actions into the starts and disturbances from which it does worst |
 //! | `deep` | experience of worlds whose states have no numbers into networks, and networks into new ones |
 //! | `policy`, `network`, `controller`, `shield`, `checkpoint`, `file` | results into what runs, is safe, and is kept |
 //!
@@ -22,8 +23,8 @@
 //! monitors (two fifths of the CPU time of building this crate).
 //!
 //! Features: `std` and `macros` are on; `alloc` is all that owns tables; `serde` saves and loads;
-//! `libm` has `sqrt` and the like without `std`; `deep` learns with networks (Rust 1.95); `hoa` lets
-//! `include_tltl!` read automata of other tools. Where tasks are only followed, `macros` alone is enough, and builds quickest: no allocation, no `std`.
+//! `libm` has `sqrt` and the like without `std`; `deep` learns with networks (Rust 1.95); `falsify`
+//! searches for a controller's worst starts; `hoa` lets `include_tltl!` read automata of other tools. Where tasks are only followed, `macros` alone is enough, and builds quickest: no allocation, no `std`.
 //!
 //! ```
 //! use tltl::prelude::*;
@@ -96,6 +97,8 @@ pub mod estimate;
 #[cfg(feature = "alloc")]
 mod experience;
 pub mod factored;
+#[cfg(feature = "falsify")]
+pub mod falsify;
 #[cfg(feature = "std")]
 pub mod file;
 mod formula;

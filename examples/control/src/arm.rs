@@ -1,11 +1,13 @@
 //! A two-link arm in a plane, with limits of its joints.
 //!
 //! Its motors turn the joints faster or slower by up to 6 rad/s², up to 2 rad/s; a joint stops at its
-//! limit. An episode starts at rest, with the tip anywhere above the edge that it must not reach over.
+//! limit. An episode starts at rest, with the tip anywhere above the edge that it must not reach over. A
+//! disturbance turns the joints too.
 
 use std::f64::consts::PI;
 
 use tltl::env::{ContinuousEnv, Step};
+use tltl::falsify::DisturbedEnv;
 use tltl::network::Features;
 use tltl::rand::{Rng, RngExt as _};
 
@@ -69,28 +71,53 @@ impl ContinuousEnv for Table {
     }
 
     fn reset<R: Rng + ?Sized>(&mut self, rng: &mut R) -> Arm {
-        self.rates = [0.0; 2];
         loop {
-            self.angles = LIMITS.map(|(low, high)| low + (high - low) * rng.random::<f64>());
-            let seen = self.seen();
-            if seen.y > 0.0 {
-                return seen;
+            let angles = LIMITS.map(|(low, high)| low + (high - low) * rng.random::<f64>());
+            if let Some(s) = self.reset_at(&angles) {
+                return s;
             }
         }
     }
 
-    fn step<R: Rng + ?Sized>(&mut self, action: &[f32], _: &mut R) -> Step<Arm> {
+    fn step<R: Rng + ?Sized>(&mut self, action: &[f32], rng: &mut R) -> Step<Arm> {
+        self.step_disturbed(action, &[0.0; 2], rng)
+    }
+
+    fn component_name(&self, i: usize) -> String {
+        ["shoulder motor", "elbow motor"][i].into()
+    }
+}
+
+impl DisturbedEnv for Table {
+    /// The angles of shoulder and elbow, in radians.
+    fn start_bounds(&self) -> Vec<(f64, f64)> {
+        LIMITS.to_vec()
+    }
+
+    fn reset_at(&mut self, start: &[f64]) -> Option<Arm> {
+        *self = Self { angles: [start[0], start[1]], rates: [0.0; 2] };
+        Some(self.seen()).filter(|seen| seen.y > 0.0)
+    }
+
+    /// What turns shoulder and elbow beside the motors, a tenth of theirs.
+    fn disturbance_bounds(&self) -> Vec<(f64, f64)> {
+        vec![(-0.1 * f64::from(MOTOR), 0.1 * f64::from(MOTOR)); 2]
+    }
+
+    fn step_disturbed<R: Rng + ?Sized>(
+        &mut self,
+        action: &[f32],
+        push: &[f64],
+        _: &mut R,
+    ) -> Step<Arm> {
         for (i, (low, high)) in LIMITS.into_iter().enumerate() {
-            let rate = (self.rates[i] + f64::from(action[i]) * STEP).clamp(-FASTEST, FASTEST);
+            let turn = f64::from(action[i]) + push[i];
+            let rate = (self.rates[i] + turn * STEP).clamp(-FASTEST, FASTEST);
             let angle = self.angles[i] + rate * STEP;
             self.angles[i] = angle.clamp(low, high);
             self.rates[i] = if angle == self.angles[i] { rate } else { 0.0 };
         }
         Step::to(self.seen())
-    }
-
-    fn component_name(&self, i: usize) -> String {
-        ["shoulder motor", "elbow motor"][i].into()
     }
 }
 

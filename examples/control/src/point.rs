@@ -1,9 +1,10 @@
 //! A point with inertia in a room, with a pillar in the middle.
 //!
 //! It is pushed by up to 1 m/s² along each axis, moves at up to 0.8 m/s along each, and stops at walls.
-//! An episode starts at rest, anywhere outside the pillar.
+//! An episode starts at rest, anywhere outside the pillar. A disturbance is a further push.
 
 use tltl::env::{ContinuousEnv, Step};
+use tltl::falsify::DisturbedEnv;
 use tltl::network::Features;
 use tltl::rand::{Rng, RngExt as _};
 
@@ -47,8 +48,8 @@ impl Room {
 }
 
 /// Along one axis: a push, then a step with the new speed; a wall stops it.
-fn pushed(place: f64, speed: f64, push: f32) -> (f64, f64) {
-    let speed = (speed + f64::from(push) * STEP).clamp(-FASTEST, FASTEST);
+fn pushed(place: f64, speed: f64, push: f64) -> (f64, f64) {
+    let speed = (speed + push * STEP).clamp(-FASTEST, FASTEST);
     let to = place + speed * STEP;
     if to.abs() > HALF { (to.clamp(-HALF, HALF), 0.0) } else { (to, speed) }
 }
@@ -63,23 +64,50 @@ impl ContinuousEnv for Room {
 
     fn reset<R: Rng + ?Sized>(&mut self, rng: &mut R) -> Point {
         let mut place = || HALF * (2.0 * rng.random::<f64>() - 1.0);
-        let (mut x, mut y) = (place(), place());
-        while x.hypot(y) < CLEAR {
-            (x, y) = (place(), place());
+        loop {
+            if let Some(s) = self.reset_at(&[place(), place()]) {
+                return s;
+            }
         }
-        self.at = Point { x, y, vx: 0.0, vy: 0.0 };
-        self.at
     }
 
-    fn step<R: Rng + ?Sized>(&mut self, action: &[f32], _: &mut R) -> Step<Point> {
-        let Point { x, y, vx, vy } = self.at;
-        let ((x, vx), (y, vy)) = (pushed(x, vx, action[0]), pushed(y, vy, action[1]));
-        self.at = Point { x, y, vx, vy };
-        Step::to(self.at)
+    fn step<R: Rng + ?Sized>(&mut self, action: &[f32], rng: &mut R) -> Step<Point> {
+        self.step_disturbed(action, &[0.0; 2], rng)
     }
 
     fn component_name(&self, i: usize) -> String {
         ["push along x", "push along y"][i].into()
+    }
+}
+
+impl DisturbedEnv for Room {
+    /// Where the point is, along x and y, in metres.
+    fn start_bounds(&self) -> Vec<(f64, f64)> {
+        vec![(-HALF, HALF); 2]
+    }
+
+    fn reset_at(&mut self, start: &[f64]) -> Option<Point> {
+        let (x, y) = (start[0], start[1]);
+        self.at = Point { x, y, vx: 0.0, vy: 0.0 };
+        (x.hypot(y) >= CLEAR).then_some(self.at)
+    }
+
+    /// Pushes along x and y, a tenth of the motor's.
+    fn disturbance_bounds(&self) -> Vec<(f64, f64)> {
+        vec![(-0.1, 0.1); 2]
+    }
+
+    fn step_disturbed<R: Rng + ?Sized>(
+        &mut self,
+        action: &[f32],
+        push: &[f64],
+        _: &mut R,
+    ) -> Step<Point> {
+        let Point { x, y, vx, vy } = self.at;
+        let push = |i: usize| f64::from(action[i]) + push[i];
+        let ((x, vx), (y, vy)) = (pushed(x, vx, push(0)), pushed(y, vy, push(1)));
+        self.at = Point { x, y, vx, vy };
+        Step::to(self.at)
     }
 }
 

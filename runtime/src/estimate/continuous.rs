@@ -81,19 +81,30 @@ pub fn play<E: ContinuousEnv, M: Monitor<E::State>, R: Rng + ?Sized, F: From<Err
     monitor: &M,
     horizon: u64,
     rng: &mut R,
-    mut act: impl FnMut(u32, &E::State) -> Result<Vec<f32>, F>,
+    act: impl FnMut(u32, &E::State) -> Result<Vec<f32>, F>,
 ) -> Result<Played<E::State>, F> {
-    let mut step = Step::to(env.reset(rng));
-    let (mut states, mut all, mut q) = (Vec::new(), Vec::new(), 0);
+    let first = env.reset(rng);
+    play_from(first, monitor, horizon, act, |_, action| env.step(action, rng))
+}
+
+/// Plays one episode from a first state, in a world that takes step t by `step(t, action)`.
+pub(crate) fn play_from<S, M: Monitor<S>, F: From<Error>>(
+    first: S,
+    monitor: &M,
+    horizon: u64,
+    mut act: impl FnMut(u32, &S) -> Result<Vec<f32>, F>,
+    mut step: impl FnMut(u64, &[f32]) -> Step<S>,
+) -> Result<Played<S>, F> {
+    let (mut now, mut states, mut all, mut q) = (Step::to(first), Vec::new(), Vec::new(), 0);
     loop {
-        q = monitor.next(q, &step.state)?;
-        let over = monitor.is_terminal(q) || step.terminated || step.truncated;
-        let action =
-            if over || states.len() as u64 == horizon { None } else { Some(act(q, &step.state)?) };
-        states.push(step.state);
+        q = monitor.next(q, &now.state)?;
+        let (t, over) = (states.len() as u64, now.terminated || now.truncated);
+        let over = over || monitor.is_terminal(q) || t == horizon;
+        let action = if over { None } else { Some(act(q, &now.state)?) };
+        states.push(now.state);
         all.push(q);
         match action {
-            Some(action) => step = env.step(&action, rng),
+            Some(action) => now = step(t, &action),
             None => return Ok(Played { states, q: all }),
         }
     }

@@ -65,10 +65,16 @@ where
     }
 
     /// What is there.
-    pub(crate) fn towards(&self, q: u32) -> &'static str {
+    fn towards(&self, q: u32) -> &'static str {
         let goal = self.goal(q);
         let there = self.plane.regions.iter().find(|region| region.middle == goal);
         there.map_or("", |region| region.name)
+    }
+
+    /// What the live automaton states mean.
+    pub(crate) fn meanings(&self) -> Vec<(u32, String)> {
+        let live = (0..self.task.states()).filter(|&q| !self.task.is_terminal(q));
+        live.map(|q| (q, format!("towards {}", self.towards(q)))).collect()
     }
 
     /// A learner that has learned nothing.
@@ -77,9 +83,14 @@ where
         Ok(Learner::new(skill, &self.world, settings()?, &Device::flex(), seed))
     }
 
+    /// The action of the controller written by hand.
+    pub(crate) fn hand_at(&self, q: u32, s: &E::State) -> Vec<f32> {
+        (self.by_hand)(s, self.goal(q)).to_vec()
+    }
+
     /// Trials of the controller written by hand.
     pub(crate) fn hand(&self) -> Result<Trialled<E::State>, Failure> {
-        let act = |q, s: &E::State| Ok((self.by_hand)(s, self.goal(q)).to_vec());
+        let act = |q, s: &E::State| Ok(self.hand_at(q, s));
         trials(&mut self.world.clone(), &self.task, TRIALS, act)
     }
 

@@ -6,11 +6,14 @@
 //!
 //! - `--study [TASK]` learns the tasks of two and three steps, or the one that is named, with ten seeds, and writes
 //!   `docs/studies/control_*`;
+//! - `--falsify [TASK [SEED [STEPS]]]` searches for the starts and disturbances from which a learned controller does
+//!   worst, trains it on from there, and searches again;
 //! - `--compose [PAIR [SEED [SEEDS]]]` composes pairs of skills (0 is all three) without a step in the world, with
 //!   one seed or with so many from there on, and prints what each step of it is worth.
 
 mod case;
 mod compose;
+mod falsify;
 mod one;
 mod study;
 mod worlds;
@@ -39,6 +42,11 @@ fn run(mut arguments: impl Iterator<Item = String>) -> Result<(), Failure> {
             let pair = given(arguments.next())?.filter(|pair| *pair > 0);
             let seed = given(arguments.next())?.unwrap_or(1);
             compose::run(pair, seed, given(arguments.next())?.unwrap_or(1))
+        }
+        "--falsify" => {
+            let task = arguments.next().unwrap_or_else(|| "fetch".into());
+            let seed = given(arguments.next())?.unwrap_or(1);
+            falsify::run(&task, seed, given(arguments.next())?.unwrap_or(case::STEPS))
         }
         task => {
             let seed = given(arguments.next())?.unwrap_or(1);

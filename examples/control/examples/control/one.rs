@@ -49,8 +49,7 @@ impl Visitor for Run {
         row("learned", &tried);
         println!("{} steps in {:.0} s", learner.steps(), start.elapsed().as_secs_f64());
         let folder = Folder::at("target/control")?;
-        let live = (0..task.states()).filter(|&q| !task.is_terminal(q));
-        let texts: Vec<_> = live.map(|q| (q, format!("towards {}", case.towards(q)))).collect();
+        let texts = case.meanings();
         let states: Vec<(u32, &str)> = texts.iter().map(|(q, text)| (*q, &**text)).collect();
         let few = &tried.episodes[..tried.episodes.len().min(12)];
         let drawn = case.plane.trajectories(name, few, case.at, &states);

@@ -1,7 +1,7 @@
 //! The tasks of the worlds, by name.
 
 use tltl::Task;
-use tltl::env::ContinuousEnv;
+use tltl::falsify::DisturbedEnv;
 use tltl::network::Features;
 use tltl::robustness::Predicates;
 use tltl_control::picture::{Plane, Region};
@@ -20,7 +20,7 @@ pub(crate) trait Visitor {
     /// Does it.
     fn visit<E, P, F>(self, case: &Case<E, P, F>) -> Result<Self::Output, Failure>
     where
-        E: ContinuousEnv<State: Clone> + Clone,
+        E: DisturbedEnv<State: Clone> + Clone,
         P: Predicates<E::State> + Sync,
         F: Features<E::State> + Copy + Sync;
 }
