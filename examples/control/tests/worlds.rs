@@ -1,9 +1,12 @@
 //! The worlds, by controllers that need no learning.
 
+use std::fmt::Debug;
+
 use tltl::Monitor;
 use tltl::env::ContinuousEnv;
 use tltl::estimate::{Trials, estimate_continuous};
-use tltl::rand::{SeedableRng as _, rngs::Xoshiro256PlusPlus};
+use tltl::falsify::DisturbedEnv;
+use tltl::rand::{RngExt as _, SeedableRng as _, rngs::Xoshiro256PlusPlus};
 use tltl::task::Error;
 use tltl_control::picture::{Plane, Region};
 use tltl_control::{arm, judge, point};
@@ -60,6 +63,41 @@ fn actions_stay_within_the_world() {
             assert!(s.x.hypot(s.y) <= arm::LINKS[0] + arm::LINKS[1] + 1e-12);
         }
     }
+}
+
+/// Episodes start within the bounds of starts, some points of them apart; what does not disturb leaves a step as it is,
+/// and what disturbs does not.
+fn is_disturbed<E: DisturbedEnv<State: Debug> + Clone>(mut world: E) {
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(4);
+    let (starts, pushes) = (world.start_bounds(), world.disturbance_bounds());
+    let mut starting = 0;
+    for _ in 0..300 {
+        let number = |&(low, high): &(f64, f64)| low + (high - low) * rng.random::<f64>();
+        let start: Vec<f64> = starts.iter().map(number).collect();
+        let Some(_) = world.reset_at(&start) else { continue };
+        starting += 1;
+        let action: Vec<f32> =
+            world.bounds().iter().map(|(low, high)| (low + high) / 2.0).collect();
+        let least: Vec<f64> = pushes.iter().map(|(low, _)| *low).collect();
+        let after = |push: Option<&[f64]>, rng: &mut Xoshiro256PlusPlus| {
+            let mut world = world.clone();
+            let step = match push {
+                Some(push) => world.step_disturbed(&action, push, rng),
+                None => world.step(&action, rng),
+            };
+            format!("{:?}", step.state)
+        };
+        let plain = after(None, &mut rng);
+        assert_eq!(after(Some(&vec![0.0; pushes.len()]), &mut rng), plain);
+        assert_ne!(after(Some(&least), &mut rng), plain);
+    }
+    assert!((100..300).contains(&starting), "{starting}");
+}
+
+#[test]
+fn worlds_start_where_one_wants_and_are_disturbed() {
+    is_disturbed(point::Room::default());
+    is_disturbed(arm::Table::default());
 }
 
 #[test]

@@ -16,7 +16,7 @@ use crate::case::{Case, TRIALS};
 use crate::worlds::{Visitor, visit};
 
 /// Points that each search tries.
-const POINTS: u64 = 2_000;
+const POINTS: u64 = 1_000;
 
 /// The pieces of an episode over which a disturbance is constant.
 const PIECES: usize = 4;
@@ -24,7 +24,7 @@ const PIECES: usize = 4;
 /// The share of the episodes that start from the worst, in the training that follows.
 const SHARE: f64 = 0.5;
 
-/// Learns `task` by `steps` steps, searches, and trains on by half as many.
+/// Learns `task` by `steps` steps, searches, and trains on by a quarter of them.
 pub(crate) fn run(task: &str, seed: u64, steps: u64) -> Result<(), Failure> {
     visit(task, Falsify { seed, steps })
 }
@@ -54,7 +54,7 @@ impl Visitor for Falsify {
             "disturbed"
         );
         row(case, "by hand", 1, |q, s| Ok(case.hand_at(q, s)))?;
-        let (before, after) = (self.steps, self.steps + self.steps / 2);
+        let (before, after) = (self.steps, self.steps + self.steps / 4);
         let mut learner = case.learner(self.seed)?;
         learner.train(&mut case.world.clone(), before)?;
         let worst = row(case, &format!("{before} steps"), 1, |q, s| Ok(learner.act(q, s)?))?;
