@@ -11,8 +11,8 @@
 //! CMA-ES ([`Method::Evolution`]), which compares points and needs no slope, for robustness jumps where a
 //! controller turns from one side of an obstacle to the other; [`Method::Random`] is what it is measured against.
 //!
-//! What is found is a lower bound on nothing: a search that finds no violation proves none. For a certificate of
-//! a finite world there is [`solve`](crate::solve).
+//! A search that finds no violation proves nothing. For a certificate of a finite world there is
+//! [`solve`](crate::solve).
 //!
 //! [`MixedStarts`] is a world in which a learner trains on the starts that were found.
 
@@ -122,6 +122,7 @@ pub struct Scenario {
 
 impl Scenario {
     /// The disturbance of step `t`; the last piece lasts beyond the horizon.
+    #[inline]
     fn disturbance(&self, t: u64, horizon: u64) -> Option<&[f64]> {
         let last = self.disturbance.len().checked_sub(1)?;
         let piece = u128::from(t) * self.disturbance.len() as u128 / u128::from(horizon.max(1));
