@@ -13,7 +13,7 @@ use tltl::rand::{Rng, RngExt as _};
 
 tltl::include_tltl!("tasks/arm.tltl");
 
-pub use arm::{Arm, bring, bring_and_rest};
+pub use arm::{Arm, bring, bring_and_rest, shuttle};
 
 /// The seconds of a step, as `tasks/arm.tltl` says.
 pub const STEP: f64 = 0.05;

@@ -5,3 +5,5 @@ pub mod arm;
 pub mod judge;
 pub mod picture;
 pub mod point;
+#[cfg(feature = "rapier")]
+pub mod rover;

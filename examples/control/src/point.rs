@@ -10,7 +10,7 @@ use tltl::rand::{Rng, RngExt as _};
 
 tltl::include_tltl!("tasks/point.tltl");
 
-pub use point::{Point, fetch, hurry, park, to_a, to_b, to_c, tour};
+pub use point::{Point, fetch, hurry, park, patrol, to_a, to_b, to_c, tour};
 
 /// The seconds of a step, as `tasks/point.tltl` says.
 pub const STEP: f64 = 0.1;

@@ -9,6 +9,8 @@ use tltl::falsify::DisturbedEnv;
 use tltl::rand::{RngExt as _, SeedableRng as _, rngs::Xoshiro256PlusPlus};
 use tltl::task::Error;
 use tltl_control::picture::{Plane, Region};
+#[cfg(feature = "rapier")]
+use tltl_control::rover;
 use tltl_control::{arm, judge, point};
 
 type Place = (f64, f64);
@@ -41,9 +43,11 @@ fn every_task_can_be_done_from_every_start() {
     goes(point::Room::default(), &point::tour(), &[a, b, c], point::steer);
     goes(point::Room::default(), &point::park(), &[c], point::steer);
     goes(point::Room::default(), &point::hurry(), &[b], point::steer);
+    goes(point::Room::default(), &point::patrol(), &[a, b, c, b, a], point::steer);
     let [cup, shelf, rest] = arm::PLACES;
     goes(arm::Table::default(), &arm::bring(), &[cup, shelf], arm::steer);
     goes(arm::Table::default(), &arm::bring_and_rest(), &[cup, shelf, rest], arm::steer);
+    goes(arm::Table::default(), &arm::shuttle(), &[cup, shelf, cup, shelf, rest], arm::steer);
 }
 
 #[test]
@@ -111,13 +115,64 @@ fn trials_and_pictures_are_the_same_on_each_run() {
         let tried = judge::trials(&mut point::Room::default(), &task, 5, act).expect("numbers");
         assert!(tried.robustness.iter().all(|rho| *rho > 0.0), "satisfied, by how much");
         let regions = [Region { middle: a, radius: 0.25, name: "a & b", barred: false }];
-        let plane = Plane { range: (-1.0, 1.0), regions: &regions, edge: Some(-0.9) };
+        let plane = Plane { range: (-1.0, 1.0), regions: &regions, blocks: &[], edge: Some(-0.9) };
         let states = [(0, "towards a"), (2, "towards b")];
         let at = |s: &point::Point| (s.x, s.y);
-        plane.trajectories("fetch", &tried.episodes, at, &states)
-            + &plane.moving("fetch", &tried.episodes[0], at, point::STEP, &states)
+        plane.trajectories("fetch", &tried.episodes, at, None, &states)
+            + &plane.moving("fetch", &tried.episodes[0], at, None, point::STEP, &states)
     };
     let first = picture();
     assert_eq!(first, picture());
     assert!(first.contains("a &amp; b") && first.contains("<animate"));
+}
+
+#[cfg(feature = "rapier")]
+#[test]
+fn every_task_of_the_rover_can_be_done_from_every_start() {
+    use rover::{CRATE, STORE, Yard, steer};
+    let [dock, gate] = rover::PLACES;
+    goes(Yard::default(), &rover::push(), &[CRATE, STORE], steer);
+    goes(Yard::default(), &rover::push_and_dock(), &[CRATE, STORE, dock], steer);
+    goes(Yard::default(), &rover::rounds(), &[gate, dock, CRATE, STORE, dock], steer);
+    goes(Yard::default(), &rover::rush(), &[STORE], steer);
+    goes(Yard::default(), &rover::settle(), &[STORE, dock], steer);
+}
+
+/// What the physics library remembers between steps must not matter: the state is all there is.
+#[cfg(feature = "rapier")]
+#[test]
+fn the_next_state_of_the_rover_follows_from_the_state_and_the_action() {
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(4);
+    let mut yard = rover::Yard::default();
+    let mut state = yard.reset(&mut rng);
+    let mut moved = 0;
+    for _ in 0..200 {
+        let action = rover::steer(&state, rover::STORE);
+        let next = yard.step(&action, &mut rng).state;
+        assert_eq!(rover::Yard::with(state).step(&action, &mut rng).state, next);
+        moved += u32::from(next.crate_x != state.crate_x);
+        state = next;
+    }
+    assert!(moved > 10, "the rover pushes the crate");
+}
+
+#[cfg(feature = "rapier")]
+#[test]
+fn walls_hold_the_rover_and_its_crate() {
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);
+    let mut yard = rover::Yard::default();
+    for i in 0..40 {
+        let start = yard.reset(&mut rng);
+        for t in 0..100 {
+            // To a corner, with the crate on the way at times.
+            let push = if (t / 20) % 2 == 0 { 2.0 } else { -2.0 };
+            let s = yard.step(&[push, if i % 2 == 0 { 2.0 } else { -push }], &mut rng).state;
+            // A contact is soft: a body gets 2 cm into another at most.
+            let within = |at: f64, half: f64| at.abs() < rover::HALF - half + 0.02;
+            assert!(within(s.x, 0.12) && within(s.y, 0.12), "{start:?}: {s:?}");
+            assert!(within(s.crate_x, 0.1) && within(s.crate_y, 0.1), "{start:?}: {s:?}");
+            let apart = (s.x - s.crate_x).hypot(s.y - s.crate_y);
+            assert!(apart > 0.2, "{start:?}: {s:?}");
+        }
+    }
 }

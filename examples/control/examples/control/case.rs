@@ -10,7 +10,7 @@ use tltl::reward::Mode;
 use tltl::robustness::Predicates;
 use tltl::{Acceptor as _, OutOfRange, Task};
 use tltl_control::judge::{HORIZON, Trialled, trials};
-use tltl_control::picture::Plane;
+use tltl_control::picture::{Loose, Plane};
 
 use crate::Failure;
 
@@ -34,6 +34,8 @@ pub(crate) struct Case<E: ContinuousEnv, P, F> {
     pub(crate) plane: Plane<'static>,
     /// Where in the plane a state is drawn.
     pub(crate) at: fn(&E::State) -> (f64, f64),
+    /// What else moves in it.
+    pub(crate) loose: Option<Loose<E::State>>,
 }
 
 /// A learner of a case.
@@ -67,8 +69,9 @@ where
     /// What is there.
     fn towards(&self, q: u32) -> &'static str {
         let goal = self.goal(q);
-        let there = self.plane.regions.iter().find(|region| region.middle == goal);
-        there.map_or("", |region| region.name)
+        let regions = self.plane.regions.iter().map(|region| (region.middle, region.name));
+        let blocks = self.plane.blocks.iter().map(|block| (block.middle, block.name));
+        regions.chain(blocks).find(|(middle, _)| *middle == goal).map_or("", |(_, name)| name)
     }
 
     /// What the live automaton states mean.

@@ -2,7 +2,8 @@
 //! it, emit it.
 //!
 //! `cargo run --release -p tltl-control --example control [-- TASK [SEED [STEPS]]]` does that for one task,
-//! `fetch` if left out, and writes into `target/control`. Instead of a task:
+//! `fetch` if left out, and writes into `target/control`. With `--features rapier` there are the tasks of the
+//! rover, too. Instead of a task:
 //!
 //! - `--study [TASK]` learns the tasks of two and three steps, or the one that is named, with ten seeds, and writes
 //!   `docs/studies/control_*`;

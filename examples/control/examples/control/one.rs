@@ -52,9 +52,10 @@ impl Visitor for Run {
         let texts = case.meanings();
         let states: Vec<(u32, &str)> = texts.iter().map(|(q, text)| (*q, &**text)).collect();
         let few = &tried.episodes[..tried.episodes.len().min(12)];
-        let drawn = case.plane.trajectories(name, few, case.at, &states);
+        let drawn = case.plane.trajectories(name, few, case.at, case.loose.as_ref(), &states);
         folder.write(&format!("{name}.svg"), &drawn)?;
-        let moving = case.plane.moving(name, &few[0], case.at, case.step, &states);
+        let moving =
+            case.plane.moving(name, &few[0], case.at, case.loose.as_ref(), case.step, &states);
         folder.write(&format!("{name}_moving.svg"), &moving)?;
         let policy = learner.policy()?.estimated(tried.estimate);
         folder.write(&format!("{name}.json"), &serde_json::to_string(&policy)?)?;

@@ -1,5 +1,8 @@
 //! The tasks of two and three steps with ten seeds: curves with bands, and what each actor is worth.
 //!
+//! With the feature `rapier`, those of the rover are among them: `cargo run --release -p tltl-control
+//! --features rapier --example control -- --study`. What is published is of all worlds, run so.
+//!
 //! What it writes: `docs/studies/control_seeds.{svg,md,jsonl}`.
 
 use std::fmt::Write as _;
@@ -164,7 +167,7 @@ fn text(tasks: &[&str], hands: &[Worth], seeds: &[&[Learned]]) -> String {
          task](control_seeds.svg)\n\nEach actor has learned for {STEPS} steps and is tried from \
          {TRIALS} starts that no learner has seen. Robustness is the mean over the trials of all seeds, \
          in metres. [The study](control.md) says how they learn. Written by `cargo run --release -p \
-         tltl-control --example control -- --study`.\n\n| task | P(satisfied), mean of {SEEDS} seeds | \
+         tltl-control --features rapier --example control -- --study`.\n\n| task | P(satisfied), mean of {SEEDS} seeds | \
          each seed | P(lost) | steps: learned, by hand | robustness: learned, by hand |\n{}\n",
         "| --- | --- | --- | --- | --- | --- |"
     );
