@@ -96,7 +96,9 @@ fn bodies(s: &Rover) -> (PhysicsWorld, [RigidBodyHandle; 2]) {
     let around = [((far, 0.0), (0.1, far)), ((0.0, far), (far, 0.1))];
     let walls = around.into_iter().flat_map(|((x, y), half)| [((x, y), half), ((-x, -y), half)]);
     for ((x, y), (width, height)) in walls.chain([WALL]) {
-        let wall = ColliderBuilder::cuboid(width, height).translation(Vector::new(x, y));
+        // The friction of a contact is the mean of the two: 0.1 of a rover that slides along a wall.
+        let wall = ColliderBuilder::cuboid(width, height).friction(0.0);
+        let wall = wall.translation(Vector::new(x, y));
         world.insert_collider(wall, None);
     }
     let rover = RigidBodyBuilder::dynamic()
@@ -105,7 +107,8 @@ fn bodies(s: &Rover) -> (PhysicsWorld, [RigidBodyHandle; 2]) {
         .linear_damping(f64::from(PUSH) / FASTEST)
         .lock_rotations()
         .can_sleep(false);
-    let (rover, _) = world.insert(rover, ColliderBuilder::cuboid(ROVER, ROVER).mass(1.0));
+    let plate = ColliderBuilder::cuboid(ROVER, ROVER).mass(1.0).friction(0.2);
+    let (rover, _) = world.insert(rover, plate);
     let loose = RigidBodyBuilder::dynamic()
         .translation(Vector::new(s.crate_x, s.crate_y))
         .rotation(s.crate_angle)
@@ -114,7 +117,7 @@ fn bodies(s: &Rover) -> (PhysicsWorld, [RigidBodyHandle; 2]) {
         .linear_damping(4.0)
         .angular_damping(4.0)
         .can_sleep(false);
-    let plate = ColliderBuilder::cuboid(CRATE_HALF, CRATE_HALF).mass(0.5);
+    let plate = ColliderBuilder::cuboid(CRATE_HALF, CRATE_HALF).mass(0.5).friction(0.5);
     let (loose, _) = world.insert(loose, plate);
     (world, [rover, loose])
 }
@@ -215,9 +218,8 @@ pub fn steer(s: &Rover, goal: Place) -> [f32; 2] {
     let behind = (s.crate_x - 0.3, s.crate_y);
     let (near, aside) = (s.crate_x - s.x, (s.crate_y - s.y).abs());
     let to = match goal {
-        CRATE => round_crate(s, behind),
         STORE if near > 0.18 && aside < 0.1 => (s.x + 1.0, s.crate_y),
-        STORE => round_crate(s, behind),
+        CRATE | STORE => round_wall(s, round_crate(s, behind)),
         place => round_wall(s, round_crate(s, place)),
     };
     let push = |to: f64, place: f64, speed: f64| {
