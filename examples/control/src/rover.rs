@@ -15,6 +15,7 @@ use rapier2d_f64::prelude::{
     ColliderBuilder, PhysicsWorld, RigidBody, RigidBodyBuilder, RigidBodyHandle, Vector,
 };
 use tltl::env::{ContinuousEnv, Step};
+use tltl::falsify::DisturbedEnv;
 use tltl::network::Features;
 use tltl::rand::{Rng, RngExt as _};
 
@@ -154,29 +155,62 @@ impl ContinuousEnv for Yard {
         let angle = within(TAU / 2.0);
         loop {
             let (x, y) = (within(HALF - ROVER), within(HALF - ROVER));
-            let clear = (x - to.0).hypot(y - to.1) > 0.35;
-            let ((wx, wy), (width, height)) = WALL;
-            let walled = (x - wx).abs() < width + ROVER && (y - wy).abs() < height + ROVER;
-            if clear && !walled && y > -0.6 {
-                self.at = start((x, y), to, angle);
-                return self.at;
+            if let Some(s) = self.reset_at(&[x, y, to.0, to.1, angle]) {
+                return s;
             }
         }
     }
 
-    fn step<R: Rng + ?Sized>(&mut self, action: &[f32], _: &mut R) -> Step<Rover> {
+    fn step<R: Rng + ?Sized>(&mut self, action: &[f32], rng: &mut R) -> Step<Rover> {
+        self.step_disturbed(action, &[0.0; 2], rng)
+    }
+
+    fn component_name(&self, i: usize) -> String {
+        ["push along x", "push along y"][i].into()
+    }
+}
+
+impl DisturbedEnv for Yard {
+    /// Where the rover and the crate are, in metres, and how the crate is turned, in radians.
+    fn start_bounds(&self) -> Vec<(f64, f64)> {
+        let around = |middle: f64, half: f64| (middle - half, middle + half);
+        vec![
+            around(0.0, HALF - ROVER),
+            around(0.0, HALF - ROVER),
+            around(CRATE.0, START.0),
+            around(CRATE.1, START.1),
+            around(0.0, TAU / 2.0),
+        ]
+    }
+
+    fn reset_at(&mut self, numbers: &[f64]) -> Option<Rover> {
+        let &[x, y, crate_x, crate_y, angle] = numbers else { return None };
+        let clear = (x - crate_x).hypot(y - crate_y) > 0.35;
+        let ((wx, wy), (width, height)) = WALL;
+        let walled = (x - wx).abs() < width + ROVER && (y - wy).abs() < height + ROVER;
+        self.at = start((x, y), (crate_x, crate_y), angle);
+        (clear && !walled && y > -0.6).then_some(self.at)
+    }
+
+    /// What pushes the rover beside its wheels, a tenth of theirs, in newtons.
+    fn disturbance_bounds(&self) -> Vec<(f64, f64)> {
+        vec![(-0.1 * f64::from(PUSH), 0.1 * f64::from(PUSH)); 2]
+    }
+
+    fn step_disturbed<R: Rng + ?Sized>(
+        &mut self,
+        action: &[f32],
+        wind: &[f64],
+        _: &mut R,
+    ) -> Step<Rover> {
         let (mut world, [rover, loose]) = bodies(&self.at);
-        let push = Vector::new(f64::from(action[0]), f64::from(action[1]));
-        world.bodies[rover].add_force(push, true);
+        let push = [0, 1].map(|i| f64::from(action[i]) + wind[i]);
+        world.bodies[rover].add_force(Vector::new(push[0], push[1]), true);
         for _ in 0..SUBSTEPS {
             world.step();
         }
         self.at = seen(&world.bodies[rover], &world.bodies[loose]);
         Step::to(self.at)
-    }
-
-    fn component_name(&self, i: usize) -> String {
-        ["push along x", "push along y"][i].into()
     }
 }
 

@@ -150,6 +150,6 @@ where
     let name = case.task.name();
     let texts = case.meanings();
     let states: Vec<(u32, &str)> = texts.iter().map(|(q, text)| (*q, &**text)).collect();
-    let drawn = case.plane.trajectories(name, episodes, case.at, &states);
+    let drawn = case.plane.trajectories(name, episodes, case.at, case.loose.as_ref(), &states);
     Ok(Folder::at("target/control")?.write(&format!("{name}_{what}.svg"), &drawn)?)
 }
