@@ -1,4 +1,4 @@
-"""Updates of Stable-Baselines3's TD3 for each second of the processor; see `updates.rs`."""
+"""Updates of Stable-Baselines3's TD3 for each second of the processor; see `updates/main.rs`."""
 
 import sys
 import time

@@ -206,7 +206,7 @@ where
     /// taken in a state of this automaton.
     ///
     /// With [`Self::rehearse`] that is how skills become a new one without a step in the world (the last
-    /// step of the paper's Algorithm 2):
+    /// step of the paper's Algorithm 2; [`Composition`](super::Composition) has all of them):
     ///
     /// ```
     /// use tltl::deep::actor::{Learner, Settings};
