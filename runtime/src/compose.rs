@@ -82,7 +82,8 @@ pub enum Combine {
 }
 
 /// Skills that are being composed, step by step, whatever holds their values: tables
-/// ([`Composition::on`]), networks (`deep::Composition`) or actors (`deep::actor::Composition`). It begins at step 2.
+/// ([`Composition::on`]), networks (`deep::Composition`) or actors (`deep::actor::Composition`). It begins
+/// at step 2.
 ///
 /// A study that compares the steps is so written once for both:
 ///
