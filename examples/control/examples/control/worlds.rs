@@ -71,11 +71,11 @@ pub(crate) fn visit<V: Visitor>(task: &str, visitor: V) -> Result<V::Output, Fai
         "fetch" => visitor.visit(&room(point::fetch(), &[A, B])),
         "tour" => visitor.visit(&room(point::tour(), &[A, B, C])),
         "park" => visitor.visit(&room(point::park(), &[C])),
-        "patrol" => visitor.visit(&room(point::patrol(), &[A, B, C, B, A])),
+        "patrol" => visitor.visit(&room(point::patrol(), &[A, B, C, A])),
         "hurry" => visitor.visit(&room(point::hurry(), &[B])),
         "bring" => visitor.visit(&table(arm::bring(), &[CUP, SHELF])),
         "bring_and_rest" => visitor.visit(&table(arm::bring_and_rest(), &[CUP, SHELF, REST])),
-        "shuttle" => visitor.visit(&table(arm::shuttle(), &[CUP, SHELF, CUP, SHELF, REST])),
+        "shuttle" => visitor.visit(&table(arm::shuttle(), &[CUP, SHELF, REST, CUP])),
         #[cfg(feature = "rapier")]
         "push" => visitor.visit(&yard(rover::push(), &[CRATE, STORE])),
         #[cfg(feature = "rapier")]
