@@ -37,12 +37,12 @@ pub(crate) const SHORT: &[&str] = &[
     "bring_and_rest",
     #[cfg(feature = "rapier")]
     "push",
-    #[cfg(feature = "rapier")]
-    "push_and_dock",
 ];
 
 /// The others.
 const OTHERS: &[&str] = &[
+    #[cfg(feature = "rapier")]
+    "push_and_dock",
     "park",
     "hurry",
     "patrol",
