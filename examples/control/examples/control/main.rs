@@ -58,6 +58,7 @@ fn run(mut arguments: impl Iterator<Item = String>) -> Result<(), Failure> {
 
 /// An argument that is a number from 0 on.
 fn given<T: FromStr>(argument: Option<String>) -> Result<Option<T>, Failure> {
-    let number = |text: String| text.parse().map_err(|_| format!("`{text}` is no number from 0 on"));
+    let number =
+        |text: String| text.parse().map_err(|_| format!("`{text}` is no number from 0 on"));
     Ok(argument.map(number).transpose()?)
 }
