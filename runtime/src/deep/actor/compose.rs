@@ -311,6 +311,9 @@ fn normalise<S: Clone>(sum: &mut Sum<'_, S>, replay: &Replay<S, Vec<f32>>) -> Re
     let (states, actions): (Vec<S>, Vec<&[f32]>) =
         seen.map(|m| (m.state.clone(), &m.action[..])).unzip();
     let rows: Vec<_> = actions.into_iter().enumerate().collect();
+    if rows.is_empty() {
+        return Ok(()); // Last states alone.
+    }
     for part in &mut sum.parts {
         let largest = part.largest(&states, &rows)?;
         part.scale = if largest > 0.0 { 1.0 / largest } else { 1.0 };
