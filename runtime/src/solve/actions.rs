@@ -41,4 +41,10 @@ impl Actions {
         let at = pair * self.actions + a;
         self.bits[at / 64] >> (at % 64) & 1 == 1
     }
+
+    /// The first action in the set of `pair`.
+    #[inline]
+    pub(crate) fn first(&self, pair: usize) -> Option<usize> {
+        (0..self.actions).find(|&a| self.contains(pair, a))
+    }
 }

@@ -2,7 +2,8 @@
 
 use alloc::vec::Vec;
 
-use super::component::Component;
+use super::cheapest::cheapest;
+use super::component::{Component, NONE};
 use super::improve::{Solution, outwards as policy};
 use super::sets::{outwards, sets};
 use super::{Actions, Problem, Rule};
@@ -13,8 +14,8 @@ pub(super) struct Bounded {
     pub(super) values: Vec<f64>,
     /// Absolute; relative for costs.
     pub(super) error: f64,
-    /// The actions by which the values come about; 0 where there is nothing to choose.
-    pub(super) policy: Vec<u32>,
+    /// For each pair the action by which its value comes about; none where there is nothing to choose.
+    chosen: Actions,
     /// For probabilities, the pairs from which success is sure, by the graph: action 0 stands for it.
     pub(super) sure: Actions,
     /// For probabilities, the most steps that the policy can be expected to make where success is
@@ -33,7 +34,14 @@ impl Bounded {
     /// Values without an error but rounding.
     #[inline]
     pub(super) fn exact(values: Vec<f64>) -> Self {
-        Self { values, error: 0.0, policy: Vec::new(), sure: Actions::none(0, 1), doubt: 0.0 }
+        let none = || Actions::none(0, 1);
+        Self { values, error: 0.0, chosen: none(), sure: none(), doubt: 0.0 }
+    }
+
+    /// The actions by which the values come about; 0 where there is nothing to choose.
+    #[inline]
+    pub(super) fn policy(&self) -> Vec<u32> {
+        (0..self.values.len()).map(|pair| self.chosen.first(pair).unwrap_or(0) as u32).collect()
     }
 }
 
@@ -51,7 +59,8 @@ impl Collector<'_> {
         let unknowns = solution.component.unknowns().iter();
         for ((&code, &x), &a) in unknowns.zip(&solution.x).zip(&solution.policy) {
             let pair = solution.component.pair(code);
-            (self.bounded.values[pair], self.bounded.policy[pair]) = (x, a);
+            self.bounded.values[pair] = x;
+            self.bounded.chosen.insert(pair, a as usize);
         }
     }
 
@@ -70,11 +79,10 @@ impl Collector<'_> {
 impl Problem {
     #[inline]
     fn collector(&self) -> Collector<'_> {
-        let values = alloc::vec![0.0; self.task.pairs()];
-        let policy = alloc::vec![0; self.task.pairs()];
+        let pairs = self.task.pairs();
+        let chosen = Actions::none(pairs, self.dynamics.actions());
+        let bounded = Bounded { chosen, ..Bounded::exact(alloc::vec![0.0; pairs]) };
         let errors = alloc::vec![0.0; self.task.automaton_states() as usize];
-        let bounded =
-            Bounded { policy, sure: Actions::none(values.len(), 1), ..Bounded::exact(values) };
         Collector { problem: self, bounded, errors }
     }
 
@@ -106,6 +114,7 @@ impl Problem {
     #[inline]
     pub(super) fn probability(&self, payment: &Payment, rule: &Rule<'_>) -> Bounded {
         let mut all = self.collector();
+        all.bounded.sure = Actions::none(self.task.pairs(), 1);
         for members in self.components.iter() {
             let known = &all.bounded.values;
             let mut component = Component::new(self, members, (payment, 1.0, false), known);
@@ -130,17 +139,13 @@ impl Problem {
     /// least, with a relative error.
     #[inline]
     pub(super) fn costs(&self, costs: &[f64], rule: &Rule<'_>) -> Bounded {
-        let (mut all, nothing) = (self.collector(), self.task.payment_by(&|_, _| 0.0));
-        let accept = self.acceptance();
+        let mut all = self.collector();
+        let (accept, nothing) = (self.acceptance(), self.task.payment_by(&|_, _| 0.0));
         for members in self.components.iter() {
-            // The exits by which success is possible.
-            let mut good = Component::new(self, members, (&accept, 1.0, false), costs);
-            let mut unknowns = outwards(&good, rule);
-            unknowns.retain(|&code| costs[good.pair(code)] > 0.0);
-            good.choose(unknowns.clone(), costs);
-            let first = policy(&good, rule);
+            let good = self.good_exits(members, &accept, costs);
             let known = &all.bounded.values;
             let mut component = Component::new(self, members, (&nothing, 1.0, false), known);
+            let (unknowns, first) = cheapest(&component, rule, &good, costs);
             component.choose(unknowns, known);
             let rule = rule.costing(costs);
             let mut solution = Solution::new(component, &rule, first, None);
@@ -149,5 +154,12 @@ impl Problem {
             all.add_error(members, error);
         }
         all.bounded
+    }
+
+    /// Which arrivals lead out of a component to where `satisfied` is positive.
+    #[inline]
+    fn good_exits(&self, members: &[u32], accept: &Payment, satisfied: &[f64]) -> Vec<bool> {
+        let component = Component::new(self, members, (accept, 1.0, false), satisfied);
+        component.arrivals().map(|(target, worth)| target == NONE && worth > 0.0).collect()
     }
 }

@@ -154,7 +154,7 @@ impl Solution<'_> {
     fn steps(&self) -> Vec<f64> {
         let mut steps = alloc::vec![0.0; self.x.len()];
         let chain = Chain::new(&self.rows, &self.policy, Factors::Plain);
-        chain.correct(&alloc::vec![1.0; self.x.len()], &mut steps, 1e-3);
+        chain.correct(alloc::vec![1.0; self.x.len()], &mut steps, 1e-3);
         steps
     }
 

@@ -70,7 +70,8 @@ impl Problem {
         // As long as the steps cost little, values are nearly linear in the price.
         let linear = |(p, v): (&f64, &f64)| (p - price / first * (p - v)).max(0.0);
         let linear: Vec<f64> = largest.iter().zip(&start.values).map(linear).collect();
-        let near = Near { values: &linear, policy: Some(&start.policy) };
+        let policy = start.policy();
+        let near = Near { values: &linear, policy: Some(&policy) };
         let mut values = self.priced(&accept, price, near).values;
         self.set_end(End::Accepted, &mut values, 0.0);
         self.action_values(&self.arrivals(&accept, 1.0 - price, &values))

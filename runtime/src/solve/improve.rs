@@ -21,14 +21,26 @@ use super::rule::Choice;
 /// must not decide them again and again.
 const TIE: f64 = 1e-12;
 
+/// By how much of the residual an action must be better to be taken in the first sweep, where values slope.
+const NOTABLE: f64 = 1e-4;
+
 /// The residual, relative to the values, below which there is nothing to correct but rounding. Where values
 /// slope, ties leave more.
 const DONE: f64 = 2e-15;
 
+/// The residual that single precision is asked for in the end, and any that may not be the last.
+const NOUGHT: f64 = 1e-14;
+
 /// How far a system is solved while the policy changes, where values slope; else; and in the end.
-const LOOSE: f64 = 1e-4;
+const LOOSE: f64 = 1e-3;
 const TIGHT: f64 = 1e-10;
 const FULL: f64 = 1e-13;
+
+/// The residual below which few actions still change, so that a system solved fully may be the last.
+const CLOSE: f64 = 1e-5;
+
+/// The share of the unknowns whose actions change before they are numbered anew.
+const MOVED: f64 = 0.01;
 
 /// Sweeps between two systems: what becomes better beside one unknown makes the next one better.
 const SWEEPS: usize = 4;
@@ -75,7 +87,7 @@ impl<'a> Solution<'a> {
     ) -> Self {
         let n = component.unknowns().len();
         let x = start.unwrap_or_else(|| alloc::vec![0.0; n]);
-        let (places, residual) = (Vec::new(), alloc::vec![0.0; n]);
+        let (places, residual) = (Vec::new(), Vec::new());
         let (rows, factors) = (Rows::new(&component, rule.costs), Factors::Plain);
         let (eliminated, scale) = (false, 0.0);
         let mut solution =
@@ -92,25 +104,28 @@ impl<'a> Solution<'a> {
     #[inline]
     fn solve(&mut self) {
         let mut solved = (self.x.clone(), self.policy.clone());
-        let (mut chain, mut changed, mut before) = (None, true, f64::INFINITY);
+        let (mut kept, mut changed, mut before) = (None, true, f64::INFINITY);
         for round in 0..ROUNDS {
-            let chain = match &mut chain {
-                Some(chain) if !changed => chain,
-                chain => chain.insert(self.chain(&solved.1)),
-            };
+            let chain = kept.get_or_insert_with(|| self.chain(&solved.1));
             self.look();
             let size = self.size(chain);
             let small = self.x.len() <= SMALL;
             let settled = !changed && (small || size <= DONE || size > 0.5 * before);
-            if settled || self.slopes() && !small && size <= TIE {
+            let last = !changed || self.rule.is_policy();
+            let small_enough = self.slopes() && !small && !self.rule.is_policy() && size <= TIE;
+            if settled || small_enough {
                 break;
             }
-            let loose = if self.slopes() { LOOSE } else { TIGHT };
             let full = (0.1 * DONE / size).max(FULL);
-            let last = !changed || self.rule.is_policy();
-            let reduction = if last { full } else { loose };
-            let converged =
-                small && self.eliminate() || self.correct(chain, reduction) || self.eliminate();
+            let reduction = match self.slopes() {
+                _ if last => full,
+                false => TIGHT,
+                true if size < CLOSE => (NOUGHT / size).max(FULL),
+                true => LOOSE,
+            };
+            let converged = small && self.eliminate()
+                || self.correct(chain, &solved.0, reduction)
+                || self.eliminate();
             if !converged && changed && round > 0 {
                 (self.x, self.policy) = solved;
                 break;
@@ -120,33 +135,44 @@ impl<'a> Solution<'a> {
             if converged {
                 solved.0.copy_from_slice(&self.x);
                 solved.1.copy_from_slice(&self.policy);
-                changed = self.improve((loose * size.min(1.0)).max(TIE));
-                if changed && self.rule.costs.is_some() {
+                let loose = if self.slopes() { NOTABLE } else { TIGHT };
+                let taken = self.improve((loose * size.min(1.0)).max(TIE));
+                changed = taken > 0;
+                if changed {
+                    kept = None;
+                }
+                if self.rule.costs.is_some() && taken as f64 > MOVED * self.x.len() as f64 {
                     self.sort(&mut solved);
                 }
             }
         }
     }
 
-    /// Sweeps while there are better actions, a few times; whether there was one.
+    /// Sweeps while there are better actions, a few times; how many it took.
     #[inline]
-    fn improve(&mut self, tie: f64) -> bool {
-        let changed = self.sweep(tie) > 0;
-        let more = if changed && self.slopes() { SWEEPS - 1 } else { 0 };
-        let _ = (0..more).find(|_| self.sweep(TIE) == 0);
-        changed
+    fn improve(&mut self, tie: f64) -> usize {
+        let mut taken = self.sweep(tie);
+        let more = if taken > 0 && self.slopes() { SWEEPS - 1 } else { 0 };
+        for _ in 0..more {
+            match self.sweep(TIE) {
+                0 => break,
+                found => taken += found,
+            }
+        }
+        taken
     }
 
-    /// Corrects the values, with the other factors where these fail; whether that was enough.
+    /// Corrects the values, with the other factors where these fail; whether that was enough. `solved` are
+    /// values to go back to.
     #[inline]
-    fn correct(&mut self, chain: &mut Chain, reduction: f64) -> bool {
+    fn correct(&mut self, chain: &mut Chain, solved: &[f64], reduction: f64) -> bool {
         self.eliminated = false;
-        if self.attempt(chain, self.factors, reduction) {
+        if self.attempt(chain, self.factors, solved, reduction) {
             return true;
         }
         let mut other = Chain::new(&self.rows, &self.policy, self.factors.other());
         self.look();
-        let converged = self.attempt(&other, self.factors.other(), reduction);
+        let converged = self.attempt(&other, self.factors.other(), solved, reduction);
         if matches!(self.factors, Factors::SumPreserving) {
             // Where they failed once, they mostly do again.
             self.factors = Factors::Plain;
@@ -158,19 +184,30 @@ impl<'a> Solution<'a> {
     /// Corrects the values; whether that was enough. What factors that preserve sums leave may be small where
     /// the true residuals are not, so these decide.
     #[inline]
-    fn attempt(&mut self, chain: &Chain, factors: Factors, reduction: f64) -> bool {
+    fn attempt(&mut self, chain: &Chain, factors: Factors, solved: &[f64], reduction: f64) -> bool {
+        // What is not needed meanwhile makes room.
+        self.places = Vec::new();
         if matches!(factors, Factors::Plain) {
-            return chain.correct(&self.residual, &mut self.x, reduction);
+            let residual = core::mem::take(&mut self.residual);
+            return chain.correct(residual, &mut self.x, reduction);
         }
-        let (x, before) = (self.x.clone(), self.size(chain));
-        let converged = chain.correct(&self.residual, &mut self.x, reduction);
-        self.look();
-        if self.size(chain) < before.min(1.0) {
-            return converged;
+        let mut before = self.size(chain).min(1.0);
+        let wanted = (reduction * before).max(NOUGHT);
+        loop {
+            let residual = core::mem::take(&mut self.residual);
+            let converged = chain.correct(residual, &mut self.x, wanted / before);
+            self.look();
+            let size = self.size(chain);
+            if !(converged && size < before) {
+                self.x.copy_from_slice(solved);
+                self.look();
+                return false;
+            }
+            if size <= wanted || size > 0.5 * before {
+                return true;
+            }
+            before = size;
         }
-        self.x = x;
-        self.look();
-        false
     }
 
     /// Finds the values by elimination, unless it is too much work.
@@ -260,12 +297,14 @@ impl<'a> Solution<'a> {
     fn look(&mut self) {
         self.rows.places(&self.x, &mut self.places);
         self.rescale();
-        for (i, &x) in self.x.iter().enumerate() {
+        let residual = |(i, &x): (usize, &f64)| {
             let outcomes = self.rows.outcomes(i);
             let row = outcomes.successors.iter().zip(outcomes.row(self.policy[i] as usize));
             let own: f64 = row.map(|(&at, p)| p * (self.places[at as usize] - x)).sum();
-            self.residual[i] = own + self.rows.cost(i);
-        }
+            own + self.rows.cost(i)
+        };
+        self.residual.clear();
+        self.residual.extend(self.x.iter().enumerate().map(residual));
     }
 
     /// Takes actions that are better by more than `tie` and their values, one unknown after the other, so

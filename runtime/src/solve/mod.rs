@@ -21,6 +21,7 @@ mod actions;
 mod bounded;
 mod bounds;
 mod chain;
+mod cheapest;
 mod component;
 mod eliminate;
 mod evaluation;
@@ -254,7 +255,7 @@ impl Problem {
         let safe = self.safe(&accept, &largest);
         let fewest = Rule::best(Objective::Smallest, Choice::Of(&safe));
         let weighted = self.costs(&largest.values, &fewest);
-        let policy = Policy::from_table(&self.task, weighted.policy.clone());
+        let policy = Policy::from_table(&self.task, weighted.policy());
         if largest.doubt == 0.0 {
             return self.evaluation(policy, largest, weighted);
         }
@@ -538,9 +539,9 @@ impl Problem {
     /// `satisfied` times the steps to satisfaction is `weighted`.
     #[inline]
     fn evaluation(&self, policy: Policy, satisfied: Bounded, weighted: Bounded) -> Evaluation {
-        let steps = |(&w, &p): (&f64, &f64)| if p > 0.0 { w / p } else { f64::NAN };
-        let mut steps: Vec<f64> =
-            weighted.values.iter().zip(&satisfied.values).map(steps).collect();
+        let mut steps = weighted.values;
+        let given = |(w, &p): (&mut f64, &f64)| *w = if p > 0.0 { *w / p } else { f64::NAN };
+        steps.iter_mut().zip(&satisfied.values).for_each(given);
         self.set_end(End::Accepted, &mut steps, 0.0);
         let doubt = satisfied.error * satisfied.doubt;
         let satisfied = Values::new(self, satisfied).with_end(End::Accepted);
