@@ -13,7 +13,7 @@
 
 //!
 //! In a wide world memory is what takes the time, and a correction need not be good to many digits, for the
-//! residual is computed anew after it. So [`Factors::SumPreserving`] keep and compute with single precision.
+//! residual is computed anew after it. So there [`Factors::SumPreserving`] keep and compute with single precision.
 
 use alloc::vec::Vec;
 use core::iter::Sum;
@@ -24,6 +24,10 @@ use super::rows::Rows;
 
 /// The iterations of one correction at most: what they do not reach, the next correction does.
 const ITERATIONS: usize = 60;
+
+/// Unknowns from which on iterations are dear: their number grows with the way through the world, if factors
+/// do not treat smooth errors exactly.
+pub(super) const WIDE: usize = 1 << 17;
 
 /// How the diagonal of the incomplete elimination is found.
 #[derive(Clone, Copy)]
@@ -97,9 +101,18 @@ impl Chain {
     /// The system of a policy, which has an action for each unknown.
     #[inline]
     pub(super) fn new(rows: &Rows<'_>, policy: &[u32], factors: Factors) -> Self {
-        match factors {
-            Factors::Plain => Self::Double(Equations::new(rows, policy, factors)),
-            Factors::SumPreserving => Self::Single(Equations::new(rows, policy, factors)),
+        if policy.len() >= WIDE && matches!(factors, Factors::SumPreserving) {
+            return Self::Single(Equations::new(rows, policy, factors));
+        }
+        Self::Double(Equations::new(rows, policy, factors))
+    }
+
+    /// The least part of a residual that a correction can leave.
+    #[inline]
+    pub(super) const fn least(&self) -> f64 {
+        match self {
+            Self::Double(_) => <f64 as Real>::LEAST,
+            Self::Single(_) => <f32 as Real>::LEAST,
         }
     }
 

@@ -11,7 +11,7 @@
 use alloc::vec::Vec;
 
 use super::Rule;
-use super::chain::{Chain, Factors};
+use super::chain::{Chain, Factors, WIDE};
 use super::component::{Component, NONE};
 use super::eliminate::{SMALL, eliminate};
 use super::rows::Rows;
@@ -44,10 +44,6 @@ const MOVED: f64 = 0.01;
 
 /// Sweeps between two systems: what becomes better beside one unknown makes the next one better.
 const SWEEPS: usize = 4;
-
-/// Unknowns from which on iterations are dear: their number grows with the way through the world, if factors
-/// do not treat smooth errors exactly.
-const WIDE: usize = 1 << 17;
 
 /// As [`TIE`], where values are found by elimination: what rounding may do to them.
 const FINE: f64 = 16.0 * f64::EPSILON;
@@ -194,8 +190,8 @@ impl<'a> Solution<'a> {
         let mut before = self.size(chain).min(1.0);
         let wanted = (reduction * before).max(NOUGHT);
         loop {
-            let residual = core::mem::take(&mut self.residual);
-            let converged = chain.correct(residual, &mut self.x, wanted / before);
+            let (residual, asked) = (core::mem::take(&mut self.residual), wanted / before);
+            let converged = chain.correct(residual, &mut self.x, asked);
             self.look();
             let size = self.size(chain);
             if !(converged && size < before) {
@@ -203,7 +199,7 @@ impl<'a> Solution<'a> {
                 self.look();
                 return false;
             }
-            if size <= wanted || size > 0.5 * before {
+            if asked >= chain.least() || size <= wanted || size > 0.5 * before {
                 return true;
             }
             before = size;

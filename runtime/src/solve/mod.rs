@@ -4,8 +4,9 @@
 //! are judged against. Automaton states are solved one strongly connected component (`graph`) after the
 //! other, those that the others lead to first. In each, what the graph decides is found (`sets`) by searches:
 //! where success is impossible, and where it is sure. For the pairs between, policies are
-//! improved (`improve`), their linear systems (`chain`) solved, small ones by elimination (`eliminate`), and
-//! the error of what results is bounded (`bounds`), whatever computed it.
+//! improved (`improve`; the fewest steps begin with a search by costs, `cheapest`), their linear systems
+//! (`chain`) solved, small ones by elimination (`eliminate`), and the error of what results is bounded
+//! (`bounds`), whatever computed it.
 //!
 //! - *Flat* values bootstrap at q' ([`Problem::optimal_q`], the augmented MDP); *sub-policy* values
 //!   at a fixed q ([`Problem::sub_policy_q`], the paper's Eq. 3A6). They are different.

@@ -3,7 +3,8 @@
 //! With the feature `rapier`, those of the rover are among them: `cargo run --release -p tltl-control
 //! --features rapier --example control -- --study`. What is published is of all worlds, run so.
 //!
-//! What it writes: `docs/studies/control_seeds.{svg,md,jsonl}`.
+//! What it writes: `docs/studies/control_seeds.{svg,md,jsonl}`, and `control_long.{svg,md,jsonl}` of what takes
+//! longer to learn.
 
 use std::fmt::Write as _;
 
@@ -18,9 +19,12 @@ use tltl_examples::study::{Progress, Study, mean};
 
 use crate::Failure;
 use crate::case::{Case, STEPS, TRIALS};
-use crate::worlds::{SHORT, Visitor, visit};
+use crate::worlds::{LONG, SHORT, Visitor, visit};
 
 const SEEDS: u64 = 10;
+
+/// Environment steps of a training where [`STEPS`] are not enough.
+const MORE_STEPS: u64 = 150_000;
 
 /// Environment steps between two points of a curve.
 const BETWEEN: u64 = 5_000;
@@ -62,29 +66,81 @@ struct Learned {
 
 /// Learns the tasks, or one.
 pub(crate) fn run(task: Option<&str>) -> Result<(), Failure> {
-    let tasks: Vec<&str> = task.map_or_else(|| SHORT.to_vec(), |task| vec![task]);
-    // A name that is unknown is told before anything is learned.
-    let hands: Vec<Worth> = tasks.iter().map(|task| visit(task, Hand)).collect::<Result<_, _>>()?;
-    let study = Study::new("control_seeds", &(&tasks, SEEDS, STEPS, BETWEEN, FEW, TRIALS));
-    let study = study.every(2);
-    let learned = study.run_in_parts(
-        tasks.len() as u64 * SEEDS,
-        |_| STEPS,
-        |case, progress| {
-            let (task, seed) = (tasks[(case / SEEDS) as usize], case % SEEDS + 1);
-            visit(task, Seed { seed, progress }).map_err(|error| error.to_string())
-        },
-    )?;
-    let learned: Vec<Learned> = learned.into_iter().collect::<Result<_, _>>()?;
-    let seeds: Vec<&[Learned]> = learned.chunks(SEEDS as usize).collect();
-    let lines = learned.iter().enumerate().map(|(case, learned)| {
-        let (task, seed) = (tasks[case / SEEDS as usize], case as u64 % SEEDS + 1);
-        json!({"task": task, "seed": seed, "learned": learned})
-    });
-    study.publish_lines(lines)?;
-    study.publish(".svg", &figure(&tasks, &hands, &seeds))?;
-    study.publish(".md", &text(&tasks, &hands, &seeds))?;
-    Ok(study.finish()?)
+    let named = task.as_ref().map(core::slice::from_ref);
+    if task.is_none_or(|task| !LONG.contains(&task)) {
+        Group { name: "control_seeds", tasks: named.unwrap_or(SHORT), steps: STEPS }.run()?;
+    }
+    if task.is_none_or(|task| LONG.contains(&task)) && !LONG.is_empty() {
+        Group { name: "control_long", tasks: named.unwrap_or(LONG), steps: MORE_STEPS }.run()?;
+    }
+    Ok(())
+}
+
+/// Tasks that are learned for as long as each other.
+struct Group<'a> {
+    name: &'static str,
+    tasks: &'a [&'a str],
+    steps: u64,
+}
+
+impl Group<'_> {
+    fn run(&self) -> Result<(), Failure> {
+        let &Self { name, tasks, steps } = self;
+        // A name that is unknown is told before anything is learned.
+        let hands: Vec<Worth> =
+            tasks.iter().map(|task| visit(task, Hand)).collect::<Result<_, _>>()?;
+        let study = Study::new(name, &(tasks, SEEDS, steps, BETWEEN, FEW, TRIALS)).every(2);
+        let learned = study.run_in_parts(
+            tasks.len() as u64 * SEEDS,
+            |_| steps,
+            |case, progress| {
+                let (task, seed) = (tasks[(case / SEEDS) as usize], case % SEEDS + 1);
+                visit(task, Seed { seed, steps, progress }).map_err(|error| error.to_string())
+            },
+        )?;
+        let learned: Vec<Learned> = learned.into_iter().collect::<Result<_, _>>()?;
+        let seeds: Vec<&[Learned]> = learned.chunks(SEEDS as usize).collect();
+        let lines = learned.iter().enumerate().map(|(case, learned)| {
+            let (task, seed) = (tasks[case / SEEDS as usize], case as u64 % SEEDS + 1);
+            json!({"task": task, "seed": seed, "learned": learned})
+        });
+        study.publish_lines(lines)?;
+        study.publish(".svg", &figure(tasks, &hands, &seeds))?;
+        study.publish(".md", &self.text(&hands, &seeds))?;
+        Ok(study.finish()?)
+    }
+
+    /// The table.
+    fn text(&self, hands: &[Worth], seeds: &[&[Learned]]) -> String {
+        let &Self { name, tasks, steps } = self;
+        let mut text = format!(
+            "# Ten seeds of continuous control\n\n![P(satisfied) over the environment steps of each \
+             task]({name}.svg)\n\nEach actor has learned for {steps} steps and is tried from \
+             {TRIALS} starts that no learner has seen. Robustness is the mean over the trials of all seeds, \
+             in metres. [The study](control.md) says how they learn. Written by `cargo run --release -p \
+             tltl-control --features rapier --example control -- --study`.\n\n| task | P(satisfied), mean of {SEEDS} seeds | \
+             each seed | P(lost) | steps: learned, by hand | robustness: learned, by hand |\n{}\n",
+            "| --- | --- | --- | --- | --- | --- |"
+        );
+        for ((task, hand), seeds) in tasks.iter().zip(hands).zip(seeds) {
+            let each =
+                |of: fn(&Worth) -> f64| seeds.iter().map(|s| of(&s.last)).collect::<Vec<_>>();
+            let satisfied = each(|worth| worth.satisfied);
+            let shown: Vec<String> = satisfied.iter().map(f64::to_string).collect();
+            let [fewest, most] = ends(&each(|worth| worth.steps.unwrap_or(f64::NAN)));
+            let _ = writeln!(
+                text,
+                "| `{task}` | {:.3} | {} | {:.3} | {fewest:.1} to {most:.1}, {:.1} | {:.3}, {:.3} |",
+                mean(&satisfied),
+                shown.join(", "),
+                mean(&each(|worth| worth.lost)),
+                hand.steps.unwrap_or(f64::NAN),
+                mean(&each(|worth| worth.robustness)),
+                hand.robustness,
+            );
+        }
+        text
+    }
 }
 
 /// The worth of the controller written by hand.
@@ -106,6 +162,7 @@ impl Visitor for Hand {
 /// One seed.
 struct Seed<'a> {
     seed: u64,
+    steps: u64,
     progress: &'a Progress,
 }
 
@@ -120,7 +177,7 @@ impl Visitor for Seed<'_> {
     {
         let mut learner = case.learner(self.seed)?;
         let mut curve = Vec::new();
-        for steps in (BETWEEN..=STEPS).step_by(BETWEEN as usize) {
+        for steps in (BETWEEN..=self.steps).step_by(BETWEEN as usize) {
             learner.train(&mut case.world.clone(), steps)?;
             curve.push(Worth::of(&case.tried(&mut learner, FEW)?));
             self.progress.add(BETWEEN);
@@ -158,36 +215,6 @@ fn figure(tasks: &[&str], hands: &[Worth], seeds: &[&[Learned]]) -> String {
     let remarks =
         format!("Lines: means of {FEW} trials each; bands: from the worst seed to the best.");
     chart::svg(title, &rows, &[remarks])
-}
-
-/// The table.
-fn text(tasks: &[&str], hands: &[Worth], seeds: &[&[Learned]]) -> String {
-    let mut text = format!(
-        "# Ten seeds of continuous control\n\n![P(satisfied) over the environment steps of each \
-         task](control_seeds.svg)\n\nEach actor has learned for {STEPS} steps and is tried from \
-         {TRIALS} starts that no learner has seen. Robustness is the mean over the trials of all seeds, \
-         in metres. [The study](control.md) says how they learn. Written by `cargo run --release -p \
-         tltl-control --features rapier --example control -- --study`.\n\n| task | P(satisfied), mean of {SEEDS} seeds | \
-         each seed | P(lost) | steps: learned, by hand | robustness: learned, by hand |\n{}\n",
-        "| --- | --- | --- | --- | --- | --- |"
-    );
-    for ((task, hand), seeds) in tasks.iter().zip(hands).zip(seeds) {
-        let each = |of: fn(&Worth) -> f64| seeds.iter().map(|s| of(&s.last)).collect::<Vec<_>>();
-        let satisfied = each(|worth| worth.satisfied);
-        let shown: Vec<String> = satisfied.iter().map(f64::to_string).collect();
-        let [fewest, most] = ends(&each(|worth| worth.steps.unwrap_or(f64::NAN)));
-        let _ = writeln!(
-            text,
-            "| `{task}` | {:.3} | {} | {:.3} | {fewest:.1} to {most:.1}, {:.1} | {:.3}, {:.3} |",
-            mean(&satisfied),
-            shown.join(", "),
-            mean(&each(|worth| worth.lost)),
-            hand.steps.unwrap_or(f64::NAN),
-            mean(&each(|worth| worth.robustness)),
-            hand.robustness,
-        );
-    }
-    text
 }
 
 /// The least and the largest.

@@ -29,7 +29,7 @@ pub(crate) trait Visitor {
         F: Features<E::State> + Copy + Sync;
 }
 
-/// The tasks of two and three steps.
+/// The tasks of two and three steps that are soon learned.
 pub(crate) const SHORT: &[&str] = &[
     "fetch",
     "tour",
@@ -39,10 +39,14 @@ pub(crate) const SHORT: &[&str] = &[
     "push",
 ];
 
-/// The others.
-const OTHERS: &[&str] = &[
+/// Those of them that take longer to learn.
+pub(crate) const LONG: &[&str] = &[
     #[cfg(feature = "rapier")]
     "push_and_dock",
+];
+
+/// The others.
+const OTHERS: &[&str] = &[
     "park",
     "hurry",
     "patrol",
@@ -87,7 +91,7 @@ pub(crate) fn visit<V: Visitor>(task: &str, visitor: V) -> Result<V::Output, Fai
         #[cfg(feature = "rapier")]
         "settle" => visitor.visit(&yard(rover::settle(), &[STORE, DOCK])),
         _ => {
-            let known = [SHORT, OTHERS].concat().join(", ");
+            let known = [SHORT, LONG, OTHERS].concat().join(", ");
             Err(format!("there is no task `{task}`; there are {known}").into())
         }
     }
