@@ -68,7 +68,7 @@ fn a_linear_quadratic_problem_is_solved_to_its_optimum() {
     let falling = Schedule::linear(1e-3, 1e-5, STEPS).unwrap();
     let rewards =
         Rewards::of(Mode::Acceptance).with_gamma(GAMMA).unwrap().with_environment(1.0).unwrap();
-    for settings in [Settings::default(), Settings::ddpg()] {
+    for settings in [Settings::default(), Settings::ddpg(), Settings::sac()] {
         let settings = settings
             .with_hidden([32, 32])
             .and_then(|settings| settings.with_batch(64)?.with_horizon(20)?.with_target_rate(0.02))
@@ -150,6 +150,32 @@ fn trained(motors: usize) -> Learner<f32, impl Monitor<f32> + Clone, Place, AsGi
     let mut learner = cart(motors, 1);
     learner.train(&mut Cart { motors, place: 0.0, broken: false }, 100).unwrap();
     learner
+}
+
+#[test]
+fn a_stochastic_actor_goes_on_from_its_checkpoint_and_its_policy_draws_nothing() {
+    let (device, mut world) = (Device::flex(), Anywhere::default());
+    let task = tltl! { |x: &f32| F ({ *x } > 0.5 && F { *x } < -0.5) };
+    let settings = Settings::sac().with_hidden([8, 8]).and_then(|s| s.with_warmup(50)).unwrap();
+    let mut learner = Learner::new(Skill::new(&task, Place), &world, settings, &device, 1);
+    learner.train(&mut world, 200).unwrap();
+    let text = serde_json::to_string(&learner.checkpoint()).unwrap();
+    let load = |text: &str| serde_json::from_str::<Checkpoint<f32>>(text).unwrap();
+    let resume = |saved| Learner::resume(Skill::new(&task, Place), &world, saved, &device);
+    let mut resumed = resume(load(&text)).unwrap();
+    learner.train(&mut Anywhere::default(), 400).unwrap();
+    resumed.train(&mut Anywhere::default(), 400).unwrap();
+    assert_eq!(learner.checkpoint(), resumed.checkpoint());
+    let policy = learner.policy().unwrap();
+    for x in [-0.7, 0.0, 0.3] {
+        let (here, there) = (learner.act(1, &x).unwrap(), policy.control(1, &[x], &[]).unwrap());
+        assert!((here[0] - there[0]).abs() < 1e-6, "{here:?} {there:?}");
+        assert_eq!(learner.act(1, &x).unwrap(), here, "nothing is drawn");
+    }
+    // A temperature belongs to a stochastic actor, and to no other.
+    let mut without: serde_json::Value = serde_json::from_str(&text).unwrap();
+    without["temperature"] = serde_json::Value::Null;
+    assert!(resume(load(&without.to_string())).is_err());
 }
 
 #[test]
@@ -335,6 +361,17 @@ fn skills_that_do_not_fit_are_not_composed() {
     let operands: [Operand<'_, f32>; 2] = [tasks[0], tasks[1]];
     let both = Product::conjunction(&operands);
     let learned = || one.learned().unwrap();
+    let compose_drawing = |entropy| {
+        let settings = one.settings().clone().with_entropy(Some(entropy)).unwrap();
+        let (skill, device) = (Skill::new(&both, Place), Device::flex());
+        let skills = [one.learned().unwrap(), one.learned().unwrap()];
+        Composition::new(skill, &skills, Combine::Sum, settings, &device, 1).unwrap_err()
+    };
+    let error = compose_drawing(-1.0).to_string();
+    assert!(
+        error.starts_with("an entropy of -1 does not fit an actor that takes no step"),
+        "{error}"
+    );
     let error = compose(&both, &[learned()]);
     assert!(error.contains("1 tasks") && error.contains("2 tasks"), "{error}");
     let error = compose(&both, &[learned(), two.learned().unwrap()]);

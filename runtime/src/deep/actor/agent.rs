@@ -9,9 +9,11 @@ use std::string::String;
 use std::vec::Vec;
 
 use super::Settings;
+use super::stochastic;
 use super::sum::Sum;
-use super::trainer::{self, Trainer, shapes};
+use super::trainer::{self, Trainer, normal, shapes};
 use crate::augmented::Moves;
+use crate::deep::layers::numbers;
 use crate::deep::model::Batch;
 use crate::deep::replay::Replay;
 use crate::deep::sample::Heads;
@@ -22,7 +24,7 @@ use crate::episode::Move;
 use crate::mismatch::Mismatch;
 use crate::monitor::Monitor;
 use crate::network::policy::{NetworkPolicy, NetworkPolicyError};
-use crate::network::{Controls, Features, Form, Network, NetworkError, Squash};
+use crate::network::{Activation, Controls, Features, Form, Network, NetworkError, Shape, Squash};
 use crate::task;
 
 /// An automaton state that no task has: of what was seen for another one.
@@ -141,7 +143,7 @@ impl<S> Core<S> {
         let inputs = skill.features.inputs();
         let shapes = shapes(inputs, bounds.len(), heads.states.len(), &settings);
         Self {
-            trainer: Trainer::new(shapes, settings.critics(), heads, device, rng),
+            trainer: Trainer::new(shapes, &settings, heads, device, rng),
             replay: Replay::new(settings.capacity()),
             started: None,
             most: moves.most(&skill.task),
@@ -206,26 +208,63 @@ impl<S> Core<S> {
     /// The actor's action at a state whose features these are, within ±1; zeros where the task is
     /// decided.
     pub(super) fn act(&self, q: u32, seen: &Batch) -> Result<Vec<f32>, Error> {
+        self.respond(q, seen, |_, mean, _| Activation::Tanh.of(mean))
+    }
+
+    /// The action to learn from at the state that was looked at last, after so many steps: the actor's, and noise; a
+    /// stochastic actor draws by the noise.
+    pub(super) fn explore<R: Rng + ?Sized>(
+        &mut self,
+        q: u32,
+        steps: u64,
+        rng: &mut R,
+    ) -> Result<Vec<f32>, Error> {
+        let (kept, deviation) =
+            (self.settings.noise_correlation(), self.settings.noise().at(steps));
+        for noise in &mut self.noise {
+            *noise = kept * *noise + (1.0 - kept * kept).sqrt() * normal(rng);
+        }
+        self.respond(q, &self.single, |i, mean, spread| match spread {
+            Some(spread) => stochastic::action(mean, spread, self.noise[i] as f32),
+            None => {
+                let noise = (deviation * self.noise[i]) as f32;
+                (Activation::Tanh.of(mean) + noise).clamp(-1.0, 1.0)
+            }
+        })
+    }
+
+    /// The action of which each component is made of its number, of the mean that the actor puts out, and of the
+    /// spread, if it is stochastic.
+    fn respond(
+        &self,
+        q: u32,
+        seen: &Batch,
+        of: impl Fn(usize, f32, Option<f32>) -> f32,
+    ) -> Result<Vec<f32>, Error> {
         let m = self.bounds.len();
-        let Some(head) = self.trainer.heads.of(q) else {
-            return Ok(std::vec![0.0; m]);
+        let Trainer { actor, heads, updates, .. } = &self.trainer;
+        let Some(head) = heads.of(q) else {
+            return Ok((0..m).map(|i| of(i, 0.0, None)).collect());
         };
-        let actions = Trainer::actions(&self.trainer.actor.layers, seen);
-        let action = &actions[head * m..][..m];
+        let out = numbers(actor.layers.pass(seen.tensor(&actor.layers.device())).out);
+        let (means, spreads) = out.split_at(heads.states.len() * m);
+        let action = (0..m).map(|i| of(i, means[head * m + i], spreads.get(head * m + i).copied()));
+        let action: Vec<f32> = action.collect();
         match action.iter().all(|a| a.is_finite()) {
-            true => Ok(action.to_vec()),
-            false => Err(Error::Loss(self.trainer.updates)),
+            true => Ok(action),
+            false => Err(Error::Loss(*updates)),
         }
     }
 
     /// The actor's network.
     pub(super) fn network(&self, inputs: usize) -> Result<Network, NetworkError> {
         let Self { trainer, bounds, settings, .. } = self;
-        let [shape, _] = shapes(inputs, bounds.len(), trainer.heads.states.len(), settings);
+        let heads = trainer.heads.states.len();
+        let [shape, _] = shapes(inputs, bounds.len(), heads, settings);
         let (low, high) = bounds.iter().copied().unzip();
         let controls = Some(Controls { squash: Squash::Tanh, low, high });
         let form = Form { controls, ..Form::default() };
-        Network::with_form(shape, trainer.actor.layers.dense(), form)
+        Network::with_form(Shape { heads, ..shape }, trainer.greedy(), form)
     }
 
     /// The actor as a policy for `task`.

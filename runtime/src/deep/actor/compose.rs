@@ -30,6 +30,7 @@ use crate::deep::replay::Replay;
 use crate::deep::sample::Heads;
 use crate::deep::trainer::check_reward;
 use crate::deep::{Error, Relabel, Skill};
+use crate::mismatch::Mismatch;
 use crate::monitor::{Acceptor, Monitor};
 use crate::network::policy::{NetworkPolicy, NetworkPolicyError, NetworkTraining};
 use crate::network::{Features, Network, NetworkError};
@@ -59,7 +60,7 @@ impl<S> core::fmt::Debug for Learned<'_, S> {
 }
 
 impl<'a, S> Learned<'a, S> {
-    /// The first critic counts, which is the one that the actor has followed.
+    /// The first critic counts, which is the one that a deterministic actor has followed.
     pub(super) fn new(
         of: &'a Core<S>,
         task: &'a (dyn Monitor<S> + Sync),
@@ -161,11 +162,11 @@ impl<'a, S: Clone, F: Features<S>, G: Relabel<S>> Composition<'a, S, F, G> {
     /// Step 2: the composition of `skills`, in the order of the operands of the product that is the task of
     /// `skill`, on what they have seen. Of `settings` it reads those of updates and rewards; the rewards
     /// must be those that the skills were learned with, whose values are taken as they are. The actor
-    /// knows nothing yet: [`Self::fit`].
+    /// knows nothing yet: [`Self::fit`]. It is deterministic; those of the skills may be stochastic.
     ///
     /// # Errors
-    /// If skills and product do not fit together, the skills are of worlds with other actions, the reward
-    /// pays for moves and the product has a way back ([`Error::WayBack`]), or a feature is not a finite
+    /// If skills and product do not fit together, the skills are of worlds with other actions, the settings
+    /// are those of a stochastic actor ([`Settings::entropy`]), the reward pays for moves and the product has a way back ([`Error::WayBack`]), or a feature is not a finite
     /// number in a state that was seen.
     ///
     /// # Panics
@@ -186,6 +187,7 @@ impl<'a, S: Clone, F: Features<S>, G: Relabel<S>> Composition<'a, S, F, G> {
         check(product, &skills.iter().map(size).collect::<Vec<_>>())?;
         let Learned { bounds, names, .. } = skills[0];
         skills.iter().try_for_each(|skill| check_bounds("a skill", skill.bounds, bounds))?;
+        check_deterministic(&settings)?;
         check_reward(product, &settings.rewards())?;
         let seen: usize = skills.iter().map(|skill| skill.experience.len()).sum();
         assert!(seen > 1, "skills that have seen something");
@@ -299,6 +301,15 @@ impl<S: Clone, F: Features<S>, G: Relabel<S>> Compose for Composition<'_, S, F, 
     fn act(&self, q: u32, s: &S) -> Result<Vec<f32>, Error> {
         Ok(stretched(&self.core.bounds, self.core.act(q, &self.look(s)?)?))
     }
+}
+
+/// `Ok` if the settings are those of a deterministic actor: what takes no step has nothing to explore.
+fn check_deterministic(settings: &Settings) -> Result<(), Mismatch> {
+    let Some(entropy) = settings.entropy() else {
+        return Ok(());
+    };
+    let composed = "an actor that takes no step and explores nothing: take `with_entropy(None)`";
+    Err(Mismatch::new("an entropy", std::format!("{entropy}"), composed.into()))
 }
 
 /// Divides each skill's values by their largest in what was seen.

@@ -10,7 +10,8 @@ use std::vec::Vec;
 use super::Settings;
 use super::agent::{Aim, Core, check_bounds, stretched};
 use super::compose::Learned;
-use super::trainer::{SavedNetwork, Trained, Trainer, normal, shapes};
+use super::stochastic::Temperature;
+use super::trainer::{SavedNetwork, Trained, Trainer, shapes};
 use crate::augmented::Moves;
 use crate::deep::model::Batch;
 use crate::deep::replay::Replay;
@@ -101,7 +102,7 @@ where
         self.core.noise.fill(0.0);
     }
 
-    /// At random at first; then what the actor says, and noise.
+    /// At random at first; then as the actor explores.
     fn act<R: Rng + ?Sized>(
         &mut self,
         q: u32,
@@ -115,14 +116,7 @@ where
             return Ok(core.bounds.iter().map(|_| 2.0 * unit(rng) as f32 - 1.0).collect());
         }
         core.look(&self.skill.features, s)?;
-        let mut action = core.act(q, &core.single)?;
-        let (kept, deviation) =
-            (core.settings.noise_correlation(), core.settings.noise().at(steps));
-        for (a, noise) in action.iter_mut().zip(&mut core.noise) {
-            *noise = kept * *noise + (1.0 - kept * kept).sqrt() * normal(rng);
-            *a = (*a + (deviation * *noise) as f32).clamp(-1.0, 1.0);
-        }
-        Ok(action)
+        core.explore(q, steps, rng)
     }
 
     /// Remembers the step, and makes an update if it is time for one.
@@ -284,7 +278,8 @@ where
         (0..updates).try_for_each(|_| core.update(skill, moves, aim, rng))
     }
 
-    /// The actor's action in (s, q), in the units of the world; the middle where the task is decided.
+    /// The actor's action in (s, q), in the units of the world; the middle where the task is decided. Nothing is
+    /// drawn: that of a stochastic actor is tanh of the mean.
     ///
     /// # Errors
     /// If a feature is not a finite number, or learning has diverged.
@@ -300,7 +295,8 @@ where
     }
 
     /// What the critics say of the actor's action in (s, q), the least of them; 0 where the task is
-    /// decided. With [`Settings::robustness`] it is less by the potential of s.
+    /// decided. With [`Settings::robustness`] it is less by the potential of s, and for a
+    /// stochastic actor its entropy from there on counts too.
     ///
     /// # Errors
     /// If a feature is not a finite number, or learning has diverged.
@@ -473,7 +469,7 @@ where
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn checkpoint(&self) -> Checkpoint<S> {
-        let Trainer { actor, critics, updates, .. } = &self.core.trainer;
+        let Trainer { actor, critics, temperature, updates, .. } = &self.core.trainer;
         Checkpoint {
             task: self.skill.task.name().into(),
             formula: self.skill.task.formula().text().into(),
@@ -481,6 +477,7 @@ where
             bounds: self.core.bounds.clone(),
             actor: actor.saved(),
             critics: critics.iter().map(Trained::saved).collect(),
+            temperature: temperature.clone(),
             updates: *updates,
             paid: self.core.paid,
             noise: self.core.noise.clone(),
@@ -511,6 +508,7 @@ where
         let within = |action: &Vec<f32>| action.len() == m && action.iter().all(|a| a.abs() <= 1.0);
         let same = checkpoint.formula == skill.task.formula().text()
             && checkpoint.critics.len() == settings.critics()
+            && checkpoint.temperature.is_some() == settings.entropy().is_some()
             && checkpoint.noise.len() == m
             && checkpoint.replay.steps().all(within);
         let critics: Option<Vec<_>> =
@@ -532,7 +530,13 @@ where
             return Err(Mismatch::new("a checkpoint", found, own));
         };
         let core = Core {
-            trainer: Trainer::of(heads, m, actor, critics, checkpoint.updates),
+            trainer: Trainer::of(
+                heads,
+                m,
+                (actor, checkpoint.temperature),
+                critics,
+                checkpoint.updates,
+            ),
             replay: checkpoint.replay,
             started: None,
             most: moves.most(&skill.task),
@@ -558,6 +562,7 @@ pub struct Checkpoint<S> {
     bounds: Vec<(f32, f32)>,
     actor: SavedNetwork,
     critics: Vec<SavedNetwork>,
+    temperature: Option<Temperature>,
     updates: u64,
     paid: (f64, f64),
     noise: Vec<f64>,

@@ -2,7 +2,9 @@
 //! actions DDPG").
 //!
 //! [`Learner`] learns a [`Skill`](super::Skill) in a [`ContinuousEnv`](crate::env::ContinuousEnv). Its method is TD3 (Fujimoto et al. 2018), of which
-//! DDPG (Lillicrap et al. 2016) is the case of one critic ([`Settings::ddpg`]). Loop, replay, relabelling
+//! DDPG (Lillicrap et al. 2016) is the case of one critic ([`Settings::ddpg`]), and SAC (Haarnoja et al. 2018) that of
+//! an actor that draws its actions while it learns ([`Settings::sac`]); what is judged, saved and emitted draws
+//! nothing, whatever the method. Loop, replay, relabelling
 //! of goals and rewards are those of the [learner of values](super::Learner), and so is the idea: the actor
 //! and the critics have a head for each live automaton state, and each replayed step updates all of them.
 //!
@@ -69,6 +71,7 @@ mod agent;
 mod compose;
 mod learner;
 mod settings;
+mod stochastic;
 mod sum;
 #[cfg(test)]
 mod tests;

@@ -1,7 +1,8 @@
 //! The settings of an actor-critic learner.
 //!
 //! The defaults are those of TD3 (Fujimoto et al. 2018), but for smaller networks; [`Settings::ddpg`] are those of the
-//! method that the paper names, DDPG (Lillicrap et al. 2016), without its batch normalisation.
+//! method that the paper names, DDPG (Lillicrap et al. 2016), without its batch normalisation; [`Settings::sac`] makes
+//! the actor stochastic (Haarnoja et al. 2018).
 
 use serde::{Deserialize, Serialize};
 use std::vec::Vec;
@@ -49,6 +50,7 @@ pub struct Settings {
     actor_delay: u64,
     target_noise: f64,
     target_noise_clip: f64,
+    entropy: Option<f64>,
 }
 
 impl Default for Settings {
@@ -75,6 +77,7 @@ impl Default for Settings {
             actor_delay: 2,
             target_noise: 0.2,
             target_noise_clip: 0.5,
+            entropy: None,
         }
     }
 }
@@ -99,6 +102,22 @@ impl Settings {
             target_noise: 0.0,
             ..Self::default()
         }
+    }
+
+    /// SAC, with two critics and a temperature that is tuned (Haarnoja et al. 2018): the actor draws its
+    /// actions while it learns, and is paid for the entropy that it keeps.
+    ///
+    /// ```
+    /// use tltl::deep::actor::Settings;
+    ///
+    /// let settings = Settings::sac();
+    /// assert_eq!((settings.entropy(), settings.actor_delay()), (Some(-1.0), 1));
+    /// assert_eq!(settings.with_entropy(None)?.with_actor_delay(2)?, Settings::default());
+    /// # Ok::<(), tltl::OutOfRange>(())
+    /// ```
+    #[must_use]
+    pub fn sac() -> Self {
+        Self { entropy: Some(-1.0), actor_delay: 1, ..Self::default() }
     }
 
     /// What is optimised, the discount factor γ included.
@@ -187,6 +206,29 @@ impl Settings {
         Ok(Self { noise, ..self })
     }
 
+    /// The entropy that a stochastic actor keeps, in nats for each component of an action; `None` is a deterministic
+    /// actor, that of TD3 and DDPG.
+    ///
+    /// -1 is what Haarnoja et al. (2018) took, about that of a normal distribution of deviation 0.09; 0.69 is that
+    /// of actions that are all as likely. What a nat weighs is tuned, at [`actor_rate`](Self::actor_rate), until the
+    /// actor keeps so much. A stochastic actor does not read [`noise`](Self::noise), for it has its
+    /// own, nor [`target_noise`](Self::target_noise).
+    #[must_use]
+    pub const fn entropy(&self) -> Option<f64> {
+        self.entropy
+    }
+
+    /// The same with another [`entropy`](Self::entropy).
+    ///
+    /// # Errors
+    /// Unless it is a number below ln 2, the entropy of actions that are all as likely.
+    pub fn with_entropy(self, entropy: Option<f64>) -> Result<Self, OutOfRange> {
+        let value = entropy.unwrap_or_default();
+        let valid = value.is_finite() && value < core::f64::consts::LN_2;
+        OutOfRange::check("entropy", value, valid, "a number below ln 2")?;
+        Ok(Self { entropy, ..self })
+    }
+
     /// Which heads a replayed step updates.
     #[must_use]
     pub const fn updates(&self) -> Updates {
@@ -263,6 +305,7 @@ struct Saved {
     actor_delay: u64,
     target_noise: f64,
     target_noise_clip: f64,
+    entropy: Option<f64>,
 }
 
 impl From<Settings> for Saved {
@@ -290,6 +333,7 @@ impl From<Settings> for Saved {
             actor_delay: settings.actor_delay,
             target_noise: settings.target_noise,
             target_noise_clip: settings.target_noise_clip,
+            entropy: settings.entropy,
         }
     }
 }
@@ -321,6 +365,7 @@ impl TryFrom<Saved> for Settings {
             .with_critics(saved.critics)?
             .with_actor_delay(saved.actor_delay)?
             .with_target_noise(saved.target_noise)?
-            .with_target_noise_clip(saved.target_noise_clip)
+            .with_target_noise_clip(saved.target_noise_clip)?
+            .with_entropy(saved.entropy)
     }
 }

@@ -7,6 +7,7 @@ use rand::SeedableRng;
 use rand::rngs::Xoshiro256PlusPlus;
 
 use super::Settings;
+use super::stochastic::{self, Drawn, Temperature};
 use super::sum::{Part, Sum};
 use super::trainer::{Trained, Trainer, joined, shapes};
 use crate::augmented::Moves;
@@ -61,17 +62,19 @@ impl Features<[f32; INPUTS]> for Given {
     }
 }
 
-/// A random actor and critic with some random states, whose features the trainer has at hand.
-fn case() -> (Trainer, Vec<[f32; INPUTS]>, Xoshiro256PlusPlus) {
+/// A random actor and critics with some random states, whose features the trainer has at hand.
+fn case(settings: Settings) -> (Trainer, Vec<[f32; INPUTS]>, Xoshiro256PlusPlus) {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);
     let heads = Heads::new(&Moves::new(&Twice, Rewards::default()), Twice.states());
-    let settings = Settings::default().with_hidden([7, 6]).unwrap();
+    let settings = settings.with_hidden([7, 6]).unwrap();
     let shapes = shapes(INPUTS, COMPONENTS, HEADS, &settings);
-    let mut trainer = Trainer::new(shapes, 1, heads, &Device::flex(), &mut rng);
+    let mut trainer = Trainer::new(shapes, &settings, heads, &Device::flex(), &mut rng);
     let states: Vec<[f32; INPUTS]> =
         (0..ROWS).map(|_| [(); INPUTS].map(|()| 2.0 * unit(&mut rng) as f32 - 1.0)).collect();
     trainer.before.encode(&Given, &states).unwrap();
-    trainer.critics[0].layers = loud(&trainer.critics[0].layers.dense());
+    for critic in &mut trainer.critics {
+        critic.layers = loud(&critic.layers.dense());
+    }
     (trainer, states, rng)
 }
 
@@ -126,7 +129,7 @@ fn agree(layers: &[Dense], gradients: Vec<Gradient>, loss: impl Fn(Layers) -> f6
 
 #[test]
 fn the_gradient_of_a_critic_agrees_with_finite_differences() {
-    let (trainer, _, mut rng) = case();
+    let (trainer, _, mut rng) = case(Settings::ddpg());
     let device = Device::flex();
     let actions = random_actions(&mut rng);
     let rows = || actions.iter().map(|action| &action[..]).enumerate();
@@ -152,7 +155,7 @@ fn critic_shape() -> crate::network::Shape {
 
 #[test]
 fn the_slope_of_a_sum_of_critics_agrees_with_finite_differences() {
-    let (_, states, mut rng) = case();
+    let (_, states, mut rng) = case(Settings::ddpg());
     for combine in [Combine::Sum, Combine::Max] {
         let sum = sum(combine, &mut rng);
         let actions = random_actions(&mut rng);
@@ -176,7 +179,7 @@ fn the_slope_of_a_sum_of_critics_agrees_with_finite_differences() {
 
 #[test]
 fn the_gradient_of_the_actor_agrees_with_finite_differences() {
-    let (trainer, states, mut rng) = case();
+    let (trainer, states, mut rng) = case(Settings::ddpg());
     let device = Device::flex();
     let counts: Vec<bool> = (0..ROWS * HEADS).map(|i| i % 3 > 0).collect();
     for base in [None, Some(sum(Combine::Sum, &mut rng))] {
@@ -195,7 +198,71 @@ fn the_gradient_of_the_actor_agrees_with_finite_differences() {
             let counted = own.zip(&counts).filter(|(_, counts)| **counts);
             -counted.map(|(v, _)| v).sum::<f64>() / ROWS as f64
         };
-        let gradients = trainer.ascent(&states, &counts, base.as_ref()).unwrap();
+        let (gradients, _) = trainer.ascent(&states, &counts, base.as_ref(), &mut rng).unwrap();
         agree(&trainer.actor.layers.dense(), gradients, regret);
     }
+}
+
+#[test]
+fn the_gradient_of_a_stochastic_actor_agrees_with_finite_differences() {
+    let (mut trainer, states, rng) = case(Settings::sac());
+    let device = Device::flex();
+    trainer.actor.layers = loud(&trainer.actor.layers.dense());
+    // As much as the values, so that the gradient of the entropy shows.
+    trainer.temperature.as_mut().unwrap().tune(1.0, 5.0);
+    let weight = trainer.temperature.as_ref().unwrap().weight();
+    let counts: Vec<bool> = (0..ROWS * HEADS).map(|i| i % 3 > 0).collect();
+    // Minus what actions that are drawn by the same noise are worth, their entropy included.
+    let regret = |actor: Layers| {
+        let out = actor.pass(trainer.before.tensor(&device)).out;
+        let drawn = trainer.drawn(out, &mut rng.clone());
+        let rows = drawn.actions.chunks(COMPONENTS).enumerate();
+        let rows = rows.map(|(i, action)| (i / HEADS, action));
+        let inputs = joined(&trainer.before, rows, COMPONENTS, &device);
+        let pass = |critic: &Trained| numbers(critic.layers.pass(inputs.clone()).out);
+        let values = trainer.critics.iter().map(pass).reduce(least).unwrap();
+        let own = values.chunks(HEADS).enumerate().map(|(i, row)| f64::from(row[i % HEADS]));
+        let entropies = drawn.entropies(COMPONENTS).map(f64::from);
+        let counted = own.zip(entropies).zip(&counts).filter(|(_, counts)| **counts);
+        -counted.map(|((value, entropy), _)| value + weight * entropy).sum::<f64>() / ROWS as f64
+    };
+    let (gradients, _) = trainer.ascent(&states, &counts, None, &mut rng.clone()).unwrap();
+    agree(&trainer.actor.layers.dense(), gradients, regret);
+}
+
+/// The least of each two numbers.
+fn least(a: Vec<f32>, b: Vec<f32>) -> Vec<f32> {
+    a.into_iter().zip(b).map(|(a, b)| a.min(b)).collect()
+}
+
+#[test]
+fn the_density_of_an_action_is_that_of_its_noise_over_its_slope() {
+    for (mean, spread) in [(0.0, 0.0), (0.7, -0.5), (-1.2, 0.6), (2.0, -2.0)] {
+        for noise in [-1.5, -0.2, 0.0, 1.1] {
+            // So far apart that narrow distributions differ by more than rounding.
+            let far = 10.0 * STEP;
+            let [here, up, down] =
+                [0.0, far, -far].map(|step| Drawn::new(&[mean, spread], 1, || noise + step));
+            let slope = f64::from(up.actions[0] - down.actions[0]) / f64::from(2.0 * far);
+            let normal = (-0.5 * f64::from(noise).powi(2)).exp() / core::f64::consts::TAU.sqrt();
+            let (found, exact) = (f64::from(here.densities[0]), (normal / slope).ln());
+            assert!((found - exact).abs() < 1e-2, "{found} {exact} {mean} {spread} {noise}");
+            assert_eq!(here.actions[0], stochastic::action(mean, spread, noise));
+        }
+    }
+    // Also where tanh rounds to 1.
+    let ends = Drawn::new(&[30.0, 0.0], 1, || 0.0);
+    assert!((ends.densities[0] - (0.581_06 + 58.613_7)).abs() < 1e-3, "{}", ends.densities[0]);
+}
+
+#[test]
+fn a_temperature_rises_while_entropy_is_lacking() {
+    let mut temperature = Temperature::new();
+    let mut after = |lacking: f64| {
+        (0..10).for_each(|_| temperature.tune(lacking, 0.1));
+        temperature.weight()
+    };
+    let (start, up) = (Temperature::new().weight(), after(0.5));
+    assert!((up / start - 1.0_f64.exp()).abs() < 1e-6, "Adam's first steps are its rate");
+    assert!((0..9).map(|_| after(-0.5)).last().unwrap() < start);
 }

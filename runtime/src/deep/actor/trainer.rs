@@ -2,18 +2,20 @@
 //!
 //! The critics are drawn towards what a step pays and what the target networks say comes after it, at
 //! *every* live automaton state: the action of a step is the same for all, so one pass of a critic has
-//! the values of all heads. The actor follows the gradient of the first critic's values in its actions
+//! the values of all heads. The actor follows the gradient of the critics' values in its actions
 //! (Silver et al. 2014), each head under the value of its own automaton state.
 //!
-//! Actions here are within ±1: tanh of what the actor puts out.
+//! Actions here are within ±1: tanh of what the actor puts out. A stochastic actor puts out twice as much: a mean
+//! for each component, then a spread for each.
 
 use burn::tensor::{Device, Tensor, TensorData};
 use rand::Rng;
 use std::vec::Vec;
 
 use super::Settings;
+use super::stochastic::{Drawn, Temperature};
 use super::sum::{Rows, Sum};
-use crate::deep::layers::{AdamMoments, Gradient, Layers, Optimiser, numbers};
+use crate::deep::layers::{AdamMoments, Gradient, Layers, Optimiser, Pass, numbers};
 use crate::deep::model::Batch;
 use crate::deep::replay::Replay;
 use crate::deep::sample::{Drawing, Heads, Return, Sample};
@@ -112,13 +114,15 @@ pub(super) struct Trainer {
     pub components: usize,
     pub actor: Trained,
     pub critics: Vec<Trained>,
+    /// What entropy weighs, where the actor is stochastic.
+    pub temperature: Option<Temperature>,
     pub updates: u64,
     pub before: Batch,
     after: Batch,
 }
 
-/// The sizes of the actor and of a critic: features, then for each head a number for each component; and
-/// features and components, then a value for each head.
+/// The sizes of the actor and of a critic: features, then for each head a number for each component, of a
+/// stochastic actor for as many heads again; and features and components, then a value for each head.
 pub(super) fn shapes(
     inputs: usize,
     components: usize,
@@ -126,33 +130,37 @@ pub(super) fn shapes(
     settings: &Settings,
 ) -> [Shape; 2] {
     let hidden = settings.hidden().to_vec();
-    let actor = Shape { inputs, hidden, heads, actions: components, entities: 0, channels: 0 };
-    [actor.clone(), Shape { inputs: inputs + components, actions: 1, ..actor }]
+    let critic =
+        Shape { inputs: inputs + components, hidden, heads, actions: 1, entities: 0, channels: 0 };
+    let heads = if settings.entropy().is_some() { 2 * heads } else { heads };
+    [Shape { inputs, heads, actions: components, ..critic.clone() }, critic]
 }
 
 impl Trainer {
     pub(super) fn new<R: Rng + ?Sized>(
         [actor, critic]: [Shape; 2],
-        critics: usize,
+        settings: &Settings,
         heads: Heads,
         device: &Device,
         rng: &mut R,
     ) -> Self {
         let components = actor.actions;
         let mut random = |shape: &Shape| Trained::new(&Network::random(shape.clone(), rng), device);
-        let (actor, critics) = (random(&actor), (0..critics).map(|_| random(&critic)).collect());
-        Self::of(heads, components, actor, critics, 0)
+        let actor = random(&actor);
+        let critics = (0..settings.critics()).map(|_| random(&critic)).collect();
+        let temperature = settings.entropy().map(|_| Temperature::new());
+        Self::of(heads, components, (actor, temperature), critics, 0)
     }
 
     pub(super) fn of(
         heads: Heads,
         components: usize,
-        actor: Trained,
+        (actor, temperature): (Trained, Option<Temperature>),
         critics: Vec<Trained>,
         updates: u64,
     ) -> Self {
         let (before, after) = (Batch::default(), Batch::default());
-        Self { heads, components, actor, critics, updates, before, after }
+        Self { heads, components, actor, critics, temperature, updates, before, after }
     }
 
     /// Makes the critics say 0 of everything.
@@ -168,9 +176,25 @@ impl Trainer {
         self.actor.target = self.actor.layers.clone();
     }
 
-    /// The actor's actions of all heads, indexed `(row * heads + head) * components + component`.
+    /// The actions of all heads of a deterministic actor, indexed `(row * heads + head) * components + component`.
     pub(super) fn actions(actor: &Layers, batch: &Batch) -> Vec<f32> {
         squashed(actor.pass(batch.tensor(&actor.device())).out)
+    }
+
+    /// The actions that a stochastic actor draws by what it puts out; all heads', as above.
+    pub(super) fn drawn<R: Rng + ?Sized>(&self, out: Tensor<2>, rng: &mut R) -> Drawn {
+        let width = self.heads.states.len() * self.components;
+        Drawn::new(&numbers(out), width, || normal(rng) as f32)
+    }
+
+    /// The layers that put out what the actor does where it draws nothing: of a stochastic one the means.
+    pub(super) fn greedy(&self) -> Vec<Dense> {
+        let mut layers = self.actor.layers.dense();
+        let last = layers.last_mut().expect("a network has a layer");
+        let (out, width) = (last.bias.len(), self.heads.states.len() * self.components);
+        last.weights = last.weights.chunks(out).flat_map(|row| &row[..width]).copied().collect();
+        last.bias.truncate(width);
+        layers
     }
 
     /// The least of the critics' values of an action in one state.
@@ -212,7 +236,7 @@ impl Trainer {
         self.updates += 1;
         if self.updates.is_multiple_of(settings.actor_delay()) {
             if !task.evaluates() {
-                self.teach_actor(&sample.before, &counts, task.base(), settings)?;
+                self.teach_actor((&sample.before, &counts), task.base(), settings, rng)?;
             }
             let all = self.critics.iter_mut().chain([&mut self.actor]);
             all.for_each(|net| net.target.follow(&net.layers, settings.target_rate()));
@@ -237,7 +261,7 @@ impl Trainer {
     {
         let sample = self.draw(replay, from, task, settings, rng)?;
         let counts = self.counts(&sample, settings.updates());
-        self.teach_actor(&sample.before, &counts, task.base(), settings)
+        self.teach_actor((&sample.before, &counts), task.base(), settings, rng)
     }
 
     /// A batch of steps, and the features of the states before them.
@@ -278,14 +302,7 @@ impl Trainer {
         rng: &mut R,
     ) -> Result<Vec<f32>, Error> {
         let (heads, m) = (self.heads.states.len(), self.components);
-        let mut actions = Self::actions(&self.actor.target, &self.after);
-        let (deviation, clip) = (settings.target_noise(), settings.target_noise_clip());
-        if deviation > 0.0 {
-            for a in &mut actions {
-                let noise = (deviation * normal(rng)).clamp(-clip, clip);
-                *a = (*a + noise as f32).clamp(-1.0, 1.0);
-            }
-        }
+        let (actions, entropies) = self.next(settings, rng);
         // A row for each return that something follows.
         let follows =
             || sample.returns.iter().enumerate().filter(|(_, found)| found.discount > 0.0);
@@ -318,13 +335,38 @@ impl Trainer {
                 let (least, most) = task.bounds(q);
                 let value = f64::from(values.next().expect("a value for each"));
                 let potential = task.potential(q, &sample.after[row])?;
-                // No number stays none, so that the loss shows it.
-                let value = if value.is_nan() { value } else { value.clamp(least, most) };
-                wanted += found.discount * (value + potential);
+                // No number stays none, so that the loss shows it; what entropies add up to is not bounded.
+                let is_bounded = !value.is_nan() && entropies.is_empty();
+                let value = if is_bounded { value.clamp(least, most) } else { value };
+                let entropy =
+                    entropies.get(row * heads + found.head).map_or(0.0, |e| f64::from(*e));
+                wanted += found.discount * (value + entropy + potential);
             }
             Ok(wanted as f32)
         });
         targets.collect::<Result<_, task::Error>>().map_err(Error::from)
+    }
+
+    /// The actions that come next, of all heads, as targets take them: the target actor's, and noise; or drawn by a
+    /// stochastic actor itself, then with what the entropy of each head's is worth.
+    fn next<R: Rng + ?Sized>(&self, settings: &Settings, rng: &mut R) -> (Vec<f32>, Vec<f32>) {
+        if let Some(temperature) = &self.temperature {
+            let layers = &self.actor.layers;
+            let drawn = self.drawn(layers.pass(self.after.tensor(&layers.device())).out, rng);
+            let weight = temperature.weight() as f32;
+            let entropies = drawn.entropies(self.components).map(|entropy| weight * entropy);
+            let entropies = entropies.collect();
+            return (drawn.actions, entropies);
+        }
+        let mut actions = Self::actions(&self.actor.target, &self.after);
+        let (deviation, clip) = (settings.target_noise(), settings.target_noise_clip());
+        if deviation > 0.0 {
+            for a in &mut actions {
+                let noise = (deviation * normal(rng)).clamp(-clip, clip);
+                *a = (*a + noise as f32).clamp(-1.0, 1.0);
+            }
+        }
+        (actions, Vec::new())
     }
 
     /// Which heads learn from which steps, indexed `row * heads + head`.
@@ -360,45 +402,89 @@ impl Trainer {
         Ok(loss)
     }
 
-    /// Moves the actor towards actions that the first critic values more.
-    fn teach_actor<S>(
+    /// Moves the actor towards actions that the critics value more, and the temperature towards the entropy that
+    /// is wanted.
+    fn teach_actor<S, R: Rng + ?Sized>(
         &mut self,
-        states: &[S],
-        counts: &[bool],
+        (states, counts): (&[S], &[bool]),
         base: Option<&Sum<'_, S>>,
         settings: &Settings,
+        rng: &mut R,
     ) -> Result<(), Error> {
-        let gradients = self.ascent(states, counts, base)?;
+        let (gradients, drawn) = self.ascent(states, counts, base, rng)?;
         let rate = settings.actor_rate().at(self.updates);
         let Trained { layers, descent, .. } = &mut self.actor;
         descent.step(layers, gradients, rate, settings.gradient_norm());
+        let Some((temperature, wanted)) = self.temperature.as_mut().zip(settings.entropy()) else {
+            return Ok(());
+        };
+        let wanted = self.components as f64 * wanted;
+        let counted = drawn.entropies(self.components).zip(counts).filter(|(_, counts)| **counts);
+        let (sum, count) = counted.fold((0.0, 0.0), |(sum, count), (entropy, _)| {
+            (sum + wanted - f64::from(entropy), count + 1.0)
+        });
+        // Where nothing counts nothing is lacking.
+        temperature.tune(sum / f64::max(count, 1.0), rate);
         Ok(())
     }
 
-    /// The gradient of minus the mean value of the actor's actions, summed over the heads. `states` are
-    /// those whose features are at hand.
-    pub(super) fn ascent<S>(
+    /// The gradient of minus the mean value of the actor's actions, summed over the heads, and what a stochastic
+    /// one has drawn for it, whose entropy counts too. `states` are those whose features are at hand.
+    pub(super) fn ascent<S, R: Rng + ?Sized>(
         &self,
         states: &[S],
         counts: &[bool],
         base: Option<&Sum<'_, S>>,
-    ) -> Result<Vec<Gradient>, Error> {
+        rng: &mut R,
+    ) -> Result<(Vec<Gradient>, Drawn), Error> {
+        let layers = &self.actor.layers;
+        let Pass { inputs, out } = layers.pass(self.before.tensor(&layers.device()));
+        let [rows, width] = out.dims();
+        let (drawn, error) = if let Some(temperature) = &self.temperature {
+            let drawn = self.drawn(out, rng);
+            let error = self.slopes((states, &drawn.actions), counts, base)?;
+            let weight = temperature.weight() as f32 / rows as f32;
+            let counts = |i: usize| if counts[i / self.components] { weight } else { 0.0 };
+            let error = drawn.back(&error, counts);
+            (drawn, error)
+        } else {
+            let actions = squashed(out);
+            let mut error = self.slopes((states, &actions), counts, base)?;
+            error.iter_mut().zip(&actions).for_each(|(e, a)| *e *= 1.0 - a * a);
+            (Drawn::default(), error)
+        };
+        Ok((layers.back(&inputs, matrix(error, width, &layers.device())), drawn))
+    }
+
+    /// The gradient of minus the mean value of actions, summed over the heads, in the components of each.
+    ///
+    /// A deterministic actor follows the first critic (TD3), a stochastic one the least at each head (SAC).
+    fn slopes<S>(
+        &self,
+        (states, actions): (&[S], &[f32]),
+        counts: &[bool],
+        base: Option<&Sum<'_, S>>,
+    ) -> Result<Vec<f32>, Error> {
         let (heads, m) = (self.heads.states.len(), self.components);
         let device = self.actor.layers.device();
-        let pass = self.actor.layers.pass(self.before.tensor(&device));
-        let actions = squashed(pass.out);
         let row = |(i, action)| (i / heads, action);
         let rows: Vec<_> = actions.chunks(m).enumerate().map(row).collect();
-        let critic = &self.critics[0].layers;
-        let through = critic.pass(joined(&self.before, rows.iter().copied(), m, &device));
+        let inputs = joined(&self.before, rows.iter().copied(), m, &device);
         let share = 1.0 / self.before.len() as f32;
-        let mut slopes = std::vec![0.0; counts.len() * heads];
-        for (i, _) in counts.iter().enumerate().filter(|(_, counts)| **counts) {
-            slopes[i * heads + i % heads] = -share;
+        let followed = if self.temperature.is_some() { self.critics.len() } else { 1 };
+        let critics = &self.critics[..followed];
+        let passes: Vec<_> = critics.iter().map(|c| c.layers.pass(inputs.clone())).collect();
+        let lowest = lowest(&passes, counts.len(), heads);
+        let mut error = std::vec![0.0; actions.len()];
+        for (c, (critic, through)) in critics.iter().zip(&passes).enumerate() {
+            let mut slopes = std::vec![0.0; counts.len() * heads];
+            for i in (0..counts.len()).filter(|&i| counts[i] && lowest[i] == c) {
+                slopes[i * heads + i % heads] = -share;
+            }
+            let (slopes, first) = (matrix(slopes, heads, &device), self.before.row(0).len());
+            let own = numbers(critic.layers.back_to_inputs(&through.inputs, slopes, first));
+            error.iter_mut().zip(own).for_each(|(sum, slope)| *sum += slope);
         }
-        let slopes = matrix(slopes, heads, &device);
-        let first = through.inputs[0].dims()[1] - m;
-        let mut error = numbers(critic.back_to_inputs(&through.inputs, slopes, first));
         if let Some(base) = base {
             let slopes = base.slopes(states, &rows)?;
             let own = error.chunks_mut(m).zip(slopes.chunks(m)).zip(counts);
@@ -406,9 +492,18 @@ impl Trainer {
                 error.iter_mut().zip(slopes).for_each(|(e, slope)| *e -= share * slope);
             }
         }
-        error.iter_mut().zip(&actions).for_each(|(e, a)| *e *= 1.0 - a * a);
-        Ok(self.actor.layers.back(&pass.inputs, matrix(error, heads * m, &device)))
+        Ok(error)
     }
+}
+
+/// For each row the critic that says the least at the row's own head: row i of head i modulo their number.
+fn lowest(passes: &[Pass], rows: usize, heads: usize) -> Vec<usize> {
+    let values: Vec<_> = passes.iter().map(|pass| numbers(pass.out.clone())).collect();
+    let of = |i: usize| {
+        let value = |c: usize| values[c][i * heads + i % heads];
+        (1..values.len()).fold(0, |least, c| if value(c) < value(least) { c } else { least })
+    };
+    (0..rows).map(of).collect()
 }
 
 impl Trained {
