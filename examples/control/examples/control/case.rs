@@ -43,7 +43,12 @@ pub(crate) type Actor<'a, S, P, F> = Learner<S, &'a Task<P>, F, AsGiven>;
 
 /// How all of them learn.
 pub(crate) fn settings() -> Result<Settings, OutOfRange> {
-    Settings::default()
+    settings_of(Settings::default())
+}
+
+/// How they learn by another method.
+pub(crate) fn settings_of(method: Settings) -> Result<Settings, OutOfRange> {
+    method
         .with_rewards(Rewards::of(Mode::Shaped).with_gamma(0.98)?)
         .with_hidden([64, 64])?
         .with_horizon(HORIZON)?
@@ -82,8 +87,13 @@ where
 
     /// A learner that has learned nothing.
     pub(crate) fn learner(&self, seed: u64) -> Result<Actor<'_, E::State, P, F>, Failure> {
+        Ok(self.learner_by(settings()?, seed))
+    }
+
+    /// The same with other settings.
+    pub(crate) fn learner_by(&self, settings: Settings, seed: u64) -> Actor<'_, E::State, P, F> {
         let skill = Skill::new(&self.task, self.look);
-        Ok(Learner::new(skill, &self.world, settings()?, &Device::flex(), seed))
+        Learner::new(skill, &self.world, settings, &Device::flex(), seed)
     }
 
     /// The action of the controller written by hand.

@@ -10,8 +10,11 @@
 //! - `--falsify [TASK [SEED [STEPS]]]` searches for the starts and disturbances from which a learned controller does
 //!   worst, trains it on from there, and searches again;
 //! - `--compose [PAIR [SEED [SEEDS]]]` composes pairs of skills (0 is all three) without a step in the world, with
-//!   one seed or with so many from there on, and prints what each step of it is worth.
+//!   one seed or with so many from there on, and prints what each step of it is worth;
+//! - `--by METHOD [TASK [SEED [SEEDS [STEPS]]]]` learns a task by `td3`, `ddpg` or `sac`, with one seed or with so many
+//!   from there on, and prints what each comes to and how long it took.
 
+mod by;
 mod case;
 mod compose;
 mod falsify;
@@ -48,6 +51,13 @@ fn run(mut arguments: impl Iterator<Item = String>) -> Result<(), Failure> {
             let task = arguments.next().unwrap_or_else(|| "fetch".into());
             let seed = given(arguments.next())?.unwrap_or(1);
             falsify::run(&task, seed, given(arguments.next())?.unwrap_or(case::STEPS))
+        }
+        "--by" => {
+            let method = arguments.next().unwrap_or_else(|| "sac".into());
+            let task = arguments.next().unwrap_or_else(|| "fetch".into());
+            let seed = given(arguments.next())?.unwrap_or(1);
+            let seeds = seed..seed + given::<u64>(arguments.next())?.unwrap_or(1);
+            by::run(&method, &task, seeds, given(arguments.next())?.unwrap_or(case::STEPS))
         }
         task => {
             let seed = given(arguments.next())?.unwrap_or(1);

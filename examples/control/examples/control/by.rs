@@ -1,0 +1,76 @@
+//! A task learned by one of the methods, with several seeds: what each comes to, and how long it took.
+
+use std::ops::Range;
+use std::time::Instant;
+
+use tltl::deep::actor::Settings;
+use tltl::env::ContinuousEnv;
+use tltl::network::Features;
+use tltl::robustness::Predicates;
+
+use crate::Failure;
+use crate::case::{Case, TRIALS, settings_of};
+use crate::worlds::{Visitor, visit};
+
+/// Environment steps between two looks at an actor.
+const BETWEEN: u64 = 5_000;
+
+/// Trials of each.
+const FEW: u64 = 50;
+
+/// The share of them after which a task counts as learned.
+const LEARNED: f64 = 0.95;
+
+/// Learns `task` by `method`, by `steps` steps for each of the seeds.
+pub(crate) fn run(method: &str, task: &str, seeds: Range<u64>, steps: u64) -> Result<(), Failure> {
+    let settings = match method {
+        "td3" => Settings::default(),
+        "ddpg" => Settings::ddpg(),
+        "sac" => Settings::sac(),
+        _ => Err(format!("there is no method `{method}`; there are td3, ddpg, sac"))?,
+    };
+    println!("{task} by {method}, {steps} steps");
+    println!(
+        "| seed | P(satisfied) | P(lost) | steps | {LEARNED} of {FEW} after | steps a second |"
+    );
+    println!("| --- | --- | --- | --- | --- | --- |");
+    let settings = settings_of(settings)?;
+    visit(task, By { settings, seeds, steps })
+}
+
+struct By {
+    settings: Settings,
+    seeds: Range<u64>,
+    steps: u64,
+}
+
+impl Visitor for By {
+    type Output = ();
+
+    fn visit<E, P, F>(self, case: &Case<E, P, F>) -> Result<(), Failure>
+    where
+        E: ContinuousEnv<State: Clone> + Clone,
+        P: Predicates<E::State> + Sync,
+        F: Features<E::State> + Copy + Sync,
+    {
+        for seed in self.seeds {
+            let mut learner = case.learner_by(self.settings.clone(), seed);
+            let (mut first, mut seconds) = (None, 0.0);
+            for steps in (BETWEEN..=self.steps).step_by(BETWEEN as usize) {
+                let start = Instant::now();
+                learner.train(&mut case.world.clone(), steps)?;
+                seconds += start.elapsed().as_secs_f64();
+                if case.tried(&mut learner, FEW)?.estimate.satisfied.mean >= LEARNED {
+                    first = first.or(Some(steps));
+                }
+            }
+            let worth = case.tried(&mut learner, TRIALS)?.estimate;
+            let (satisfied, lost) = (worth.satisfied.mean, worth.lost.mean);
+            let steps = worth.steps.map_or(f64::NAN, |steps| steps.mean);
+            let first = first.map_or("never".into(), |steps| steps.to_string());
+            let rate = learner.steps() as f64 / seconds;
+            println!("| {seed} | {satisfied} | {lost} | {steps:.1} | {first} | {rate:.0} |");
+        }
+        Ok(())
+    }
+}
