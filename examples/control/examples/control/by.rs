@@ -29,11 +29,6 @@ pub(crate) fn run(method: &str, task: &str, seeds: Range<u64>, steps: u64) -> Re
         "sac" => Settings::sac(),
         _ => Err(format!("there is no method `{method}`; there are td3, ddpg, sac"))?,
     };
-    println!("{task} by {method}, {steps} steps");
-    println!(
-        "| seed | P(satisfied) | P(lost) | steps | {LEARNED} of {FEW} after | steps a second |"
-    );
-    println!("| --- | --- | --- | --- | --- | --- |");
     let settings = settings_of(settings)?;
     visit(task, By { settings, seeds, steps })
 }
@@ -53,10 +48,15 @@ impl Visitor for By {
         P: Predicates<E::State> + Sync,
         F: Features<E::State> + Copy + Sync,
     {
+        println!(
+            "| seed | P(satisfied) | P(lost) | steps | {LEARNED} of {FEW} after | steps a second |"
+        );
+        println!("| --- | --- | --- | --- | --- | --- |");
         for seed in self.seeds {
             let mut learner = case.learner_by(self.settings.clone(), seed);
             let (mut first, mut seconds) = (None, 0.0);
-            for steps in (BETWEEN..=self.steps).step_by(BETWEEN as usize) {
+            for look in 1..=self.steps.div_ceil(BETWEEN).max(1) {
+                let steps = self.steps.min(look * BETWEEN);
                 let start = Instant::now();
                 learner.train(&mut case.world.clone(), steps)?;
                 seconds += start.elapsed().as_secs_f64();
