@@ -189,6 +189,7 @@ impl<'a> Solution<'a> {
         }
         let mut before = self.size(chain).min(1.0);
         let wanted = (reduction * before).max(NOUGHT);
+        // Also where no more is wanted: in a slow world a small residual says little, and other ways are tried then.
         loop {
             let (residual, asked) = (core::mem::take(&mut self.residual), wanted / before);
             let converged = chain.correct(residual, &mut self.x, asked);

@@ -40,7 +40,7 @@ pub(crate) fn run(pair: Option<usize>, seed: u64, count: u64) -> Result<(), Fail
         Some(pair) => Err(format!("there is no pair {pair}; there are 1 to {}", pairs.len()))?,
     };
     for pair in &pairs[which] {
-        let seeds = (seed..seed + count).map(pair).collect::<Result<Vec<_>, _>>()?;
+        let seeds = (seed..seed.saturating_add(count)).map(pair).collect::<Result<Vec<_>, _>>()?;
         if count > 1 {
             summary(&seeds);
         }

@@ -166,8 +166,8 @@ impl<'a, S: Clone, F: Features<S>, G: Relabel<S>> Composition<'a, S, F, G> {
     ///
     /// # Errors
     /// If skills and product do not fit together, the skills are of worlds with other actions, the settings
-    /// are those of a stochastic actor ([`Settings::entropy`]), the reward pays for moves and the product has a way back ([`Error::WayBack`]), or a feature is not a finite
-    /// number in a state that was seen.
+    /// are those of a stochastic actor ([`Settings::entropy`]), the reward pays for moves and the product has a
+    /// way back ([`Error::WayBack`]), or a feature is not a finite number in a state that was seen.
     ///
     /// # Panics
     /// If nothing was seen, the product is decided from the start, or the features are of entities too.
