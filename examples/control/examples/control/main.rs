@@ -56,7 +56,7 @@ fn run(mut arguments: impl Iterator<Item = String>) -> Result<(), Failure> {
             let method = arguments.next().unwrap_or_else(|| "sac".into());
             let task = arguments.next().unwrap_or_else(|| "fetch".into());
             let seed = given(arguments.next())?.unwrap_or(1);
-            let seeds = seed..seed.saturating_add(given(arguments.next())?.unwrap_or(1));
+            let seeds = seed..u64::saturating_add(seed, given(arguments.next())?.unwrap_or(1));
             by::run(&method, &task, seeds, given(arguments.next())?.unwrap_or(case::STEPS))
         }
         task => {
