@@ -68,7 +68,7 @@ fn a_linear_quadratic_problem_is_solved_to_its_optimum() {
     let falling = Schedule::linear(1e-3, 1e-5, STEPS).unwrap();
     let rewards =
         Rewards::of(Mode::Acceptance).with_gamma(GAMMA).unwrap().with_environment(1.0).unwrap();
-    for settings in [Settings::default(), Settings::ddpg(), Settings::sac()] {
+    for settings in [Settings::td3(), Settings::ddpg(), Settings::sac()] {
         let settings = settings
             .with_hidden([32, 32])
             .and_then(|settings| settings.with_batch(64)?.with_horizon(20)?.with_target_rate(0.02))
@@ -113,8 +113,7 @@ fn a_linear_quadratic_problem_is_solved_to_its_optimum() {
 /// Two skills of a cart with so many motors; nothing was learned yet.
 fn cart(motors: usize, seed: u64) -> Learner<f32, impl Monitor<f32> + Clone, Place, AsGiven> {
     let task = tltl! { |x: &f32| F ({ *x } > 0.5 && F { *x } < -0.5) };
-    let settings =
-        Settings::default().with_hidden([4]).and_then(|settings| settings.with_warmup(50));
+    let settings = Settings::td3().with_hidden([4]).and_then(|settings| settings.with_warmup(50));
     let world = Cart { motors, place: 0.0, broken: false };
     let skill = Skill::new(task, Place);
     Learner::new(skill, &world, settings.unwrap(), &Device::flex(), seed)
@@ -299,7 +298,7 @@ fn actors_compose_without_a_step() {
     let left = tltl! { |x: &f32| F ({ *x } < -0.8) };
     let right = tltl! { |x: &f32| F ({ *x } > 0.8) };
     let (device, mut world) = (Device::flex(), Anywhere::default());
-    let settings = Settings::default()
+    let settings = Settings::td3()
         .with_hidden([32, 32])
         .and_then(|settings| settings.with_warmup(300)?.with_horizon(30)?.with_robustness(0.5))
         .and_then(|settings| settings.with_noise(Schedule::constant(0.5)?))

@@ -65,7 +65,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let one = tltl! { F at_a ensuring !hit };
     let two = tltl! { F (at_a && F at_b) ensuring !hit };
     for (units, batch, updates) in [(64, 128, 400), (256, 256, 40)] {
-        let settings = Settings::default()
+        let settings = Settings::td3()
             .with_rewards(Rewards::acceptance().with_gamma(GAMMA)?)
             .with_hidden([units, units])?
             .with_batch(batch)?

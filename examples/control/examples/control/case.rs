@@ -1,5 +1,8 @@
 //! A task in a world: learned, tried, and beside a controller that is written by hand.
 
+use std::fmt;
+use std::str::FromStr;
+
 use tltl::deep::actor::{Learner, Settings};
 use tltl::deep::{AsGiven, Device, Skill};
 use tltl::env::ContinuousEnv;
@@ -15,7 +18,7 @@ use tltl_control::picture::{Loose, Plane};
 use crate::Failure;
 
 /// Environment steps of a training.
-pub(crate) const STEPS: u64 = 60_000;
+pub(crate) const STEPS: u64 = 40_000;
 
 /// Trials of a policy, from starts that no learner has seen.
 pub(crate) const TRIALS: u64 = 200;
@@ -41,22 +44,51 @@ pub(crate) struct Case<E: ContinuousEnv, P, F> {
 /// A learner of a case.
 pub(crate) type Actor<'a, S, P, F> = Learner<S, &'a Task<P>, F, AsGiven>;
 
-/// How all of them learn.
-pub(crate) fn settings() -> Result<Settings, OutOfRange> {
-    settings_of(Settings::default())
+/// A method, by which actors learn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Method {
+    Sac,
+    Td3,
+    Ddpg,
 }
 
-/// How they learn by another method.
-pub(crate) fn settings_of(method: Settings) -> Result<Settings, OutOfRange> {
-    method
-        .with_rewards(Rewards::of(Mode::Shaped).with_gamma(0.98)?)
-        .with_hidden([64, 64])?
-        .with_horizon(HORIZON)?
-        .with_steps(3)?
-        .with_robustness(1.0)?
-        .with_noise(Schedule::constant(0.3)?)?
-        .with_noise_correlation(0.8)?
-        .with_warmup(2_000)
+impl Method {
+    const ALL: [(&'static str, Self); 3] =
+        [("sac", Self::Sac), ("td3", Self::Td3), ("ddpg", Self::Ddpg)];
+
+    /// How all actors learn by it.
+    pub(crate) fn settings(self) -> Result<Settings, OutOfRange> {
+        let own = match self {
+            Self::Sac => Settings::sac(),
+            Self::Td3 => Settings::td3(),
+            Self::Ddpg => Settings::ddpg(),
+        };
+        own.with_rewards(Rewards::of(Mode::Shaped).with_gamma(0.98)?)
+            .with_hidden([64, 64])?
+            .with_horizon(HORIZON)?
+            .with_steps(3)?
+            .with_robustness(1.0)?
+            .with_noise(Schedule::constant(0.3)?)?
+            .with_noise_correlation(0.8)?
+            .with_warmup(2_000)
+    }
+}
+
+impl FromStr for Method {
+    type Err = String;
+
+    fn from_str(name: &str) -> Result<Self, String> {
+        let named = Self::ALL.into_iter().find(|(own, _)| *own == name);
+        let unknown = || format!("there is no method `{name}`; there are sac, td3, ddpg");
+        named.map(|(_, method)| method).ok_or_else(unknown)
+    }
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let own = Self::ALL.into_iter().find(|(_, method)| method == self);
+        f.write_str(own.map_or("", |(name, _)| name))
+    }
 }
 
 impl<E, P, F> Case<E, P, F>
@@ -86,14 +118,13 @@ where
     }
 
     /// A learner that has learned nothing.
-    pub(crate) fn learner(&self, seed: u64) -> Result<Actor<'_, E::State, P, F>, Failure> {
-        Ok(self.learner_by(settings()?, seed))
-    }
-
-    /// The same with other settings.
-    pub(crate) fn learner_by(&self, settings: Settings, seed: u64) -> Actor<'_, E::State, P, F> {
+    pub(crate) fn learner(
+        &self,
+        method: Method,
+        seed: u64,
+    ) -> Result<Actor<'_, E::State, P, F>, Failure> {
         let skill = Skill::new(&self.task, self.look);
-        Learner::new(skill, &self.world, settings, &Device::flex(), seed)
+        Ok(Learner::new(skill, &self.world, method.settings()?, &Device::flex(), seed))
     }
 
     /// The action of the controller written by hand.

@@ -13,7 +13,7 @@ use tltl_control::point::{Look, Point, Room, to_a, to_b, to_c};
 use tltl_examples::study::mean;
 
 use crate::Failure;
-use crate::case::{TRIALS, settings};
+use crate::case::{Method, TRIALS};
 
 /// Environment steps of a skill, and updates of each step of a composition.
 const SKILL: u64 = 20_000;
@@ -28,11 +28,16 @@ struct Row {
 }
 
 /// One pair, from 1, or all of them, with `count` seeds from `seed` on.
-pub(crate) fn run(pair: Option<usize>, seed: u64, count: u64) -> Result<(), Failure> {
+pub(crate) fn run(
+    method: Method,
+    pair: Option<usize>,
+    seed: u64,
+    count: u64,
+) -> Result<(), Failure> {
     let pairs: [&dyn Fn(u64) -> Result<Vec<Row>, Failure>; 3] = [
-        &|seed| compose(&to_a(), &to_b(), seed),
-        &|seed| compose(&to_b(), &to_c(), seed),
-        &|seed| compose(&to_a(), &to_c(), seed),
+        &|seed| compose(method, &to_a(), &to_b(), seed),
+        &|seed| compose(method, &to_b(), &to_c(), seed),
+        &|seed| compose(method, &to_a(), &to_c(), seed),
     ];
     let which = match pair {
         None => 0..pairs.len(),
@@ -70,12 +75,17 @@ fn summary(seeds: &[Vec<Row>]) {
 /// Learns two skills and makes both at once of what they have learned and seen: by each step of
 /// Algorithm 2, and by its last one alone, from nothing. Then it learns the same from scratch, with as many
 /// steps of the world as the two had.
-fn compose<P, Q>(first: &Task<P>, second: &Task<Q>, seed: u64) -> Result<Vec<Row>, Failure>
+fn compose<P, Q>(
+    method: Method,
+    first: &Task<P>,
+    second: &Task<Q>,
+    seed: u64,
+) -> Result<Vec<Row>, Failure>
 where
     P: Predicates<Point> + Sync,
     Q: Predicates<Point> + Sync,
 {
-    let (mut room, settings, device) = (Room::default(), settings()?, Device::flex());
+    let (mut room, settings, device) = (Room::default(), method.settings()?, Device::flex());
     let mut one = Learner::new(Skill::new(first, Look), &room, settings.clone(), &device, seed);
     one.train(&mut room, SKILL)?;
     let mut two =

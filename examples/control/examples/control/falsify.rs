@@ -12,7 +12,7 @@ use tltl_control::judge::{HORIZON, trials};
 use tltl_examples::show::Folder;
 
 use crate::Failure;
-use crate::case::{Case, TRIALS};
+use crate::case::{self, Case, TRIALS};
 use crate::worlds::{Visitor, visit};
 
 /// Points that each search tries.
@@ -25,11 +25,12 @@ const PIECES: usize = 4;
 const SHARE: f64 = 0.5;
 
 /// Learns `task` by `steps` steps, searches, and trains on by a quarter of them.
-pub(crate) fn run(task: &str, seed: u64, steps: u64) -> Result<(), Failure> {
-    visit(task, Falsify { seed, steps })
+pub(crate) fn run(method: case::Method, task: &str, seed: u64, steps: u64) -> Result<(), Failure> {
+    visit(task, Falsify { method, seed, steps })
 }
 
 struct Falsify {
+    method: case::Method,
     seed: u64,
     steps: u64,
 }
@@ -55,7 +56,7 @@ impl Visitor for Falsify {
         );
         row(case, "by hand", 1, |q, s| Ok(case.hand_at(q, s)))?;
         let (before, after) = (self.steps, self.steps + self.steps / 4);
-        let mut learner = case.learner(self.seed)?;
+        let mut learner = case.learner(self.method, self.seed)?;
         learner.train(&mut case.world.clone(), before)?;
         let worst = row(case, &format!("{before} steps"), 1, |q, s| Ok(learner.act(q, s)?))?;
         let (skill, saved) = (Skill::new(&case.task, case.look), learner.checkpoint());

@@ -5,26 +5,31 @@
 //! `fetch` if left out, and writes into `target/control`. With `--features rapier` there are the tasks of the
 //! rover, too. Instead of a task:
 //!
-//! - `--study [TASK]` learns the tasks of two and three steps, or the one that is named, with ten seeds, and writes
+//! - `--study` learns the tasks of two and three steps with ten seeds, by SAC and by TD3, and writes
 //!   `docs/studies/control_*`;
 //! - `--falsify [TASK [SEED [STEPS]]]` searches for the starts and disturbances from which a learned controller does
 //!   worst, trains it on from there, and searches again;
 //! - `--compose [PAIR [SEED [SEEDS]]]` composes pairs of skills (0 is all three) without a step in the world, with
 //!   one seed or with so many from there on, and prints what each step of it is worth;
-//! - `--by METHOD [TASK [SEED [SEEDS [STEPS]]]]` learns a task by `td3`, `ddpg` or `sac`, with one seed or with so many
-//!   from there on, and prints what each comes to and how long it took.
+//! - `--seeds [TASK [SEED [SEEDS [STEPS]]]]` learns a task with one seed or with so many from there on, and prints
+//!   what each comes to and how long it took.
+//!
+//! Before all of these, `--by METHOD` says how actors learn: `sac`, `td3` or `ddpg`. Left out, it is SAC; of a study,
+//! both; and of a composition, whose actor is deterministic, TD3.
 
-mod by;
 mod case;
 mod compose;
 mod falsify;
 mod one;
+mod seeds;
 mod study;
 mod worlds;
 
 use std::error::Error;
 use std::process::ExitCode;
 use std::str::FromStr;
+
+use case::{Method, STEPS};
 
 type Failure = Box<dyn Error>;
 
@@ -39,29 +44,34 @@ fn main() -> ExitCode {
 }
 
 fn run(mut arguments: impl Iterator<Item = String>) -> Result<(), Failure> {
-    let what = arguments.next().unwrap_or_else(|| "fetch".into());
-    match &*what {
-        "--study" => study::run(arguments.next().as_deref()),
+    let (mut what, mut method) = (arguments.next(), None);
+    if what.as_deref() == Some("--by") {
+        let name = arguments.next().ok_or("`--by` takes a method: sac, td3 or ddpg")?;
+        (what, method) = (arguments.next(), Some(name.parse::<Method>()?));
+    }
+    let by = method.unwrap_or(Method::Sac);
+    match what.as_deref().unwrap_or("fetch") {
+        "--study" => study::run(method),
         "--compose" => {
             let pair = given(arguments.next())?.filter(|pair| *pair > 0);
             let seed = given(arguments.next())?.unwrap_or(1);
-            compose::run(pair, seed, given(arguments.next())?.unwrap_or(1))
+            let seeds = given(arguments.next())?.unwrap_or(1);
+            compose::run(method.unwrap_or(Method::Td3), pair, seed, seeds)
         }
         "--falsify" => {
             let task = arguments.next().unwrap_or_else(|| "fetch".into());
             let seed = given(arguments.next())?.unwrap_or(1);
-            falsify::run(&task, seed, given(arguments.next())?.unwrap_or(case::STEPS))
+            falsify::run(by, &task, seed, given(arguments.next())?.unwrap_or(STEPS))
         }
-        "--by" => {
-            let method = arguments.next().unwrap_or_else(|| "sac".into());
+        "--seeds" => {
             let task = arguments.next().unwrap_or_else(|| "fetch".into());
             let seed = given(arguments.next())?.unwrap_or(1);
             let seeds = seed..u64::saturating_add(seed, given(arguments.next())?.unwrap_or(1));
-            by::run(&method, &task, seeds, given(arguments.next())?.unwrap_or(case::STEPS))
+            seeds::run(by, &task, seeds, given(arguments.next())?.unwrap_or(STEPS))
         }
         task => {
             let seed = given(arguments.next())?.unwrap_or(1);
-            one::run(task, seed, given(arguments.next())?.unwrap_or(case::STEPS))
+            one::run(by, task, seed, given(arguments.next())?.unwrap_or(STEPS))
         }
     }
 }

@@ -10,15 +10,16 @@ use tltl_control::judge::Trialled;
 use tltl_examples::show::{self, Folder};
 
 use crate::Failure;
-use crate::case::{Case, TRIALS};
+use crate::case::{Case, Method, TRIALS};
 use crate::worlds::{Visitor, visit};
 
 /// Learns `task` by `steps` steps.
-pub(crate) fn run(task: &str, seed: u64, steps: u64) -> Result<(), Failure> {
-    visit(task, Run { seed, steps })
+pub(crate) fn run(method: Method, task: &str, seed: u64, steps: u64) -> Result<(), Failure> {
+    visit(task, Run { method, seed, steps })
 }
 
 struct Run {
+    method: Method,
     seed: u64,
     steps: u64,
 }
@@ -40,7 +41,7 @@ impl Visitor for Run {
         );
         row("by hand", &case.hand()?);
         let start = Instant::now();
-        let mut learner = case.learner(self.seed)?;
+        let mut learner = case.learner(self.method, self.seed)?;
         let mut world = case.world.clone();
         show::in_slices(name.to_owned(), self.steps, |until| {
             learner.train(&mut world, until).map(|()| learner.steps())

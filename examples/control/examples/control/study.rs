@@ -3,8 +3,7 @@
 //! With the feature `rapier`, those of the rover are among them: `cargo run --release -p tltl-control
 //! --features rapier --example control -- --study`. What is published is of all worlds, run so.
 //!
-//! What it writes: `docs/studies/control_seeds.{svg,md,jsonl}`, and `control_long.{svg,md,jsonl}` of what takes
-//! longer to learn.
+//! What it writes: `docs/studies/control_{sac,td3,td3_long}.{svg,md,jsonl}`.
 
 use std::fmt::Write as _;
 
@@ -18,13 +17,10 @@ use tltl_examples::chart::{self, Axis, Chart, Curve, Point, Row};
 use tltl_examples::study::{Progress, Study, mean};
 
 use crate::Failure;
-use crate::case::{Case, STEPS, TRIALS};
+use crate::case::{Case, Method, TRIALS};
 use crate::worlds::{LONG, SHORT, Visitor, visit};
 
 const SEEDS: u64 = 10;
-
-/// Environment steps of a training where [`STEPS`] are not enough.
-const MORE_STEPS: u64 = 150_000;
 
 /// Environment steps between two points of a curve.
 const BETWEEN: u64 = 5_000;
@@ -64,65 +60,81 @@ struct Learned {
     last: Worth,
 }
 
-/// Learns the tasks, or one.
-pub(crate) fn run(task: Option<&str>) -> Result<(), Failure> {
-    let named = task.as_ref().map(core::slice::from_ref);
-    if task.is_none_or(|task| !LONG.contains(&task)) {
-        Group { name: "control_seeds", tasks: named.unwrap_or(SHORT), steps: STEPS }.run()?;
-    }
-    if task.is_none_or(|task| LONG.contains(&task)) && !LONG.is_empty() {
-        Group { name: "control_long", tasks: named.unwrap_or(LONG), steps: MORE_STEPS }.run()?;
-    }
-    Ok(())
-}
-
-/// Tasks that are learned for as long as each other.
-struct Group<'a> {
+/// What is published: the tasks, learned by a method.
+struct Page {
     name: &'static str,
-    tasks: &'a [&'a str],
-    steps: u64,
+    method: Method,
+    /// Tasks, and the environment steps of a training.
+    tasks: &'static [(&'static [&'static str], u64)],
 }
 
-impl Group<'_> {
+const PAGES: [Page; 3] = [
+    Page { name: "control_sac", method: Method::Sac, tasks: &[(SHORT, 40_000), (LONG, 60_000)] },
+    Page { name: "control_td3", method: Method::Td3, tasks: &[(SHORT, 60_000)] },
+    Page { name: "control_td3_long", method: Method::Td3, tasks: &[(LONG, 150_000)] },
+];
+
+/// Learns the tasks by both methods, or by one.
+pub(crate) fn run(method: Option<Method>) -> Result<(), Failure> {
+    if method == Some(Method::Ddpg) {
+        Err("no study is of `ddpg`; there are those of sac and td3")?;
+    }
+    let wanted = |page: &&Page| method.is_none_or(|method| page.method == method);
+    PAGES.iter().filter(wanted).try_for_each(Page::run)
+}
+
+/// A task, and the environment steps of its training.
+type Work = (&'static str, u64);
+
+impl Page {
     fn run(&self) -> Result<(), Failure> {
-        let &Self { name, tasks, steps } = self;
-        // A name that is unknown is told before anything is learned.
+        let of = |(tasks, steps): &(&'static [&'static str], u64)| {
+            let steps = *steps;
+            tasks.iter().map(move |task| (*task, steps))
+        };
+        let tasks: Vec<Work> = self.tasks.iter().flat_map(of).collect();
+        if tasks.is_empty() {
+            return Ok(());
+        }
         let hands: Vec<Worth> =
-            tasks.iter().map(|task| visit(task, Hand)).collect::<Result<_, _>>()?;
-        let study = Study::new(name, &(tasks, SEEDS, steps, BETWEEN, FEW, TRIALS)).every(2);
+            tasks.iter().map(|(task, _)| visit(task, Hand)).collect::<Result<_, _>>()?;
+        let study = Study::new(self.name, &(&tasks, SEEDS, BETWEEN, FEW, TRIALS)).every(2);
         let learned = study.run_in_parts(
             tasks.len() as u64 * SEEDS,
-            |_| steps,
+            |case| tasks[(case / SEEDS) as usize].1,
             |case, progress| {
-                let (task, seed) = (tasks[(case / SEEDS) as usize], case % SEEDS + 1);
-                visit(task, Seed { seed, steps, progress }).map_err(|error| error.to_string())
+                let ((task, steps), seed) = (tasks[(case / SEEDS) as usize], case % SEEDS + 1);
+                visit(task, Seed { method: self.method, seed, steps, progress })
+                    .map_err(|error| error.to_string())
             },
         )?;
         let learned: Vec<Learned> = learned.into_iter().collect::<Result<_, _>>()?;
         let seeds: Vec<&[Learned]> = learned.chunks(SEEDS as usize).collect();
         let lines = learned.iter().enumerate().map(|(case, learned)| {
-            let (task, seed) = (tasks[case / SEEDS as usize], case as u64 % SEEDS + 1);
+            let ((task, _), seed) = (tasks[case / SEEDS as usize], case as u64 % SEEDS + 1);
             json!({"task": task, "seed": seed, "learned": learned})
         });
         study.publish_lines(lines)?;
-        study.publish(".svg", &figure(tasks, &hands, &seeds))?;
-        study.publish(".md", &self.text(&hands, &seeds))?;
+        study.publish(".svg", &figure(&tasks, &hands, &seeds))?;
+        study.publish(".md", &self.text(&tasks, &hands, &seeds))?;
         Ok(study.finish()?)
     }
 
     /// The table.
-    fn text(&self, hands: &[Worth], seeds: &[&[Learned]]) -> String {
-        let &Self { name, tasks, steps } = self;
+    fn text(&self, tasks: &[Work], hands: &[Worth], seeds: &[&[Learned]]) -> String {
+        let (name, method) = (self.name, self.method);
         let mut text = format!(
-            "# Ten seeds of continuous control\n\n![P(satisfied) over the environment steps of each \
-             task]({name}.svg)\n\nEach actor has learned for {steps} steps and is tried from \
-             {TRIALS} starts that no learner has seen. Robustness is the mean over the trials of all seeds, \
-             in metres. [The study](control.md) says how they learn. Written by `cargo run --release -p \
-             tltl-control --features rapier --example control -- --study`.\n\n| task | P(satisfied), mean of {SEEDS} seeds | \
-             each seed | P(lost) | steps: learned, by hand | robustness: learned, by hand |\n{}\n",
-            "| --- | --- | --- | --- | --- | --- |"
+            "# Ten seeds of continuous control by {}\n\n![P(satisfied) over the environment steps of each \
+             task]({name}.svg)\n\nEach actor is tried from {TRIALS} starts that no learner has seen. Robustness is the \
+             mean over the trials of all seeds, in metres. [The study](control.md) says how they learn. Written by \
+             `cargo run --release -p tltl-control --features rapier --example control -- --by {} --study`.\n\n\
+             | task | steps of learning | P(satisfied), mean of {SEEDS} seeds | each seed | P(lost) | \
+             steps: learned, by hand | robustness: learned, by hand |\n{}\n",
+            method.to_string().to_uppercase(),
+            method,
+            "| --- | --- | --- | --- | --- | --- | --- |"
         );
-        for ((task, hand), seeds) in tasks.iter().zip(hands).zip(seeds) {
+        for (((task, steps), hand), seeds) in tasks.iter().zip(hands).zip(seeds) {
             let each =
                 |of: fn(&Worth) -> f64| seeds.iter().map(|s| of(&s.last)).collect::<Vec<_>>();
             let satisfied = each(|worth| worth.satisfied);
@@ -130,7 +142,7 @@ impl Group<'_> {
             let [fewest, most] = ends(&each(|worth| worth.steps.unwrap_or(f64::NAN)));
             let _ = writeln!(
                 text,
-                "| `{task}` | {:.3} | {} | {:.3} | {fewest:.1} to {most:.1}, {:.1} | {:.3}, {:.3} |",
+                "| `{task}` | {steps} | {:.3} | {} | {:.3} | {fewest:.1} to {most:.1}, {:.1} | {:.3}, {:.3} |",
                 mean(&satisfied),
                 shown.join(", "),
                 mean(&each(|worth| worth.lost)),
@@ -161,6 +173,7 @@ impl Visitor for Hand {
 
 /// One seed.
 struct Seed<'a> {
+    method: Method,
     seed: u64,
     steps: u64,
     progress: &'a Progress,
@@ -175,7 +188,7 @@ impl Visitor for Seed<'_> {
         P: Predicates<E::State> + Sync,
         F: Features<E::State> + Copy + Sync,
     {
-        let mut learner = case.learner(self.seed)?;
+        let mut learner = case.learner(self.method, self.seed)?;
         let mut curve = Vec::new();
         for steps in (BETWEEN..=self.steps).step_by(BETWEEN as usize) {
             learner.train(&mut case.world.clone(), steps)?;
@@ -187,8 +200,8 @@ impl Visitor for Seed<'_> {
 }
 
 /// A chart for each task, two in a row: the mean of the seeds in a band from the least to the most.
-fn figure(tasks: &[&str], hands: &[Worth], seeds: &[&[Learned]]) -> String {
-    let chart = |(i, &task): (usize, &&str)| {
+fn figure(tasks: &[Work], hands: &[Worth], seeds: &[&[Learned]]) -> String {
+    let chart = |(i, &(task, _)): (usize, &Work)| {
         let point = |j: usize| {
             let values: Vec<f64> = seeds[i].iter().map(|seed| seed.curve[j].satisfied).collect();
             let [low, high] = ends(&values);

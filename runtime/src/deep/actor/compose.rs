@@ -113,7 +113,7 @@ impl<'a, S> Learned<'a, S> {
 ///
 /// // Two skills: to the left end, and to the right one.
 /// let (left, right) = (tltl! { |x: &f32| F ({ *x } < -0.8) }, tltl! { |x: &f32| F ({ *x } > 0.8) });
-/// let settings = Settings::default().with_hidden([32, 32])?.with_warmup(300)?.with_horizon(60)?;
+/// let settings = Settings::td3().with_hidden([32, 32])?.with_warmup(300)?.with_horizon(60)?;
 /// let settings = settings.with_robustness(0.5)?;
 /// let (mut cart, device) = (Cart(0.0), Device::flex());
 /// let mut one = Learner::new(Skill::new(&left, Place), &cart, settings.clone(), &device, 1);
@@ -308,7 +308,7 @@ fn check_deterministic(settings: &Settings) -> Result<(), Mismatch> {
     let Some(entropy) = settings.entropy() else {
         return Ok(());
     };
-    let composed = "an actor that takes no step and explores nothing: take `with_entropy(None)`";
+    let composed = "an actor that takes no step and explores nothing: begin with `Settings::td3()`";
     Err(Mismatch::new("an entropy", std::format!("{entropy}"), composed.into()))
 }
 

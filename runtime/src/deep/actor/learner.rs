@@ -228,7 +228,7 @@ where
     ///
     /// // Two skills: to the left end, and to the right one.
     /// let (left, right) = (tltl! { |x: &f32| F ({ *x } < -0.8) }, tltl! { |x: &f32| F ({ *x } > 0.8) });
-    /// let settings = Settings::default().with_hidden([32, 32])?.with_warmup(300)?.with_horizon(60)?;
+    /// let settings = Settings::td3().with_hidden([32, 32])?.with_warmup(300)?.with_horizon(60)?;
     /// let settings = settings.with_robustness(0.5)?;
     /// let mut cart = Cart(0.0);
     /// let mut first = Learner::new(Skill::new(&left, Place), &cart, settings.clone(), &Device::flex(), 1);
@@ -262,7 +262,8 @@ where
     /// Makes updates from what is remembered, without a step in the world.
     ///
     /// Nothing corrects here what an actor believes of actions that nobody has tried, so what was seen
-    /// should have many: skills that are still exploring are better teachers than perfect ones.
+    /// should have many: skills that are still exploring are better teachers than perfect ones. A deterministic
+    /// actor ([`Settings::td3`]) is the better pupil, for nothing is tried here that entropy could find.
     ///
     /// # Errors
     /// If the reward pays for moves and the automaton has a way back, or a predicate, a feature or the

@@ -1,10 +1,10 @@
 //! Continuous actions: an actor and critics on the augmented MDP (paper, Section 5.2: "for continuous
 //! actions DDPG").
 //!
-//! [`Learner`] learns a [`Skill`](super::Skill) in a [`ContinuousEnv`](crate::env::ContinuousEnv). Its method is TD3 (Fujimoto et al. 2018), of which
-//! DDPG (Lillicrap et al. 2016) is the case of one critic ([`Settings::ddpg`]), and SAC (Haarnoja et al. 2018) that of
-//! an actor that draws its actions while it learns ([`Settings::sac`]); what is judged, saved and emitted draws
-//! nothing, whatever the method. Loop, replay, relabelling
+//! [`Learner`] learns a [`Skill`](super::Skill) in a [`ContinuousEnv`](crate::env::ContinuousEnv). Its method is SAC (Haarnoja et al. 2018), whose
+//! actor draws its actions while it learns; TD3 (Fujimoto et al. 2018) is the case of an actor that does not
+//! ([`Settings::td3`]), and DDPG (Lillicrap et al. 2016) that with one critic ([`Settings::ddpg`]). What is judged, saved
+//! and emitted draws nothing, whatever the method. Loop, replay, relabelling
 //! of goals and rewards are those of the [learner of values](super::Learner), and so is the idea: the actor
 //! and the critics have a head for each live automaton state, and each replayed step updates all of them.
 //!

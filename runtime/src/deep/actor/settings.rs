@@ -1,8 +1,8 @@
 //! The settings of an actor-critic learner.
 //!
-//! The defaults are those of TD3 (Fujimoto et al. 2018), but for smaller networks; [`Settings::ddpg`] are those of the
-//! method that the paper names, DDPG (Lillicrap et al. 2016), without its batch normalisation; [`Settings::sac`] makes
-//! the actor stochastic (Haarnoja et al. 2018).
+//! The defaults are those of SAC (Haarnoja et al. 2018), whose actor is stochastic; [`Settings::td3`] are those of TD3
+//! (Fujimoto et al. 2018), both but for smaller networks; [`Settings::ddpg`] are those of the method that the paper
+//! names, DDPG (Lillicrap et al. 2016), without its batch normalisation.
 
 use serde::{Deserialize, Serialize};
 use std::vec::Vec;
@@ -20,7 +20,8 @@ use crate::reward::{self, Mode, Rewards};
 /// use tltl::deep::actor::Settings;
 ///
 /// let settings = Settings::default().with_hidden([32, 32])?.with_noise_correlation(0.8)?;
-/// assert_eq!((settings.critics(), settings.actor_delay()), (2, 2));
+/// assert_eq!((settings.critics(), settings.entropy()), (2, Some(-1.0)));
+/// assert_eq!((Settings::td3().critics(), Settings::td3().entropy()), (2, None));
 /// assert_eq!((Settings::ddpg().critics(), Settings::ddpg().target_noise()), (1, 0.0));
 /// let error = settings.with_critics(3).unwrap_err();
 /// assert_eq!(error.to_string(), "`critics` is 3, not 1 or 2");
@@ -54,7 +55,17 @@ pub struct Settings {
 }
 
 impl Default for Settings {
+    /// [`Settings::sac`], which learned sooner and more reliably than TD3 in all tasks that were measured.
     fn default() -> Self {
+        Self::sac()
+    }
+}
+
+impl Settings {
+    /// TD3: a deterministic actor, noise added to its actions while it learns, and two critics (Fujimoto et
+    /// al. 2018).
+    #[must_use]
+    pub fn td3() -> Self {
         Self {
             rewards: Rewards::of(Mode::Shaped).with_known_gamma(0.99),
             robustness: 0.0,
@@ -80,9 +91,7 @@ impl Default for Settings {
             entropy: None,
         }
     }
-}
 
-impl Settings {
     /// The recipe of Lillicrap et al. (2016): one critic, no noise in the target, an update of the actor
     /// with each of the critic, noise of an Ornstein–Uhlenbeck process (θ 0.15, σ 0.2), and their
     /// networks and rates.
@@ -100,7 +109,7 @@ impl Settings {
             critics: 1,
             actor_delay: 1,
             target_noise: 0.0,
-            ..Self::default()
+            ..Self::td3()
         }
     }
 
@@ -112,12 +121,12 @@ impl Settings {
     ///
     /// let settings = Settings::sac();
     /// assert_eq!((settings.entropy(), settings.actor_delay()), (Some(-1.0), 1));
-    /// assert_eq!(settings.with_entropy(None)?.with_actor_delay(2)?, Settings::default());
+    /// assert_eq!(settings.with_entropy(None)?.with_actor_delay(2)?, Settings::td3());
     /// # Ok::<(), tltl::OutOfRange>(())
     /// ```
     #[must_use]
     pub fn sac() -> Self {
-        Self { entropy: Some(-1.0), actor_delay: 1, ..Self::default() }
+        Self { entropy: Some(-1.0), actor_delay: 1, ..Self::td3() }
     }
 
     /// What is optimised, the discount factor γ included.

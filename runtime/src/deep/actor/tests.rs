@@ -148,7 +148,7 @@ fn the_gradient_of_a_critic_agrees_with_finite_differences() {
 }
 
 fn critic_shape() -> crate::network::Shape {
-    let settings = Settings::default().with_hidden([7, 6]).unwrap();
+    let settings = Settings::td3().with_hidden([7, 6]).unwrap();
     let [_, critic] = shapes(INPUTS, COMPONENTS, HEADS, &settings);
     critic
 }

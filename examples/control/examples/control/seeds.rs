@@ -1,15 +1,14 @@
-//! A task learned by one of the methods, with several seeds: what each comes to, and how long it took.
+//! A task learned with several seeds: what each comes to, and how long it took.
 
 use std::ops::Range;
 use std::time::Instant;
 
-use tltl::deep::actor::Settings;
 use tltl::env::ContinuousEnv;
 use tltl::network::Features;
 use tltl::robustness::Predicates;
 
 use crate::Failure;
-use crate::case::{Case, TRIALS, settings_of};
+use crate::case::{Case, Method, TRIALS};
 use crate::worlds::{Visitor, visit};
 
 /// Environment steps between two looks at an actor.
@@ -21,25 +20,23 @@ const FEW: u64 = 50;
 /// The share of them after which a task counts as learned.
 const LEARNED: f64 = 0.95;
 
-/// Learns `task` by `method`, by `steps` steps for each of the seeds.
-pub(crate) fn run(method: &str, task: &str, seeds: Range<u64>, steps: u64) -> Result<(), Failure> {
-    let settings = match method {
-        "td3" => Settings::default(),
-        "ddpg" => Settings::ddpg(),
-        "sac" => Settings::sac(),
-        _ => Err(format!("there is no method `{method}`; there are td3, ddpg, sac"))?,
-    };
-    let settings = settings_of(settings)?;
-    visit(task, By { settings, seeds, steps })
+/// Learns `task`, by `steps` steps for each of the seeds.
+pub(crate) fn run(
+    method: Method,
+    task: &str,
+    seeds: Range<u64>,
+    steps: u64,
+) -> Result<(), Failure> {
+    visit(task, Seeds { method, seeds, steps })
 }
 
-struct By {
-    settings: Settings,
+struct Seeds {
+    method: Method,
     seeds: Range<u64>,
     steps: u64,
 }
 
-impl Visitor for By {
+impl Visitor for Seeds {
     type Output = ();
 
     fn visit<E, P, F>(self, case: &Case<E, P, F>) -> Result<(), Failure>
@@ -53,7 +50,7 @@ impl Visitor for By {
         );
         println!("| --- | --- | --- | --- | --- | --- |");
         for seed in self.seeds {
-            let mut learner = case.learner_by(self.settings.clone(), seed);
+            let mut learner = case.learner(self.method, seed)?;
             let (mut first, mut seconds) = (None, 0.0);
             for look in 1..=self.steps.div_ceil(BETWEEN).max(1) {
                 let steps = self.steps.min(look * BETWEEN);
