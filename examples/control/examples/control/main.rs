@@ -14,8 +14,8 @@
 //! - `--seeds [TASK [SEED [SEEDS [STEPS]]]]` learns a task with one seed or with so many from there on, and prints
 //!   what each comes to and how long it took.
 //!
-//! Before all of these, `--by METHOD` says how actors learn: `sac`, `td3` or `ddpg`. Left out, it is SAC; of a study,
-//! both; and of a composition, whose actor is deterministic, TD3.
+//! Before all of these, `--by METHOD` says how actors learn: `sac`, `td3` or `ddpg`. Left out, it is SAC, and of a study
+//! both.
 
 mod case;
 mod compose;
@@ -56,7 +56,7 @@ fn run(mut arguments: impl Iterator<Item = String>) -> Result<(), Failure> {
             let pair = given(arguments.next())?.filter(|pair| *pair > 0);
             let seed = given(arguments.next())?.unwrap_or(1);
             let seeds = given(arguments.next())?.unwrap_or(1);
-            compose::run(method.unwrap_or(Method::Td3), pair, seed, seeds)
+            compose::run(by, pair, seed, seeds)
         }
         "--falsify" => {
             let task = arguments.next().unwrap_or_else(|| "fetch".into());
