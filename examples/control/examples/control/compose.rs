@@ -85,12 +85,13 @@ where
     P: Predicates<Point> + Sync,
     Q: Predicates<Point> + Sync,
 {
-    let (mut room, own, device) = (Room::default(), method.settings()?, Device::flex());
-    // What takes no step has nothing to try, and is deterministic.
-    let settings = Method::Td3.settings()?;
-    let mut one = Learner::new(Skill::new(first, Look), &room, own.clone(), &device, seed);
+    let (mut room, device) = (Room::default(), Device::flex());
+    // What takes no step tries nothing: its actor is deterministic, whatever those of the skills are.
+    let (learning, composing) = (method.settings()?, Method::Td3.settings()?);
+    let mut one = Learner::new(Skill::new(first, Look), &room, learning.clone(), &device, seed);
     one.train(&mut room, SKILL)?;
-    let mut two = Learner::new(Skill::new(second, Look), &room, own.clone(), &device, seed + 100);
+    let mut two =
+        Learner::new(Skill::new(second, Look), &room, learning.clone(), &device, seed + 100);
     two.train(&mut room, SKILL)?;
     let both = Product::conjunction(&[first, second]);
     println!("{}, seed {seed}", both.formula().text());
@@ -100,20 +101,20 @@ where
     ];
     let skill = || Skill::new(&both, Look);
     let skills = [one.learned()?, two.learned()?];
-    let (combine, of) = (Combine::NormalisedSum, settings.clone());
-    let mut composed = Composition::new(skill(), &skills, combine, of, &device, seed + 400)?;
+    let (combine, own) = (Combine::NormalisedSum, composing.clone());
+    let mut composed = Composition::new(skill(), &skills, combine, own, &device, seed + 400)?;
     composed.fit(SKILL)?;
     rows.push(row("step 2: the sum", &both, |q, s| Ok(composed.act(q, s)?))?);
     composed.compensate(SKILL)?;
     rows.push(row("steps 3-5: compensated", &both, |q, s| Ok(composed.act(q, s)?))?);
     composed.refine(SKILL)?;
     rows.push(row("step 6: refined", &both, |q, s| Ok(composed.act(q, s)?))?);
-    let mut rehearsed = Learner::new(skill(), &room, settings, &device, seed + 200);
+    let mut rehearsed = Learner::new(skill(), &room, composing, &device, seed + 200);
     rehearsed.remember(&one)?;
     rehearsed.remember(&two)?;
     rehearsed.rehearse(SKILL)?;
     rows.push(row("step 6 alone", &both, |q, s| Ok(rehearsed.act(q, s)?))?);
-    let mut scratch = Learner::new(skill(), &room, own, &device, seed + 300);
+    let mut scratch = Learner::new(skill(), &room, learning, &device, seed + 300);
     scratch.train(&mut room, 2 * SKILL)?;
     rows.push(row("from scratch", &both, |q, s| Ok(scratch.act(q, s)?))?);
     Ok(rows)

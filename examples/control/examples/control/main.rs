@@ -51,29 +51,45 @@ fn run(mut arguments: impl Iterator<Item = String>) -> Result<(), Failure> {
     }
     let by = method.unwrap_or(Method::Sac);
     match what.as_deref().unwrap_or("fetch") {
-        "--study" => study::run(method),
+        "--study" => {
+            no_more(arguments)?;
+            study::run(method)
+        }
         "--compose" => {
             let pair = given(arguments.next())?.filter(|pair| *pair > 0);
             let seed = given(arguments.next())?.unwrap_or(1);
             let seeds = given(arguments.next())?.unwrap_or(1);
+            no_more(arguments)?;
             compose::run(by, pair, seed, seeds)
         }
         "--falsify" => {
             let task = arguments.next().unwrap_or_else(|| "fetch".into());
             let seed = given(arguments.next())?.unwrap_or(1);
-            falsify::run(by, &task, seed, given(arguments.next())?.unwrap_or(STEPS))
+            let steps = given(arguments.next())?.unwrap_or(STEPS);
+            no_more(arguments)?;
+            falsify::run(by, &task, seed, steps)
         }
         "--seeds" => {
             let task = arguments.next().unwrap_or_else(|| "fetch".into());
             let seed = given(arguments.next())?.unwrap_or(1);
             let seeds = seed..u64::saturating_add(seed, given(arguments.next())?.unwrap_or(1));
-            seeds::run(by, &task, seeds, given(arguments.next())?.unwrap_or(STEPS))
+            let steps = given(arguments.next())?.unwrap_or(STEPS);
+            no_more(arguments)?;
+            seeds::run(by, &task, seeds, steps)
         }
         task => {
             let seed = given(arguments.next())?.unwrap_or(1);
-            one::run(by, task, seed, given(arguments.next())?.unwrap_or(STEPS))
+            let steps = given(arguments.next())?.unwrap_or(STEPS);
+            no_more(arguments)?;
+            one::run(by, task, seed, steps)
         }
     }
+}
+
+/// Nothing is left out of what was asked.
+fn no_more(mut arguments: impl Iterator<Item = String>) -> Result<(), Failure> {
+    let more = |text| format!("`{text}` is one argument too many");
+    Ok(arguments.next().map_or(Ok(()), |text| Err(more(text)))?)
 }
 
 /// An argument that is a number from 0 on.
