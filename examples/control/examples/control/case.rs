@@ -20,6 +20,12 @@ use crate::Failure;
 /// Environment steps of a training.
 pub(crate) const STEPS: u64 = 40_000;
 
+/// Environment steps between two looks at an actor that learns.
+pub(crate) const BETWEEN: u64 = 5_000;
+
+/// Trials of each.
+pub(crate) const FEW: u64 = 50;
+
 /// Trials of a policy, from starts that no learner has seen.
 pub(crate) const TRIALS: u64 = 200;
 
@@ -79,7 +85,8 @@ impl FromStr for Method {
 
     fn from_str(name: &str) -> Result<Self, String> {
         let named = Self::ALL.into_iter().find(|(own, _)| *own == name);
-        let unknown = || format!("there is no method `{name}`; there are sac, td3, ddpg");
+        let names = Self::ALL.map(|(own, _)| own).join(", ");
+        let unknown = || format!("there is no method `{name}`; there are {names}");
         named.map(|(_, method)| method).ok_or_else(unknown)
     }
 }

@@ -46,7 +46,7 @@ fn main() -> ExitCode {
 fn run(mut arguments: impl Iterator<Item = String>) -> Result<(), Failure> {
     let (mut what, mut method) = (arguments.next(), None);
     if what.as_deref() == Some("--by") {
-        let name = arguments.next().ok_or("`--by` takes a method: sac, td3 or ddpg")?;
+        let name = arguments.next().unwrap_or_default();
         (what, method) = (arguments.next(), Some(name.parse::<Method>()?));
     }
     let by = method.unwrap_or(Method::Sac);

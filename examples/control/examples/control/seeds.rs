@@ -8,14 +8,8 @@ use tltl::network::Features;
 use tltl::robustness::Predicates;
 
 use crate::Failure;
-use crate::case::{Case, Method, TRIALS};
+use crate::case::{BETWEEN, Case, FEW, Method, TRIALS};
 use crate::worlds::{Visitor, visit};
-
-/// Environment steps between two looks at an actor.
-const BETWEEN: u64 = 5_000;
-
-/// Trials of each.
-const FEW: u64 = 50;
 
 /// The share of them after which a task counts as learned.
 const LEARNED: f64 = 0.95;

@@ -17,16 +17,10 @@ use tltl_examples::chart::{self, Axis, Chart, Curve, Point, Row};
 use tltl_examples::study::{Progress, Study, mean};
 
 use crate::Failure;
-use crate::case::{Case, Method, TRIALS};
+use crate::case::{BETWEEN, Case, FEW, Method, TRIALS};
 use crate::worlds::{LONG, SHORT, Visitor, visit};
 
 const SEEDS: u64 = 10;
-
-/// Environment steps between two points of a curve.
-const BETWEEN: u64 = 5_000;
-
-/// Trials for a point of a curve.
-const FEW: u64 = 50;
 
 /// What a controller is worth.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]

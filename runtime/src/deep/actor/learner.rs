@@ -262,8 +262,8 @@ where
     /// Makes updates from what is remembered, without a step in the world.
     ///
     /// Nothing corrects here what an actor believes of actions that nobody has tried, so what was seen
-    /// should have many: skills that are still exploring are better teachers than perfect ones. A deterministic
-    /// actor ([`Settings::td3`]) is the better pupil, for nothing is tried here that entropy could find.
+    /// should have many: skills that are still exploring are better teachers than perfect ones. The
+    /// example of [`Self::remember`] takes a deterministic actor ([`Settings::td3`]); with the default settings it fails.
     ///
     /// # Errors
     /// If the reward pays for moves and the automaton has a way back, or a predicate, a feature or the
