@@ -77,6 +77,9 @@ fn run(mut arguments: impl Iterator<Item = String>) -> Result<(), Failure> {
             no_more(arguments)?;
             seeds::run(by, &task, seeds, steps)
         }
+        option if option.starts_with('-') => {
+            Err(format!("there is no option `{option}`, or none here"))?
+        }
         task => {
             let seed = given(arguments.next())?.unwrap_or(1);
             let steps = given(arguments.next())?.unwrap_or(STEPS);
