@@ -1,7 +1,7 @@
 //! Replayed steps, ready to learn from.
 //!
 //! A batch is drawn, and from each step the trajectory is followed up to n steps on. The automaton is
-//! asked what these do at *every* live state: one return for each head of a network.
+//! asked what these do at every live state that learns from the step: one return for each such head of a network.
 //!
 //! An n-step return is of the actions that were taken, for q they were perhaps not taken for. It is
 //! therefore biased towards what was done in the automaton state of the time; n = 1 has no such bias and
@@ -15,6 +15,7 @@ use super::{Error, Relabel};
 use crate::augmented::Moves;
 use crate::env::{Step, unit};
 use crate::episode::Move;
+use crate::learn::Updates;
 use crate::task;
 
 /// The heads of a network: one for each automaton state in which the task goes on.
@@ -71,6 +72,7 @@ impl Heads {
 /// The n-step return of some replayed steps, up to the value after them.
 ///
 /// Where the task or the episode ends within the steps, nothing follows and the discount is 0.
+#[derive(Default)]
 pub(super) struct Return {
     /// The discounted rewards of the steps.
     pub reward: f64,
@@ -82,16 +84,17 @@ pub(super) struct Return {
 
 /// Replayed steps, ready to learn from.
 ///
-/// Columns of one entry for each step that was drawn, in that order; `returns` has one for each step and
-/// head.
+/// Columns of one entry for each step that was drawn, in that order; `counts` and `returns` have one for each
+/// step and head, indexed `row * heads + head`.
 pub(super) struct Sample<S, A> {
     pub places: Vec<usize>,
     pub weights: Vec<f64>,
     pub actions: Vec<A>,
-    /// The head that each step was taken in.
-    pub taken: Vec<Option<usize>>,
     pub before: Vec<S>,
     pub after: Vec<S>,
+    /// Whether the head learns from the step.
+    pub counts: Vec<bool>,
+    /// Nothing where it does not.
     pub returns: Vec<Return>,
 }
 
@@ -109,6 +112,8 @@ pub(super) struct Drawing {
     pub beta: f64,
     /// The discount factor.
     pub gamma: f64,
+    /// Which heads learn from a step.
+    pub updates: Updates,
 }
 
 /// What a step does at an automaton state.
@@ -131,9 +136,9 @@ impl<S: Clone, A: Clone + Default> Sample<S, A> {
             places: Vec::new(),
             weights: Vec::new(),
             actions: Vec::new(),
-            taken: Vec::new(),
             before: Vec::new(),
             after: Vec::new(),
+            counts: Vec::new(),
             returns: Vec::new(),
         };
         for _ in 0..how.batch {
@@ -142,14 +147,16 @@ impl<S: Clone, A: Clone + Default> Sample<S, A> {
                 _ => replay.draw(rng),
             };
             let mut steps = relabelled(replay, place, goals, how, rng);
-            for &q in &heads.states {
-                sample.returns.push(heads.return_of(q, &steps[1..], read, how.gamma)?);
-            }
             let moment = replay.moment(place);
+            for &q in &heads.states {
+                let counts = how.updates == Updates::Counterfactual || moment.q == q;
+                let found = counts.then(|| heads.return_of(q, &steps[1..], read, how.gamma));
+                sample.counts.push(counts);
+                sample.returns.push(found.transpose()?.unwrap_or_default());
+            }
             sample.places.push(place);
             sample.weights.push(probability.powf(-how.beta));
             sample.actions.push(moment.action.clone());
-            sample.taken.push(heads.of(moment.q));
             sample.after.push(steps.pop().expect("a step has two states").state);
             sample.before.push(steps.swap_remove(0).state);
         }

@@ -21,7 +21,6 @@ use super::settings::Settings;
 use super::{Error, Relabel};
 use crate::augmented::Moves;
 use crate::env::Step;
-use crate::learn::Updates;
 use crate::learn::episode::Move;
 use crate::monitor::{Acceptor, Monitor};
 use crate::network::{Features, Network, NetworkError};
@@ -228,13 +227,16 @@ impl Trainer {
             priority: settings.priority(),
             beta: settings.importance().at(self.updates),
             gamma: settings.rewards().gamma(),
+            updates: settings.updates(),
         };
         let read = |q, step: &Step<S>| objective.read(q, step);
         let sample = Sample::draw(replay, &self.heads, goals, &read, &how, rng)?;
         self.before.encode(features, &sample.before).map_err(Error::Feature)?;
         self.after.encode(features, &sample.after).map_err(Error::Feature)?;
         let wanted = self.targets(&sample, objective)?;
-        let counts = self.counts(&sample, objective, settings);
+        let learns: Vec<bool> = self.heads.states.iter().map(|&q| objective.learns(q)).collect();
+        let learns = sample.counts.iter().zip(learns.iter().cycle());
+        let counts: Vec<bool> = learns.map(|(counts, learns)| *counts && *learns).collect();
         self.normalise(&wanted, &counts);
         let targets = self.weighted(&sample, &wanted, &counts);
         let penalty = objective.advantage_penalty();
@@ -295,22 +297,6 @@ impl Trainer {
             wanted - own.map_or(0.0, |own| f64::from(own[row + action]))
         });
         Ok(wanted.collect())
-    }
-
-    /// Which targets are learned, indexed `row * heads + head`.
-    fn counts<S, O: Objective<S>>(
-        &self,
-        sample: &Sample<S, u32>,
-        objective: &O,
-        settings: &Settings,
-    ) -> Vec<bool> {
-        let learns: Vec<bool> = self.heads.states.iter().map(|&q| objective.learns(q)).collect();
-        let all = settings.updates() == Updates::Counterfactual;
-        let of = |&taken: &Option<usize>| {
-            let learns = learns.iter().enumerate();
-            learns.map(move |(head, &learns)| learns && (all || taken == Some(head)))
-        };
-        sample.taken.iter().flat_map(of).collect()
     }
 
     /// Takes the targets into the normalisation.

@@ -6,7 +6,7 @@ use std::str::FromStr;
 use tltl::deep::actor::{Learner, Settings};
 use tltl::deep::{AsGiven, Device, Skill};
 use tltl::env::ContinuousEnv;
-use tltl::learn::Schedule;
+use tltl::learn::{Schedule, Updates};
 use tltl::network::Features;
 use tltl::prelude::Rewards;
 use tltl::reward::Mode;
@@ -28,6 +28,10 @@ pub(crate) const FEW: u64 = 50;
 
 /// Trials of a policy, from starts that no learner has seen.
 pub(crate) const TRIALS: u64 = 200;
+
+/// Live automaton states beyond which a step teaches its own alone: a deadline of sixty steps has sixty, and
+/// each that learns from a step takes as much time as a task with one.
+const MANY: usize = 16;
 
 /// A task in a world.
 pub(crate) struct Case<E: ContinuousEnv, P, F> {
@@ -131,7 +135,10 @@ where
         seed: u64,
     ) -> Result<Actor<'_, E::State, P, F>, Failure> {
         let skill = Skill::new(&self.task, self.look);
-        Ok(Learner::new(skill, &self.world, method.settings()?, &Device::flex(), seed))
+        let live = (0..self.task.states()).filter(|&q| !self.task.is_terminal(q)).count();
+        let updates = if live > MANY { Updates::Current } else { Updates::Counterfactual };
+        let settings = method.settings()?.with_updates(updates);
+        Ok(Learner::new(skill, &self.world, settings, &Device::flex(), seed))
     }
 
     /// The action of the controller written by hand.

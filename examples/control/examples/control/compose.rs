@@ -73,8 +73,8 @@ fn summary(seeds: &[Vec<Row>]) {
 }
 
 /// Learns two skills and makes both at once of what they have learned and seen: by each step of
-/// Algorithm 2, and by its last one alone, from nothing. Then it learns the same from scratch, with as many
-/// steps of the world as the two had.
+/// Algorithm 2, and by its last one alone, from nothing, with and without imitation. Then it learns the same from
+/// scratch, with as many steps of the world as the two had.
 fn compose<P, Q>(
     method: Method,
     first: &Task<P>,
@@ -86,8 +86,7 @@ where
     Q: Predicates<Point> + Sync,
 {
     let (mut room, device) = (Room::default(), Device::flex());
-    // What takes no step tries nothing: its actor is deterministic, whatever those of the skills are.
-    let (learning, composing) = (method.settings()?, Method::Td3.settings()?);
+    let learning = method.settings()?;
     let mut one = Learner::new(Skill::new(first, Look), &room, learning.clone(), &device, seed);
     one.train(&mut room, SKILL)?;
     let mut two =
@@ -101,7 +100,7 @@ where
     ];
     let skill = || Skill::new(&both, Look);
     let skills = [one.learned()?, two.learned()?];
-    let (combine, own) = (Combine::NormalisedSum, composing.clone());
+    let (combine, own) = (Combine::NormalisedSum, learning.clone());
     let mut composed = Composition::new(skill(), &skills, combine, own, &device, seed + 400)?;
     composed.fit(SKILL)?;
     rows.push(row("step 2: the sum", &both, |q, s| Ok(composed.act(q, s)?))?);
@@ -109,11 +108,14 @@ where
     rows.push(row("steps 3-5: compensated", &both, |q, s| Ok(composed.act(q, s)?))?);
     composed.refine(SKILL)?;
     rows.push(row("step 6: refined", &both, |q, s| Ok(composed.act(q, s)?))?);
-    let mut rehearsed = Learner::new(skill(), &room, composing, &device, seed + 200);
-    rehearsed.remember(&one)?;
-    rehearsed.remember(&two)?;
-    rehearsed.rehearse(SKILL)?;
-    rows.push(row("step 6 alone", &both, |q, s| Ok(rehearsed.act(q, s)?))?);
+    for (name, imitation) in [("step 6 alone", learning.imitation()), ("no imitation", 0.0)] {
+        let own = learning.clone().with_imitation(imitation)?;
+        let mut rehearsed = Learner::new(skill(), &room, own, &device, seed + 200);
+        rehearsed.remember(&one)?;
+        rehearsed.remember(&two)?;
+        rehearsed.rehearse(SKILL)?;
+        rows.push(row(name, &both, |q, s| Ok(rehearsed.act(q, s)?))?);
+    }
     let mut scratch = Learner::new(skill(), &room, learning, &device, seed + 300);
     scratch.train(&mut room, 2 * SKILL)?;
     rows.push(row("from scratch", &both, |q, s| Ok(scratch.act(q, s)?))?);

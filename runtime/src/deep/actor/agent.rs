@@ -83,6 +83,7 @@ struct Asked<'a, S, M> {
     full: f64,
     base: Option<&'a Sum<'a, S>>,
     evaluates: bool,
+    imitation: f64,
 }
 
 impl<S, M: Monitor<S>> trainer::Task<S> for Asked<'_, S, M> {
@@ -110,13 +111,19 @@ impl<S, M: Monitor<S>> trainer::Task<S> for Asked<'_, S, M> {
     fn evaluates(&self) -> bool {
         self.evaluates
     }
+
+    fn imitation(&self) -> f64 {
+        self.imitation
+    }
 }
 
 /// What an update is for.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Aim {
-    /// Critics learn what the actor is worth, and the actor follows them.
+    /// Critics learn what the actor is worth, and the actor follows them, which tries it in the world.
     Improve,
+    /// The same without a step in the world, so the actor also [imitates](Settings::imitation), as by `Fit`.
+    Refine,
     /// Critics learn what the actor is worth, which stays as it is.
     Evaluate,
     /// The actor follows the critics, which stay as they are.
@@ -191,7 +198,10 @@ impl<S> Core<S> {
         let bounds = bounds(&self.most, &rewards, self.paid);
         let (weight, full) = (self.settings.robustness(), rewards.bound());
         let evaluates = aim == Aim::Evaluate;
-        let asked = Asked { task, moves, bounds: &bounds, weight, full, base, evaluates };
+        let imitates = matches!(aim, Aim::Refine | Aim::Fit);
+        let imitation = if imitates { self.settings.imitation() } else { 0.0 };
+        let asked =
+            Asked { task, moves, bounds: &bounds, weight, full, base, evaluates, imitation };
         let (trainer, from) = (&mut self.trainer, (features, goals));
         if aim == Aim::Fit {
             return trainer.fit(&self.replay, from, &asked, &self.settings, rng);

@@ -30,7 +30,6 @@ use crate::deep::replay::Replay;
 use crate::deep::sample::Heads;
 use crate::deep::trainer::check_reward;
 use crate::deep::{Error, Relabel, Skill};
-use crate::mismatch::Mismatch;
 use crate::monitor::{Acceptor, Monitor};
 use crate::network::policy::{NetworkPolicy, NetworkPolicyError, NetworkTraining};
 use crate::network::{Features, Network, NetworkError};
@@ -113,7 +112,7 @@ impl<'a, S> Learned<'a, S> {
 ///
 /// // Two skills: to the left end, and to the right one.
 /// let (left, right) = (tltl! { |x: &f32| F ({ *x } < -0.8) }, tltl! { |x: &f32| F ({ *x } > 0.8) });
-/// let settings = Settings::td3().with_hidden([32, 32])?.with_warmup(300)?.with_horizon(60)?;
+/// let settings = Settings::default().with_hidden([32, 32])?.with_warmup(300)?.with_horizon(60)?;
 /// let settings = settings.with_robustness(0.5)?;
 /// let (mut cart, device) = (Cart(0.0), Device::flex());
 /// let mut one = Learner::new(Skill::new(&left, Place), &cart, settings.clone(), &device, 1);
@@ -162,12 +161,13 @@ impl<'a, S: Clone, F: Features<S>, G: Relabel<S>> Composition<'a, S, F, G> {
     /// Step 2: the composition of `skills`, in the order of the operands of the product that is the task of
     /// `skill`, on what they have seen. Of `settings` it reads those of updates and rewards; the rewards
     /// must be those that the skills were learned with, whose values are taken as they are. The actor
-    /// knows nothing yet: [`Self::fit`]. It is deterministic; those of the skills may be stochastic.
+    /// knows nothing yet: [`Self::fit`]. It is deterministic, for it explores nothing: no [`Settings::entropy`] is
+    /// read. It [imitates](Settings::imitation).
     ///
     /// # Errors
-    /// If skills and product do not fit together, the skills are of worlds with other actions, the settings
-    /// are those of a stochastic actor ([`Settings::entropy`]), the reward pays for moves and the product has a
-    /// way back ([`Error::WayBack`]), or a feature is not a finite number in a state that was seen.
+    /// If skills and product do not fit together, the skills are of worlds with other actions, the reward pays for
+    /// moves and the product has a way back ([`Error::WayBack`]), or a feature is not a finite number in a state
+    /// that was seen.
     ///
     /// # Panics
     /// If nothing was seen, the product is decided from the start, or the features are of entities too.
@@ -187,13 +187,13 @@ impl<'a, S: Clone, F: Features<S>, G: Relabel<S>> Composition<'a, S, F, G> {
         check(product, &skills.iter().map(size).collect::<Vec<_>>())?;
         let Learned { bounds, names, .. } = skills[0];
         skills.iter().try_for_each(|skill| check_bounds("a skill", skill.bounds, bounds))?;
-        check_deterministic(&settings)?;
         check_reward(product, &settings.rewards())?;
         let seen: usize = skills.iter().map(|skill| skill.experience.len()).sum();
         assert!(seen > 1, "skills that have seen something");
         let moves = Moves::new(product, settings.rewards());
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
         let actions = (bounds.to_vec(), names.to_vec());
+        let settings = settings.deterministic();
         let mut core = Core::new(&skill, &moves, actions, settings, device, &mut rng);
         core.trainer.silence();
         core.replay = Replay::new(seen);
@@ -294,22 +294,13 @@ impl<S: Clone, F: Features<S>, G: Relabel<S>> Compose for Composition<'_, S, F, 
     /// product, as far as what was seen tells.
     fn refine(&mut self, updates: u64) -> Result<(), Error> {
         self.core.trainer.settle();
-        self.learn(updates, Aim::Improve)
+        self.learn(updates, Aim::Refine)
     }
 
     /// The actor's action, in the units of the world; the middle where the task is decided.
     fn act(&self, q: u32, s: &S) -> Result<Vec<f32>, Error> {
         Ok(stretched(&self.core.bounds, self.core.act(q, &self.look(s)?)?))
     }
-}
-
-/// `Ok` if the settings are those of a deterministic actor: what takes no step has nothing to explore.
-fn check_deterministic(settings: &Settings) -> Result<(), Mismatch> {
-    let Some(entropy) = settings.entropy() else {
-        return Ok(());
-    };
-    let composed = "an actor that takes no step and explores nothing: begin with `Settings::td3()`";
-    Err(Mismatch::new("an entropy", std::format!("{entropy}"), composed.into()))
 }
 
 /// Divides each skill's values by their largest in what was seen.

@@ -228,7 +228,7 @@ where
     ///
     /// // Two skills: to the left end, and to the right one.
     /// let (left, right) = (tltl! { |x: &f32| F ({ *x } < -0.8) }, tltl! { |x: &f32| F ({ *x } > 0.8) });
-    /// let settings = Settings::td3().with_hidden([32, 32])?.with_warmup(300)?.with_horizon(60)?;
+    /// let settings = Settings::default().with_hidden([32, 32])?.with_warmup(300)?.with_horizon(60)?;
     /// let settings = settings.with_robustness(0.5)?;
     /// let mut cart = Cart(0.0);
     /// let mut first = Learner::new(Skill::new(&left, Place), &cart, settings.clone(), &Device::flex(), 1);
@@ -241,7 +241,7 @@ where
     /// let mut composed = Learner::new(Skill::new(&both, Place), &cart, settings, &Device::flex(), 3);
     /// composed.remember(&first)?;
     /// composed.remember(&second)?;
-    /// composed.rehearse(1_500)?;
+    /// composed.rehearse(4_000)?;
     /// let (mut x, mut q) = (0.0, both.next(0, &0.0)?);
     /// for _ in 0..60 {
     ///     x = (x + composed.act(q, &x)?[0]).clamp(-1.0, 1.0);
@@ -261,9 +261,9 @@ where
 
     /// Makes updates from what is remembered, without a step in the world.
     ///
-    /// Nothing corrects here what an actor believes of actions that nobody has tried, so what was seen
-    /// should have many: skills that are still exploring are better teachers than perfect ones. The
-    /// example of [`Self::remember`] takes a deterministic actor ([`Settings::td3`]); with the default settings it fails.
+    /// Nothing corrects here what an actor believes of actions that nobody has tried, and where it stands on the
+    /// lower of two hills, no noise shows it the other. So it also [imitates](Settings::imitation) what was
+    /// taken, where the critics value that more.
     ///
     /// # Errors
     /// If the reward pays for moves and the automaton has a way back, or a predicate, a feature or the
@@ -275,7 +275,7 @@ where
     pub fn rehearse(&mut self, updates: u64) -> Result<(), Error> {
         check_reward(&self.skill.task, &self.core.settings.rewards())?;
         let Self { skill, moves, core, rng, .. } = self;
-        let aim = (None, Aim::Improve);
+        let aim = (None, Aim::Refine);
         (0..updates).try_for_each(|_| core.update(skill, moves, aim, rng))
     }
 

@@ -52,6 +52,7 @@ pub struct Settings {
     target_noise: f64,
     target_noise_clip: f64,
     entropy: Option<f64>,
+    imitation: f64,
 }
 
 impl Default for Settings {
@@ -89,6 +90,7 @@ impl Settings {
             target_noise: 0.2,
             target_noise_clip: 0.5,
             entropy: None,
+            imitation: 1.0,
         }
     }
 
@@ -127,6 +129,11 @@ impl Settings {
     #[must_use]
     pub fn sac() -> Self {
         Self { entropy: Some(-1.0), actor_delay: 1, ..Self::td3() }
+    }
+
+    /// The same with a deterministic actor.
+    pub(super) fn deterministic(self) -> Self {
+        Self { entropy: None, ..self }
     }
 
     /// What is optimised, the discount factor γ included.
@@ -286,6 +293,12 @@ checked! { Settings {
     target_noise, with_target_noise: f64, "a number from 0 on", |n| n >= 0.0 && n.is_finite();
     /// The largest size of that.
     target_noise_clip, with_target_noise_clip: f64, "a number from 0 on", |n| n >= 0.0 && n.is_finite();
+    /// How much the actor imitates where it learns without a step in the world, as a
+    /// [`Composition`](super::Composition) does and [`Learner::rehearse`](super::Learner::rehearse): what half
+    /// the square of its distance from the action that was taken costs, where the critics value that action
+    /// more than its own (Nair et al. 2018). It leads the actor off the lower of two hills; in the world noise does
+    /// that, and nothing is imitated.
+    imitation, with_imitation: f64, "a number from 0 on", |w| w >= 0.0 && w.is_finite();
 }}
 
 /// Settings as they are saved.
@@ -315,6 +328,7 @@ struct Saved {
     target_noise: f64,
     target_noise_clip: f64,
     entropy: Option<f64>,
+    imitation: f64,
 }
 
 impl From<Settings> for Saved {
@@ -343,6 +357,7 @@ impl From<Settings> for Saved {
             target_noise: settings.target_noise,
             target_noise_clip: settings.target_noise_clip,
             entropy: settings.entropy,
+            imitation: settings.imitation,
         }
     }
 }
@@ -375,6 +390,7 @@ impl TryFrom<Saved> for Settings {
             .with_actor_delay(saved.actor_delay)?
             .with_target_noise(saved.target_noise)?
             .with_target_noise_clip(saved.target_noise_clip)?
+            .with_imitation(saved.imitation)?
             .with_entropy(saved.entropy)
     }
 }

@@ -55,25 +55,23 @@ impl<S> Sum<'_, S> {
         }
         let of = self.outputs(&self.passes(states, rows)?);
         let all = (0..rows.len()).flat_map(|row| self.terms.iter().map(move |t| (row, t)));
-        let combined = all.map(|(row, terms)| {
-            let values = terms.iter().map(|&term| self.value(&of, row, term));
-            match self.combine {
-                Combine::Max => values.reduce(f32::max).unwrap_or(0.0),
-                Combine::Sum | Combine::NormalisedSum => values.sum(),
-            }
-        });
-        Ok(combined.collect())
+        Ok(all.map(|(row, terms)| self.combined(&of, row, terms)).collect())
     }
 
-    /// The slopes in the components of the actions, of one head for each row: row i of head i modulo
-    /// their number; indexed `row * components + component`.
-    pub(super) fn slopes(&self, states: &[S], rows: Rows<'_>) -> Result<Vec<f32>, Error> {
+    /// The values of each row's own head, and their slopes in the components of the actions, indexed
+    /// `row * components + component`.
+    pub(super) fn slopes(
+        &self,
+        states: &[S],
+        rows: Rows<'_>,
+        own: &[usize],
+    ) -> Result<(Vec<f32>, Vec<f32>), Error> {
         let (passes, m) = (self.passes(states, rows)?, rows[0].1.len());
         let of = self.outputs(&passes);
         let mut weights: Vec<Vec<f32>> =
             self.parts.iter().map(|part| std::vec![0.0; rows.len() * part.heads]).collect();
-        for row in 0..rows.len() {
-            let terms = &self.terms[row % self.terms.len()];
+        for (row, &head) in own.iter().enumerate() {
+            let terms = &self.terms[head];
             let value = |&&term: &&(usize, usize)| self.value(&of, row, term);
             // Of a maximum the slope is that of the largest, the first of several.
             let largest = terms.iter().rev().max_by(|a, b| value(a).total_cmp(&value(b)));
@@ -91,7 +89,9 @@ impl<S> Sum<'_, S> {
             let own = numbers(part.critic.back_to_inputs(&pass.inputs, weights, first));
             slopes.iter_mut().zip(own).for_each(|(sum, slope)| *sum += slope);
         }
-        Ok(slopes)
+        let values = own.iter().enumerate();
+        let values = values.map(|(row, &head)| self.combined(&of, row, &self.terms[head]));
+        Ok((values.collect(), slopes))
     }
 
     fn passes(&self, states: &[S], rows: Rows<'_>) -> Result<Vec<Pass>, Error> {
@@ -100,6 +100,15 @@ impl<S> Sum<'_, S> {
 
     fn outputs(&self, passes: &[Pass]) -> Vec<Vec<f32>> {
         passes.iter().map(|pass| numbers(pass.out.clone())).collect()
+    }
+
+    /// What the skills of some terms say together.
+    fn combined(&self, of: &[Vec<f32>], row: usize, terms: &[(usize, usize)]) -> f32 {
+        let values = terms.iter().map(|&term| self.value(of, row, term));
+        match self.combine {
+            Combine::Max => values.reduce(f32::max).unwrap_or(0.0),
+            Combine::Sum | Combine::NormalisedSum => values.sum(),
+        }
     }
 
     /// What a skill says at its own head.

@@ -8,8 +8,8 @@ use rand::rngs::Xoshiro256PlusPlus;
 
 use super::Settings;
 use super::stochastic::{self, Drawn, Temperature};
-use super::sum::{Part, Sum};
-use super::trainer::{Trained, Trainer, joined, shapes};
+use super::sum::{Part, Rows, Sum};
+use super::trainer::{Hill, Trained, Trainer, joined, shapes};
 use crate::augmented::Moves;
 use crate::compose::Combine;
 use crate::deep::layers::{Gradient, Layers, numbers};
@@ -163,7 +163,9 @@ fn the_slope_of_a_sum_of_critics_agrees_with_finite_differences() {
             f64::from(sum.values(&states, &[(row, action)]).unwrap()[row % HEADS])
         };
         let rows: Vec<_> = actions.iter().map(|action| &action[..]).enumerate().collect();
-        let slopes = sum.slopes(&states, &rows).unwrap();
+        let own: Vec<usize> = (0..ROWS).map(|row| row % HEADS).collect();
+        let (values, slopes) = sum.slopes(&states, &rows, &own).unwrap();
+        assert!((0..ROWS).all(|row| f64::from(values[row]) == value(row, &actions[row])));
         for (i, exact) in slopes.into_iter().enumerate() {
             let (row, c) = (i / COMPONENTS, i % COMPONENTS);
             let [up, down] = [STEP, -STEP].map(|step| {
@@ -182,23 +184,45 @@ fn the_gradient_of_the_actor_agrees_with_finite_differences() {
     let (trainer, states, mut rng) = case(Settings::ddpg());
     let device = Device::flex();
     let counts: Vec<bool> = (0..ROWS * HEADS).map(|i| i % 3 > 0).collect();
-    for base in [None, Some(sum(Combine::Sum, &mut rng))] {
-        // Minus the mean value of the actor's actions, of the heads that count.
-        let regret = |actor: Layers| {
-            let actions = Trainer::actions(&actor, &trainer.before);
-            let row = |(i, action)| (i / HEADS, action);
-            let rows: Vec<_> = actions.chunks(COMPONENTS).enumerate().map(row).collect();
+    let others = random_actions(&mut rng);
+    let taken: Vec<_> = others.iter().map(|action| &action[..]).enumerate().collect();
+    let whole = sum(Combine::Sum, &mut rng);
+    for (base, imitation) in [(None, 0.0), (Some(&whole), 0.0), (None, 2.0), (Some(&whole), 2.0)] {
+        // What actions are worth, by row and head.
+        let worth = |rows: Rows<'_>| {
             let inputs = joined(&trainer.before, rows.iter().copied(), COMPONENTS, &device);
             let mut values = numbers(trainer.critics[0].layers.pass(inputs).out);
-            if let Some(base) = &base {
-                let base = base.values(&states, &rows).unwrap();
+            if let Some(base) = base {
+                let base = base.values(&states, rows).unwrap();
                 values.iter_mut().zip(base).for_each(|(value, base)| *value += base);
             }
-            let own = values.chunks(HEADS).enumerate().map(|(i, row)| f64::from(row[i % HEADS]));
-            let counted = own.zip(&counts).filter(|(_, counts)| **counts);
-            -counted.map(|(v, _)| v).sum::<f64>() / ROWS as f64
+            values
         };
-        let (gradients, _) = trainer.ascent(&states, &counts, base.as_ref(), &mut rng).unwrap();
+        let own = |actions: &[f32]| {
+            let rows =
+                actions.chunks(COMPONENTS).enumerate().map(|(i, action)| (i / HEADS, action));
+            let values = worth(&rows.collect::<Vec<_>>());
+            values.chunks(HEADS).enumerate().map(|(i, row)| row[i % HEADS]).collect::<Vec<_>>()
+        };
+        let first = own(&Trainer::actions(&trainer.actor.layers, &trainer.before));
+        let better: Vec<bool> = worth(&taken).iter().zip(first).map(|(a, b)| *a > b).collect();
+        assert!(better.contains(&true) && better.contains(&false));
+        // Minus the mean value of the actor's actions, of the heads that count, and what those are away from
+        // others that are better.
+        let regret = |actor: Layers| {
+            let actions = Trainer::actions(&actor, &trainer.before);
+            let away = |i: usize| {
+                let pairs = actions[i * COMPONENTS..].iter().zip(&others[i / HEADS]);
+                0.5 * imitation * pairs.map(|(a, b)| f64::from(a - b).powi(2)).sum::<f64>()
+            };
+            let all = own(&actions).into_iter().map(f64::from).enumerate();
+            let all = all.map(|(i, v)| v - if better[i] { away(i) } else { 0.0 });
+            -all.zip(&counts).filter(|(_, counts)| **counts).map(|(v, _)| v).sum::<f64>()
+                / ROWS as f64
+        };
+        let imitation = imitation as f32;
+        let hill = Hill { states: &states, taken: &taken, counts: &counts, base, imitation };
+        let (gradients, _) = trainer.ascent(&hill, &mut rng).unwrap();
         agree(&trainer.actor.layers.dense(), gradients, regret);
     }
 }
@@ -226,7 +250,9 @@ fn the_gradient_of_a_stochastic_actor_agrees_with_finite_differences() {
         let counted = own.zip(entropies).zip(&counts).filter(|(_, counts)| **counts);
         -counted.map(|((value, entropy), _)| value + weight * entropy).sum::<f64>() / ROWS as f64
     };
-    let (gradients, _) = trainer.ascent(&states, &counts, None, &mut rng.clone()).unwrap();
+    let (states, counts) = (&states[..], &counts[..]);
+    let hill = Hill { states, taken: &[], counts, base: None, imitation: 0.0 };
+    let (gradients, _) = trainer.ascent(&hill, &mut rng.clone()).unwrap();
     agree(&trainer.actor.layers.dense(), gradients, regret);
 }
 

@@ -22,7 +22,6 @@ use crate::deep::sample::{Drawing, Heads, Return, Sample};
 use crate::deep::{Error, Relabel};
 use crate::env::{Step, unit};
 use crate::episode::Move;
-use crate::learn::Updates;
 use crate::network::{Activation, Dense, Features, Network, Shape};
 use crate::task;
 
@@ -47,6 +46,23 @@ pub(super) trait Task<S> {
     fn evaluates(&self) -> bool {
         false
     }
+
+    /// How much the actor [imitates](Settings::imitation).
+    fn imitation(&self) -> f64 {
+        0.0
+    }
+}
+
+/// What an actor climbs, in the states whose features are at hand.
+pub(super) struct Hill<'a, S> {
+    pub states: &'a [S],
+    /// The action that was taken in each.
+    pub taken: Rows<'a>,
+    /// Which heads count, indexed `row * heads + head`.
+    pub counts: &'a [bool],
+    /// What the critics' values are added to.
+    pub base: Option<&'a Sum<'a, S>>,
+    pub imitation: f32,
 }
 
 /// A network, the slow copy that targets are computed with, and what moves it.
@@ -231,12 +247,11 @@ impl Trainer {
             let base = base.values(&sample.before, &rows)?;
             targets.iter_mut().zip(base).for_each(|(target, base)| *target -= base);
         }
-        let counts = self.counts(&sample, settings.updates());
-        let loss = self.teach_critics(&rows, &targets, &counts, settings)?;
+        let loss = self.teach_critics(&rows, &targets, &sample.counts, settings)?;
         self.updates += 1;
         if self.updates.is_multiple_of(settings.actor_delay()) {
             if !task.evaluates() {
-                self.teach_actor((&sample.before, &counts), task.base(), settings, rng)?;
+                self.teach_actor(&sample, task, settings, rng)?;
             }
             let all = self.critics.iter_mut().chain([&mut self.actor]);
             all.for_each(|net| net.target.follow(&net.layers, settings.target_rate()));
@@ -260,8 +275,7 @@ impl Trainer {
         R: Rng + ?Sized,
     {
         let sample = self.draw(replay, from, task, settings, rng)?;
-        let counts = self.counts(&sample, settings.updates());
-        self.teach_actor((&sample.before, &counts), task.base(), settings, rng)
+        self.teach_actor(&sample, task, settings, rng)
     }
 
     /// A batch of steps, and the features of the states before them.
@@ -286,6 +300,7 @@ impl Trainer {
             priority: 0.0,
             beta: 0.0,
             gamma: settings.rewards().gamma(),
+            updates: settings.updates(),
         };
         let read = |q, step: &Step<S>| task.read(q, step);
         let sample = Sample::draw(replay, &self.heads, goals, &read, &how, rng)?;
@@ -328,6 +343,9 @@ impl Trainer {
         }
         let mut values = values.into_iter();
         let targets = sample.returns.iter().enumerate().map(|(i, found)| {
+            if !sample.counts[i] {
+                return Ok(0.0);
+            }
             let (row, q) = (i / heads, self.heads.states[i % heads]);
             let mut wanted = found.reward - task.potential(q, &sample.before[row])?;
             if found.discount > 0.0 {
@@ -369,13 +387,6 @@ impl Trainer {
         (actions, Vec::new())
     }
 
-    /// Which heads learn from which steps, indexed `row * heads + head`.
-    fn counts<S>(&self, sample: &Sample<S, Vec<f32>>, updates: Updates) -> Vec<bool> {
-        let (heads, all) = (self.heads.states.len(), updates == Updates::Counterfactual);
-        let of = |&taken: &Option<usize>| (0..heads).map(move |head| all || taken == Some(head));
-        sample.taken.iter().flat_map(of).collect()
-    }
-
     /// Half the mean square error over the steps, summed over the heads.
     fn teach_critics(
         &mut self,
@@ -406,12 +417,16 @@ impl Trainer {
     /// is wanted.
     fn teach_actor<S, R: Rng + ?Sized>(
         &mut self,
-        (states, counts): (&[S], &[bool]),
-        base: Option<&Sum<'_, S>>,
+        sample: &Sample<S, Vec<f32>>,
+        task: &impl Task<S>,
         settings: &Settings,
         rng: &mut R,
     ) -> Result<(), Error> {
-        let (gradients, drawn) = self.ascent(states, counts, base, rng)?;
+        let taken: Vec<_> = sample.actions.iter().map(Vec::as_slice).enumerate().collect();
+        let (counts, imitation) = (&sample.counts[..], task.imitation() as f32);
+        let (states, taken, base) = (&sample.before[..], &taken[..], task.base());
+        let hill = Hill { states, taken, counts, base, imitation };
+        let (gradients, drawn) = self.ascent(&hill, rng)?;
         let rate = settings.actor_rate().at(self.updates);
         let Trained { layers, descent, .. } = &mut self.actor;
         descent.step(layers, gradients, rate, settings.gradient_norm());
@@ -429,12 +444,10 @@ impl Trainer {
     }
 
     /// The gradient of minus the mean value of the actor's actions, summed over the heads, and what a stochastic
-    /// one has drawn for it, whose entropy counts too. `states` are those whose features are at hand.
+    /// one has drawn for it, whose entropy counts too.
     pub(super) fn ascent<S, R: Rng + ?Sized>(
         &self,
-        states: &[S],
-        counts: &[bool],
-        base: Option<&Sum<'_, S>>,
+        hill: &Hill<'_, S>,
         rng: &mut R,
     ) -> Result<(Vec<Gradient>, Drawn), Error> {
         let layers = &self.actor.layers;
@@ -442,68 +455,109 @@ impl Trainer {
         let [rows, width] = out.dims();
         let (drawn, error) = if let Some(temperature) = &self.temperature {
             let drawn = self.drawn(out, rng);
-            let error = self.slopes((states, &drawn.actions), counts, base)?;
+            let error = self.slopes(hill, &drawn.actions)?;
             let weight = temperature.weight() as f32 / rows as f32;
-            let counts = |i: usize| if counts[i / self.components] { weight } else { 0.0 };
+            let counts = |i: usize| if hill.counts[i / self.components] { weight } else { 0.0 };
             let error = drawn.back(&error, counts);
             (drawn, error)
         } else {
             let actions = squashed(out);
-            let mut error = self.slopes((states, &actions), counts, base)?;
+            let mut error = self.slopes(hill, &actions)?;
             error.iter_mut().zip(&actions).for_each(|(e, a)| *e *= 1.0 - a * a);
             (Drawn::default(), error)
         };
         Ok((layers.back(&inputs, matrix(error, width, &layers.device())), drawn))
     }
 
+    /// The critics that the actor follows: a deterministic one the first (TD3), a stochastic one the least at
+    /// each head (SAC).
+    fn followed(&self) -> &[Trained] {
+        &self.critics[..if self.temperature.is_some() { self.critics.len() } else { 1 }]
+    }
+
     /// The gradient of minus the mean value of actions, summed over the heads, in the components of each.
-    ///
-    /// A deterministic actor follows the first critic (TD3), a stochastic one the least at each head (SAC).
-    fn slopes<S>(
-        &self,
-        (states, actions): (&[S], &[f32]),
-        counts: &[bool],
-        base: Option<&Sum<'_, S>>,
-    ) -> Result<Vec<f32>, Error> {
+    fn slopes<S>(&self, hill: &Hill<'_, S>, actions: &[f32]) -> Result<Vec<f32>, Error> {
         let (heads, m) = (self.heads.states.len(), self.components);
-        let device = self.actor.layers.device();
-        let row = |(i, action)| (i / heads, action);
-        let rows: Vec<_> = actions.chunks(m).enumerate().map(row).collect();
-        let inputs = joined(&self.before, rows.iter().copied(), m, &device);
-        let share = 1.0 / self.before.len() as f32;
-        let followed = if self.temperature.is_some() { self.critics.len() } else { 1 };
-        let critics = &self.critics[..followed];
-        let passes: Vec<_> = critics.iter().map(|c| c.layers.pass(inputs.clone())).collect();
-        let lowest = lowest(&passes, counts.len(), heads);
         let mut error = std::vec![0.0; actions.len()];
-        for (c, (critic, through)) in critics.iter().zip(&passes).enumerate() {
-            let mut slopes = std::vec![0.0; counts.len() * heads];
-            for i in (0..counts.len()).filter(|&i| counts[i] && lowest[i] == c) {
-                slopes[i * heads + i % heads] = -share;
-            }
-            let (slopes, first) = (matrix(slopes, heads, &device), self.before.row(0).len());
-            let own = numbers(critic.layers.back_to_inputs(&through.inputs, slopes, first));
-            error.iter_mut().zip(own).for_each(|(sum, slope)| *sum += slope);
+        let live: Vec<usize> = (0..hill.counts.len()).filter(|&i| hill.counts[i]).collect();
+        if live.is_empty() {
+            return Ok(error);
         }
-        if let Some(base) = base {
-            let slopes = base.slopes(states, &rows)?;
-            let own = error.chunks_mut(m).zip(slopes.chunks(m)).zip(counts);
-            for ((error, slopes), _) in own.filter(|(_, counts)| **counts) {
-                error.iter_mut().zip(slopes).for_each(|(e, slope)| *e -= share * slope);
+        let rows: Vec<_> = live.iter().map(|&i| (i / heads, &actions[i * m..][..m])).collect();
+        let own: Vec<usize> = live.iter().map(|i| i % heads).collect();
+        let (device, share) = (self.actor.layers.device(), 1.0 / self.before.len() as f32);
+        let inputs = joined(&self.before, rows.iter().copied(), m, &device);
+        let passes: Vec<_> =
+            self.followed().iter().map(|c| c.layers.pass(inputs.clone())).collect();
+        let (lowest, mut values) = lowest(&passes, &own, heads);
+        let mut slopes = std::vec![0.0; rows.len() * m];
+        for (c, (critic, through)) in self.followed().iter().zip(&passes).enumerate() {
+            let mut weights = std::vec![0.0; rows.len() * heads];
+            for (row, head) in own.iter().enumerate().filter(|&(row, _)| lowest[row] == c) {
+                weights[row * heads + head] = -share;
             }
+            let (weights, first) = (matrix(weights, heads, &device), self.before.row(0).len());
+            let found = numbers(critic.layers.back_to_inputs(&through.inputs, weights, first));
+            slopes.iter_mut().zip(found).for_each(|(sum, slope)| *sum += slope);
+        }
+        if let Some(base) = hill.base {
+            let (more, found) = base.slopes(hill.states, &rows, &own)?;
+            values.iter_mut().zip(more).for_each(|(value, more)| *value += more);
+            slopes.iter_mut().zip(found).for_each(|(sum, slope)| *sum -= share * slope);
+        }
+        if hill.imitation > 0.0 {
+            self.imitate(hill, (&rows, &own), &values, &mut slopes)?;
+        }
+        for (i, slopes) in live.into_iter().zip(slopes.chunks(m)) {
+            error[i * m..][..m].copy_from_slice(slopes);
         }
         Ok(error)
     }
+
+    /// Adds to the slopes of actions, each at its own head and of some value there, what draws them towards those
+    /// that were taken where these are worth more.
+    fn imitate<S>(
+        &self,
+        hill: &Hill<'_, S>,
+        (rows, own): (Rows<'_>, &[usize]),
+        values: &[f32],
+        slopes: &mut [f32],
+    ) -> Result<(), Error> {
+        let (heads, m) = (self.heads.states.len(), self.components);
+        let (taken, device) = (hill.taken, self.actor.layers.device());
+        let inputs = joined(&self.before, taken.iter().copied(), m, &device);
+        let mut others = std::vec![f32::INFINITY; taken.len() * heads];
+        for critic in self.followed() {
+            let found = numbers(critic.layers.pass(inputs.clone()).out);
+            others.iter_mut().zip(found).for_each(|(least, value)| *least = lesser(*least, value));
+        }
+        if let Some(base) = hill.base {
+            let base = base.values(hill.states, taken)?;
+            others.iter_mut().zip(base).for_each(|(value, base)| *value += base);
+        }
+        let weight = hill.imitation / self.before.len() as f32;
+        let all = rows.iter().zip(own).zip(values).zip(slopes.chunks_mut(m));
+        for (((&(row, action), head), value), slopes) in all {
+            if others[row * heads + head] > *value {
+                let pairs = action.iter().zip(taken[row].1);
+                let both = slopes.iter_mut().zip(pairs);
+                both.for_each(|(slope, (action, taken))| *slope += weight * (action - taken));
+            }
+        }
+        Ok(())
+    }
 }
 
-/// For each row the critic that says the least at the row's own head: row i of head i modulo their number.
-fn lowest(passes: &[Pass], rows: usize, heads: usize) -> Vec<usize> {
+/// For each row the critic that says the least at the row's own head, and what it says.
+fn lowest(passes: &[Pass], own: &[usize], heads: usize) -> (Vec<usize>, Vec<f32>) {
     let values: Vec<_> = passes.iter().map(|pass| numbers(pass.out.clone())).collect();
-    let of = |i: usize| {
-        let value = |c: usize| values[c][i * heads + i % heads];
-        (1..values.len()).fold(0, |least, c| if value(c) < value(least) { c } else { least })
+    let of = |(row, head): (usize, &usize)| {
+        let value = |c: usize| values[c][row * heads + head];
+        let lowest =
+            (1..values.len()).fold(0, |least, c| if value(c) < value(least) { c } else { least });
+        (lowest, value(lowest))
     };
-    (0..rows).map(of).collect()
+    own.iter().enumerate().map(of).unzip()
 }
 
 impl Trained {
