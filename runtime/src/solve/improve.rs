@@ -39,8 +39,8 @@ const FULL: f64 = 1e-13;
 /// The residual below which few actions still change, so that a system solved fully may be the last.
 const CLOSE: f64 = 1e-5;
 
-/// The share of the unknowns whose actions change before they are numbered anew.
-const MOVED: f64 = 0.01;
+/// The changes of actions, for each unknown, before they are numbered anew.
+const MOVED: f64 = 0.75;
 
 /// Sweeps between two systems: what becomes better beside one unknown makes the next one better.
 const SWEEPS: usize = 4;
@@ -314,20 +314,21 @@ impl<'a> Solution<'a> {
         self.rows.places(&self.x, &mut self.places);
         self.rescale();
         let slopes = self.slopes();
-        let (mut gathered, mut taken, sign) = (Vec::new(), 0, self.rule.sign());
+        let (mut gathered, mut gains) = (Vec::new(), alloc::vec![0.0; self.component.actions()]);
+        let (mut taken, sign) = (0, self.rule.sign());
         for (i, &code) in self.component.unknowns().iter().enumerate() {
             let (outcomes, x) = (self.rows.outcomes(i), self.x[i]);
             gathered.clear();
             gathered.extend(outcomes.successors.iter().map(|&at| self.places[at as usize] - x));
-            let own = sum(outcomes.row(self.policy[i] as usize), &gathered);
+            products(outcomes.matrix, &gathered, &mut gains);
+            let own = gains[self.policy[i] as usize];
             let (mut best, mut most) = (self.policy[i], own);
             let tie = tie * self.unit(x);
             // An action that seldom moves is as good as what it comes to when it does.
             let moving = |a| {
                 outcomes.of(a).filter(|&(_, to, _)| to != i as u32).map(|(p, ..)| p).sum::<f64>()
             };
-            for (a, row) in outcomes.matrix.chunks_exact(gathered.len()).enumerate() {
-                let gain = sum(row, &gathered);
+            for (a, &gain) in gains.iter().enumerate() {
                 let better = sign * (gain - own);
                 if better > 0.0
                     && sign * gain > sign * most
@@ -379,8 +380,28 @@ fn nearer(component: &Component<'_>, rule: &Rule<'_>, i: usize) -> u32 {
     best
 }
 
+/// Σ p · value of each row of a matrix. Most are of a few numbers, and known numbers of them are fast.
+#[inline]
+fn products(matrix: &[f64], values: &[f64], sums: &mut [f64]) {
+    fn of<const N: usize>(matrix: &[f64], values: &[f64], sums: &mut [f64]) {
+        let Some(values) = values.first_chunk::<N>() else { return };
+        let rows = matrix.as_chunks::<N>().0;
+        sums.iter_mut().zip(rows).for_each(|(at, row)| *at = sum(row, values));
+    }
+    match values.len() {
+        2 => of::<2>(matrix, values, sums),
+        3 => of::<3>(matrix, values, sums),
+        4 => of::<4>(matrix, values, sums),
+        5 => of::<5>(matrix, values, sums),
+        n => {
+            let rows = matrix.chunks_exact(n);
+            sums.iter_mut().zip(rows).for_each(|(at, row)| *at = sum(row, values));
+        }
+    }
+}
+
 /// Σ p · value.
 #[inline]
-pub(super) fn sum(row: &[f64], values: &[f64]) -> f64 {
+fn sum(row: &[f64], values: &[f64]) -> f64 {
     row.iter().zip(values).map(|(p, value)| p * value).sum()
 }

@@ -73,7 +73,7 @@ fn summary(seeds: &[Vec<Row>]) {
 }
 
 /// Learns two skills and makes both at once of what they have learned and seen: by each step of
-/// Algorithm 2, and by its last one alone, from nothing, with and without imitation. Then it learns the same from
+/// Algorithm 2, and by its last one alone, from nothing, with imitation and without. Then it learns the same from
 /// scratch, with as many steps of the world as the two had.
 fn compose<P, Q>(
     method: Method,
@@ -99,22 +99,29 @@ where
         row(second.name(), second, |q, s| Ok(two.act(q, s)?))?,
     ];
     let skill = || Skill::new(&both, Look);
-    let skills = [one.learned()?, two.learned()?];
-    let (combine, own) = (Combine::NormalisedSum, learning.clone());
-    let mut composed = Composition::new(skill(), &skills, combine, own, &device, seed + 400)?;
-    composed.fit(SKILL)?;
-    rows.push(row("step 2: the sum", &both, |q, s| Ok(composed.act(q, s)?))?);
-    composed.compensate(SKILL)?;
-    rows.push(row("steps 3-5: compensated", &both, |q, s| Ok(composed.act(q, s)?))?);
-    composed.refine(SKILL)?;
-    rows.push(row("step 6: refined", &both, |q, s| Ok(composed.act(q, s)?))?);
-    for (name, imitation) in [("step 6 alone", learning.imitation()), ("no imitation", 0.0)] {
-        let own = learning.clone().with_imitation(imitation)?;
-        let mut rehearsed = Learner::new(skill(), &room, own, &device, seed + 200);
-        rehearsed.remember(&one)?;
-        rehearsed.remember(&two)?;
-        rehearsed.rehearse(SKILL)?;
-        rows.push(row(name, &both, |q, s| Ok(rehearsed.act(q, s)?))?);
+    for imitation in [learning.imitation(), 0.0] {
+        let settings = learning.clone().with_imitation(imitation)?;
+        let note = if imitation > 0.0 { "" } else { ", nothing imitated" };
+        let (skills, combine) = ([one.learned()?, two.learned()?], Combine::NormalisedSum);
+        let own = settings.clone();
+        let mut composed = Composition::new(skill(), &skills, combine, own, &device, seed + 400)?;
+        let mut note_row = |step: &str, composed: &Composition<'_, _, _, _>| {
+            let name = format!("{step}{note}");
+            rows.push(row(&name, &both, |q, s| Ok(composed.act(q, s)?))?);
+            Ok::<_, Failure>(())
+        };
+        composed.fit(SKILL)?;
+        note_row("step 2: the sum", &composed)?;
+        composed.compensate(SKILL)?;
+        note_row("steps 3-5: compensated", &composed)?;
+        composed.refine(SKILL)?;
+        note_row("step 6: refined", &composed)?;
+        let mut alone = Learner::new(skill(), &room, settings, &device, seed + 200);
+        alone.remember(&one)?;
+        alone.remember(&two)?;
+        alone.rehearse(SKILL)?;
+        let name = format!("step 6 alone{note}");
+        rows.push(row(&name, &both, |q, s| Ok(alone.act(q, s)?))?);
     }
     let mut scratch = Learner::new(skill(), &room, learning, &device, seed + 300);
     scratch.train(&mut room, 2 * SKILL)?;
@@ -133,6 +140,6 @@ fn row<M: Monitor<Point>>(
     let seen = estimate_continuous(&mut Room::default(), task, trials, &mut rng, act)?;
     let (satisfied, lost) = (seen.satisfied.mean, seen.lost.mean);
     let steps = seen.steps.map_or(f64::NAN, |steps| steps.mean);
-    println!("{name:<24}{satisfied:>8.3}{lost:>8.3}{steps:>8.1}");
+    println!("{name:<42}{satisfied:>8.3}{lost:>8.3}{steps:>8.1}");
     Ok(Row { name: name.into(), satisfied, lost, steps })
 }

@@ -5,7 +5,8 @@
 //! to it, from what the skills have seen. No maximum over actions can be looked up here, so a
 //! policy has to be *fitted*: an actor with a head for each live state of the product climbs the sum in
 //! the states that were seen, along its slope in the actions. Where a sum has two hills, an actor climbs
-//! the one that it is nearer to.
+//! the one that it is nearer to; actions that were taken on the other, and are worth more, draw it there
+//! ([`Settings::imitation`]).
 //!
 //! Tables have the promise that no step makes them worse. Here there is none: no model is at hand, what is
 //! learned is of actions that were tried, and what an actor is worth is known by
