@@ -1,8 +1,8 @@
 //! Updates of actor and critics for each second of the processor, and beside them those of a loop that
-//! is written by hand ([`floor`]).
+//! is written by hand ([`floor`]), both by TD3; then those by SAC.
 //!
-//! `cargo bench -p tltl-control --bench updates`; `python3 examples/control/benches/td3.py` prints the same of
-//! Stable-Baselines3's TD3 in a like world, with networks and batches of the same size.
+//! `cargo bench -p tltl-control --bench updates`; `python3 examples/control/benches/sb3.py` prints the same of
+//! Stable-Baselines3's TD3 and SAC in a like world, with networks and batches of the same size.
 
 mod floor;
 
@@ -70,6 +70,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             .with_hidden([units, units])?
             .with_batch(batch)?
             .with_relabelled(0.0)?
+            .with_imitation(0.0)?
             .with_warmup(500)?;
         println!("{units} and {units} units, batches of {batch}; updates a second:");
         let mut own = learned(&one, &settings)?;
@@ -78,7 +79,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         (0..20).for_each(|_| by_hand.update());
         alike(&mut own, &mut by_hand)?;
         let mut both = learned(&two, &settings)?;
-        let mut timed = [const { Vec::new() }; 3];
+        let mut drawing = learned(&one, &settings.with_entropy(Some(-1.0))?.with_actor_delay(1)?)?;
+        let mut timed = [const { Vec::new() }; 4];
         for _ in 0..TIMES {
             timed[0].push(rate(updates, || Ok(own.rehearse(updates)?))?);
             timed[1].push(rate(updates, || Ok(both.rehearse(updates)?))?);
@@ -86,11 +88,13 @@ fn main() -> Result<(), Box<dyn Error>> {
                 (0..updates).for_each(|_| by_hand.update());
                 Ok(())
             })?);
+            timed[3].push(rate(updates, || Ok(drawing.rehearse(updates)?))?);
         }
-        let [own, both, by_hand] = timed.map(median);
+        let [own, both, by_hand, drawing] = timed.map(median);
         println!("  one live automaton state   {own:>7.0}, {:.2} of the floor", own / by_hand);
         println!("  two live automaton states  {both:>7.0}, {:.2} of the floor", both / by_hand);
         println!("  the floor, by hand         {by_hand:>7.0}");
+        println!("  one live state, by SAC     {drawing:>7.0}");
     }
     Ok(())
 }

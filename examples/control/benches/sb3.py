@@ -1,4 +1,4 @@
-"""Updates of Stable-Baselines3's TD3 for each second of the processor; see `updates/main.rs`."""
+"""Updates of Stable-Baselines3's TD3 and SAC for each second of the processor; see `updates/main.rs`."""
 
 import sys
 import time
@@ -7,7 +7,7 @@ try:
     import gymnasium
     import numpy as np
     import torch
-    from stable_baselines3 import TD3
+    from stable_baselines3 import SAC, TD3
 except ImportError as error:
     sys.exit(f"skipped: {error}")
 
@@ -36,10 +36,12 @@ class Room(gymnasium.Env):
 
 torch.set_num_threads(1)
 for units, batch in ((64, 128), (256, 256)):
-    sizes = {"policy_kwargs": {"net_arch": [units, units]}, "batch_size": batch}
-    model = TD3("MlpPolicy", Room(), learning_starts=500, train_freq=1, seed=1, **sizes)
-    model.learn(600)
-    begin = time.process_time()
-    model.learn(1_000, reset_num_timesteps=False)
-    rate = 1_000 / (time.process_time() - begin)
-    print(f"[{units}, {units}] units, batches of {batch}: {rate:.0f} updates a second")
+    for method in (TD3, SAC):
+        sizes = {"policy_kwargs": {"net_arch": [units, units]}, "batch_size": batch}
+        model = method("MlpPolicy", Room(), learning_starts=500, train_freq=1, seed=1, **sizes)
+        model.learn(600)
+        begin = time.process_time()
+        model.learn(1_000, reset_num_timesteps=False)
+        rate = 1_000 / (time.process_time() - begin)
+        name = method.__name__
+        print(f"{name}, [{units}, {units}] units, batches of {batch}: {rate:.0f} updates a second")
