@@ -39,8 +39,10 @@ const FULL: f64 = 1e-13;
 /// The residual below which few actions still change, so that a system solved fully may be the last.
 const CLOSE: f64 = 1e-5;
 
-/// The changes of actions, for each unknown, before they are numbered anew.
-const MOVED: f64 = 0.75;
+/// The changes of actions, for each unknown, before they are numbered anew; and in a wide world, where that is
+/// dear.
+const MOVED: f64 = 0.01;
+const MOST_MOVED: f64 = 0.75;
 
 /// Sweeps between two systems: what becomes better beside one unknown makes the next one better.
 const SWEEPS: usize = 4;
@@ -137,7 +139,8 @@ impl<'a> Solution<'a> {
                 if changed {
                     kept = None;
                 }
-                if self.rule.costs.is_some() && taken as f64 > MOVED * self.x.len() as f64 {
+                let moved = if self.x.len() >= WIDE { MOST_MOVED } else { MOVED };
+                if self.rule.costs.is_some() && taken as f64 > moved * self.x.len() as f64 {
                     self.sort(&mut solved);
                 }
             }
