@@ -68,6 +68,7 @@
 //! ```
 
 mod agent;
+mod ascent;
 mod compose;
 mod learner;
 mod settings;

@@ -7,9 +7,10 @@ use rand::SeedableRng;
 use rand::rngs::Xoshiro256PlusPlus;
 
 use super::Settings;
+use super::ascent::Hill;
 use super::stochastic::{self, Drawn, Temperature};
 use super::sum::{Part, Rows, Sum};
-use super::trainer::{Hill, Trained, Trainer, joined, shapes};
+use super::trainer::{Trained, Trainer, joined, shapes};
 use crate::augmented::Moves;
 use crate::compose::Combine;
 use crate::deep::layers::{Gradient, Layers, numbers};

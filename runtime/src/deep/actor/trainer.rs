@@ -2,8 +2,7 @@
 //!
 //! The critics are drawn towards what a step pays and what the target networks say comes after it, at
 //! *every* live automaton state: the action of a step is the same for all, so one pass of a critic has
-//! the values of all heads. The actor follows the gradient of the critics' values in its actions
-//! (Silver et al. 2014), each head under the value of its own automaton state.
+//! the values of all heads. The actor climbs those ([`ascent`](super::ascent)).
 //!
 //! Actions here are within ±1: tanh of what the actor puts out. A stochastic actor puts out twice as much: a mean
 //! for each component, then a spread for each.
@@ -13,9 +12,10 @@ use rand::Rng;
 use std::vec::Vec;
 
 use super::Settings;
+use super::ascent::Hill;
 use super::stochastic::{Drawn, Temperature};
 use super::sum::{Rows, Sum};
-use crate::deep::layers::{AdamMoments, Gradient, Layers, Optimiser, Pass, numbers};
+use crate::deep::layers::{AdamMoments, Gradient, Layers, Optimiser, numbers};
 use crate::deep::model::Batch;
 use crate::deep::replay::Replay;
 use crate::deep::sample::{Drawing, Heads, Return, Sample};
@@ -51,18 +51,6 @@ pub(super) trait Task<S> {
     fn imitation(&self) -> f64 {
         0.0
     }
-}
-
-/// What an actor climbs, in the states whose features are at hand.
-pub(super) struct Hill<'a, S> {
-    pub states: &'a [S],
-    /// The action that was taken in each.
-    pub taken: Rows<'a>,
-    /// Which heads count, indexed `row * heads + head`.
-    pub counts: &'a [bool],
-    /// What the critics' values are added to.
-    pub base: Option<&'a Sum<'a, S>>,
-    pub imitation: f32,
 }
 
 /// A network, the slow copy that targets are computed with, and what moves it.
@@ -442,122 +430,6 @@ impl Trainer {
         temperature.tune(sum / f64::max(count, 1.0), rate);
         Ok(())
     }
-
-    /// The gradient of minus the mean value of the actor's actions, summed over the heads, and what a stochastic
-    /// one has drawn for it, whose entropy counts too.
-    pub(super) fn ascent<S, R: Rng + ?Sized>(
-        &self,
-        hill: &Hill<'_, S>,
-        rng: &mut R,
-    ) -> Result<(Vec<Gradient>, Drawn), Error> {
-        let layers = &self.actor.layers;
-        let Pass { inputs, out } = layers.pass(self.before.tensor(&layers.device()));
-        let [rows, width] = out.dims();
-        let (drawn, error) = if let Some(temperature) = &self.temperature {
-            let drawn = self.drawn(out, rng);
-            let error = self.slopes(hill, &drawn.actions)?;
-            let weight = temperature.weight() as f32 / rows as f32;
-            let counts = |i: usize| if hill.counts[i / self.components] { weight } else { 0.0 };
-            let error = drawn.back(&error, counts);
-            (drawn, error)
-        } else {
-            let actions = squashed(out);
-            let mut error = self.slopes(hill, &actions)?;
-            error.iter_mut().zip(&actions).for_each(|(e, a)| *e *= 1.0 - a * a);
-            (Drawn::default(), error)
-        };
-        Ok((layers.back(&inputs, matrix(error, width, &layers.device())), drawn))
-    }
-
-    /// The critics that the actor follows: a deterministic one the first (TD3), a stochastic one the least at
-    /// each head (SAC).
-    fn followed(&self) -> &[Trained] {
-        &self.critics[..if self.temperature.is_some() { self.critics.len() } else { 1 }]
-    }
-
-    /// The gradient of minus the mean value of actions, summed over the heads, in the components of each.
-    fn slopes<S>(&self, hill: &Hill<'_, S>, actions: &[f32]) -> Result<Vec<f32>, Error> {
-        let (heads, m) = (self.heads.states.len(), self.components);
-        let mut error = std::vec![0.0; actions.len()];
-        let live: Vec<usize> = (0..hill.counts.len()).filter(|&i| hill.counts[i]).collect();
-        if live.is_empty() {
-            return Ok(error);
-        }
-        let rows: Vec<_> = live.iter().map(|&i| (i / heads, &actions[i * m..][..m])).collect();
-        let own: Vec<usize> = live.iter().map(|i| i % heads).collect();
-        let (device, share) = (self.actor.layers.device(), 1.0 / self.before.len() as f32);
-        let inputs = joined(&self.before, rows.iter().copied(), m, &device);
-        let passes: Vec<_> =
-            self.followed().iter().map(|c| c.layers.pass(inputs.clone())).collect();
-        let (lowest, mut values) = lowest(&passes, &own, heads);
-        let mut slopes = std::vec![0.0; rows.len() * m];
-        for (c, (critic, through)) in self.followed().iter().zip(&passes).enumerate() {
-            let mut weights = std::vec![0.0; rows.len() * heads];
-            for (row, head) in own.iter().enumerate().filter(|&(row, _)| lowest[row] == c) {
-                weights[row * heads + head] = -share;
-            }
-            let (weights, first) = (matrix(weights, heads, &device), self.before.row(0).len());
-            let found = numbers(critic.layers.back_to_inputs(&through.inputs, weights, first));
-            slopes.iter_mut().zip(found).for_each(|(sum, slope)| *sum += slope);
-        }
-        if let Some(base) = hill.base {
-            let (more, found) = base.slopes(hill.states, &rows, &own)?;
-            values.iter_mut().zip(more).for_each(|(value, more)| *value += more);
-            slopes.iter_mut().zip(found).for_each(|(sum, slope)| *sum -= share * slope);
-        }
-        if hill.imitation > 0.0 {
-            self.imitate(hill, (&rows, &own), &values, &mut slopes)?;
-        }
-        for (i, slopes) in live.into_iter().zip(slopes.chunks(m)) {
-            error[i * m..][..m].copy_from_slice(slopes);
-        }
-        Ok(error)
-    }
-
-    /// Adds to the slopes of actions, each at its own head and of some value there, what draws them towards those
-    /// that were taken where these are worth more.
-    fn imitate<S>(
-        &self,
-        hill: &Hill<'_, S>,
-        (rows, own): (Rows<'_>, &[usize]),
-        values: &[f32],
-        slopes: &mut [f32],
-    ) -> Result<(), Error> {
-        let (heads, m) = (self.heads.states.len(), self.components);
-        let (taken, device) = (hill.taken, self.actor.layers.device());
-        let inputs = joined(&self.before, taken.iter().copied(), m, &device);
-        let mut others = std::vec![f32::INFINITY; taken.len() * heads];
-        for critic in self.followed() {
-            let found = numbers(critic.layers.pass(inputs.clone()).out);
-            others.iter_mut().zip(found).for_each(|(least, value)| *least = lesser(*least, value));
-        }
-        if let Some(base) = hill.base {
-            let base = base.values(hill.states, taken)?;
-            others.iter_mut().zip(base).for_each(|(value, base)| *value += base);
-        }
-        let weight = hill.imitation / self.before.len() as f32;
-        let all = rows.iter().zip(own).zip(values).zip(slopes.chunks_mut(m));
-        for (((&(row, action), head), value), slopes) in all {
-            if others[row * heads + head] > *value {
-                let pairs = action.iter().zip(taken[row].1);
-                let both = slopes.iter_mut().zip(pairs);
-                both.for_each(|(slope, (action, taken))| *slope += weight * (action - taken));
-            }
-        }
-        Ok(())
-    }
-}
-
-/// For each row the critic that says the least at the row's own head, and what it says.
-fn lowest(passes: &[Pass], own: &[usize], heads: usize) -> (Vec<usize>, Vec<f32>) {
-    let values: Vec<_> = passes.iter().map(|pass| numbers(pass.out.clone())).collect();
-    let of = |(row, head): (usize, &usize)| {
-        let value = |c: usize| values[c][row * heads + head];
-        let lowest =
-            (1..values.len()).fold(0, |least, c| if value(c) < value(least) { c } else { least });
-        (lowest, value(lowest))
-    };
-    own.iter().enumerate().map(of).unzip()
 }
 
 impl Trained {
@@ -585,7 +457,7 @@ impl Trained {
 }
 
 /// The lesser of two numbers; what is no number stays none, so that the loss shows it.
-fn lesser(a: f32, b: f32) -> f32 {
+pub(super) fn lesser(a: f32, b: f32) -> f32 {
     if a < b || a.is_nan() { a } else { b }
 }
 
@@ -596,7 +468,7 @@ pub(super) fn matrix(numbers: Vec<f32>, width: usize, device: &Device) -> Tensor
 }
 
 /// tanh of all numbers, as policies have it where they run.
-fn squashed(out: Tensor<2>) -> Vec<f32> {
+pub(super) fn squashed(out: Tensor<2>) -> Vec<f32> {
     numbers(out).into_iter().map(|x| Activation::Tanh.of(x)).collect()
 }
 
