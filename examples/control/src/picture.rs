@@ -55,7 +55,11 @@ pub struct Plane<'a> {
 }
 
 /// One colour for each automaton state, told apart without colour vision by lightness too.
-const COLOURS: [&str; 6] = ["#1b6ca8", "#d1790f", "#2c8c4a", "#8a3fa0", "#b3303a", "#5c6470"];
+const COLOURS: [&str; 7] =
+    ["#1b6ca8", "#d1790f", "#2c8c4a", "#8a3fa0", "#b3303a", "#5c6470", "#12a5a0"];
+
+/// Automaton states, and what they mean.
+type Meanings<'a> = [(u32, &'a str)];
 
 /// The colour of what must not be entered.
 const BARRED: &str = "#c9ced6";
@@ -166,10 +170,10 @@ impl Plane<'_> {
         );
     }
 
-    fn legend(&self, body: &mut String, states: &[(u32, &str)]) {
+    fn legend(&self, body: &mut String, meanings: &Meanings<'_>) {
         let mut y = MARGIN + SIDE + 24.0;
-        for &(q, meaning) in states {
-            let colour = colour(q);
+        for &(q, meaning) in runs(meanings).map(|run| &run[0]) {
+            let colour = colour(q, meanings);
             let _ = writeln!(
                 body,
                 "<path d=\"M {MARGIN} {:.1} h 30\" stroke=\"{colour}\" stroke-width=\"3\"/>",
@@ -181,8 +185,8 @@ impl Plane<'_> {
     }
 
     /// Some episodes: a dot where each starts, and its way in the colour of the automaton state.
-    /// What is loose has a dashed way, and is drawn where it ends. `states` says what the automaton
-    /// states mean.
+    /// What is loose has a dashed way, and is drawn where it ends. States in a row that mean the
+    /// same, as the instants of a dwell do, share a colour.
     #[must_use]
     pub fn trajectories<S>(
         &self,
@@ -190,7 +194,7 @@ impl Plane<'_> {
         episodes: &[Played<S>],
         at: impl Fn(&S) -> (f64, f64),
         loose: Option<&Loose<S>>,
-        states: &[(u32, &str)],
+        meanings: &Meanings<'_>,
     ) -> String {
         let mut body = String::new();
         self.ground(&mut body);
@@ -206,15 +210,15 @@ impl Plane<'_> {
                 let _ = writeln!(
                     body,
                     "<polyline points=\"{points}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\" opacity=\"0.8\"/>",
-                    colour(q[start])
+                    colour(q[start], meanings)
                 );
                 start = end;
             }
             let (x, y) = self.place(at(&states[0]));
             let _ = writeln!(body, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3\" fill=\"{INK}\"/>");
         }
-        self.legend(&mut body, states);
-        svg::document(title, self.size(states.len()), &body)
+        self.legend(&mut body, meanings);
+        svg::document(title, self.size(runs(meanings).count()), &body)
     }
 
     /// One episode that moves, over and over: a dot in the colour of the automaton state.
@@ -227,7 +231,7 @@ impl Plane<'_> {
         at: impl Fn(&S) -> (f64, f64),
         loose: Option<&Loose<S>>,
         step: f64,
-        states: &[(u32, &str)],
+        meanings: &Meanings<'_>,
     ) -> String {
         let mut body = String::new();
         self.ground(&mut body);
@@ -248,13 +252,13 @@ impl Plane<'_> {
         let _ = writeln!(
             body,
             "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"8\" fill=\"{}\" stroke=\"{INK}\">{}{}{}</circle>",
-            colour(episode.q[0]),
+            colour(episode.q[0], meanings),
             animate("cx", column(&|i| format!("{:.1}", places[i].0)), "linear"),
             animate("cy", column(&|i| format!("{:.1}", places[i].1)), "linear"),
-            animate("fill", column(&|i| colour(episode.q[i]).into()), "discrete"),
+            animate("fill", column(&|i| colour(episode.q[i], meanings).into()), "discrete"),
         );
-        self.legend(&mut body, states);
-        svg::document(title, self.size(states.len()), &body)
+        self.legend(&mut body, meanings);
+        svg::document(title, self.size(runs(meanings).count()), &body)
     }
 
     fn size(&self, lines: usize) -> (f64, f64) {
@@ -262,6 +266,13 @@ impl Plane<'_> {
     }
 }
 
-fn colour(q: u32) -> &'static str {
-    COLOURS[q as usize % COLOURS.len()]
+/// States in a row that mean the same.
+fn runs<'a>(meanings: &'a Meanings<'_>) -> impl Iterator<Item = &'a [(u32, &'a str)]> {
+    meanings.chunk_by(|(_, one), (_, next)| one == next)
+}
+
+fn colour(q: u32, meanings: &Meanings<'_>) -> &'static str {
+    let run = runs(meanings).find(|run| run.iter().any(|(own, _)| *own == q));
+    let first = run.map_or(q, |run| run[0].0);
+    COLOURS[first as usize % COLOURS.len()]
 }

@@ -116,14 +116,15 @@ fn trials_and_pictures_are_the_same_on_each_run() {
         assert!(tried.robustness.iter().all(|rho| *rho > 0.0), "satisfied, by how much");
         let regions = [Region { middle: a, radius: 0.25, name: "a & b", barred: false }];
         let plane = Plane { range: (-1.0, 1.0), regions: &regions, blocks: &[], edge: Some(-0.9) };
-        let states = [(0, "towards a"), (2, "towards b")];
+        let meanings = [(0, "towards a"), (2, "towards b"), (3, "towards b")];
         let at = |s: &point::Point| (s.x, s.y);
-        plane.trajectories("fetch", &tried.episodes, at, None, &states)
-            + &plane.moving("fetch", &tried.episodes[0], at, None, point::STEP, &states)
+        plane.trajectories("fetch", &tried.episodes, at, None, &meanings)
+            + &plane.moving("fetch", &tried.episodes[0], at, None, point::STEP, &meanings)
     };
     let first = picture();
     assert_eq!(first, picture());
     assert!(first.contains("a &amp; b") && first.contains("<animate"));
+    assert_eq!(first.matches("towards b").count(), 2, "one line in the legend of each");
 }
 
 #[cfg(feature = "rapier")]

@@ -114,7 +114,7 @@ impl Layers {
             if i > 0 {
                 error = error.matmul(layer.weights.clone().transpose());
                 // Of a unit that is off nothing goes on.
-                error = error.mask_fill(x.clone().lower_equal_elem(0.0), 0.0);
+                error = error * x.clone().greater_elem(0.0).float();
             }
         }
         error
@@ -194,7 +194,7 @@ impl Optimiser {
         bound: f64,
     ) -> f64 {
         let squares = |w: &Tensor<2>, b: &Tensor<1>| {
-            let sum = w.clone().powi_scalar(2).sum() + b.clone().powi_scalar(2).sum();
+            let sum = w.clone().square().sum() + b.clone().square().sum();
             f64::from(sum.into_scalar::<f32>())
         };
         let norm = gradients.iter().map(|(w, b)| squares(w, b)).sum::<f64>().sqrt();
