@@ -29,9 +29,9 @@ pub(crate) const FEW: u64 = 50;
 /// Trials of a policy, from starts that no learner has seen.
 pub(crate) const TRIALS: u64 = 200;
 
-/// Live automaton states beyond which a step teaches its own alone: a deadline of sixty steps has sixty, and
-/// each that learns from a step takes as much time as a task with one.
-const MANY: usize = 16;
+/// Live automaton states beyond which a step teaches its own alone. A deadline of sixty steps has sixty, and each that
+/// learns from a step takes as much time as a task with one; with the six of `settle`, updates of all learned nothing.
+const MANY: usize = 4;
 
 /// A task in a world.
 pub(crate) struct Case<E: ContinuousEnv, P, F> {

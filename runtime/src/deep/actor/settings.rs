@@ -246,6 +246,9 @@ impl Settings {
     }
 
     /// Which heads a replayed step updates.
+    ///
+    /// Updating all of them is as much work as so many tasks. The study of continuous control updates the step's
+    /// own head alone beyond four live states.
     #[must_use]
     pub const fn updates(&self) -> Updates {
         self.updates
