@@ -30,7 +30,8 @@ pub(crate) const FEW: u64 = 50;
 pub(crate) const TRIALS: u64 = 200;
 
 /// Live automaton states beyond which a step teaches its own alone. A deadline of sixty steps has sixty, and each that
-/// learns from a step takes as much time as a task with one; with the six of `settle`, updates of all learned nothing.
+/// learns from a step takes as much time as a task with one; with the six of `settle`, updates of all learned nothing
+/// (one seed).
 const MANY: usize = 4;
 
 /// A task in a world.
