@@ -271,6 +271,7 @@ fn runs<'a>(meanings: &'a Meanings<'_>) -> impl Iterator<Item = &'a [(u32, &'a s
     meanings.chunk_by(|(_, one), (_, next)| one == next)
 }
 
+/// The colour of an automaton state, that of the first of its run.
 fn colour(q: u32, meanings: &Meanings<'_>) -> &'static str {
     let run = runs(meanings).find(|run| run.iter().any(|(own, _)| *own == q));
     let first = run.map_or(q, |run| run[0].0);
